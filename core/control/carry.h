@@ -1,15 +1,15 @@
-// A machine that a procedure sends from pose to pose with a clamped tool, such as a calibration.
+// A machine that a procedure, such as a calibration, moves from pose to pose with a clamped tool.
 #pragma once
 
 #include "core/control/step.h"
 
 namespace enc {
 
-// A tick of a scene with [travel] as step() is, but the tip goes towards `to` instead of its next stop:
-// within the machine's speed and acceleration, while the jaws hold the tool, and not in a hold. The tip turns
-// as `to` is turned, at once: whoever asks turns it slowly, and sees to it that the machine reaches that
-// pose. Not valid, in a hold, or without a tool: the tip waits where it is, turned as `out` of the tick
-// before had it.
+// Like step() of a scene with [travel], but the tip moves towards `to` instead of its next stop. The tip
+// keeps within the machine's speed and acceleration and moves only while the jaws hold the tool and no hold
+// is active. The tip takes the rotation of `to` at once: the caller must rotate `to` slowly and ensure that
+// the machine reaches that pose. If `to` is invalid, in a hold, or without a tool, the tip waits with the
+// rotation that `out` of the last tick had.
 void carry(const Scene& scene, const Tick& tick, const Inputs& in, const Pose<'W', 'H'>& to, State& state,
            Outputs& out) noexcept;
 

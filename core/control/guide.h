@@ -1,13 +1,13 @@
-// An arm that a procedure sends from place to place, such as a calibration: nobody is met there.
+// An arm that a procedure, such as a calibration, moves from place to place without a user.
 #pragma once
 
 #include "core/control/step.h"
 
 namespace enc {
 
-// A tick as step() is, but while no finger is followed the tip goes to `to` instead of waiting where it is:
-// the same target that keeps within speed and acceleration, the same law, the same gravity compensation. Not
-// finite: it waits.
+// Like step(), but while no finger is followed, the tip moves to `to` instead of waiting. The target keeps
+// within the usual speed and acceleration; control law and gravity compensation are unchanged. If `to` is not
+// finite, the tip waits.
 void guide(const Scene& scene, const Tick& tick, const Inputs& in, const Point<'W'>& to, State& state,
            Outputs& out) noexcept;
 

@@ -10,7 +10,7 @@
 
 namespace enc {
 
-// A state that remembers another task begins that of the scene anew.
+// If `state` belongs to another task, step() starts the state of the scene's task anew.
 void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept;
 
 static_assert(std::is_trivially_copyable_v<Inputs> && std::is_trivially_copyable_v<Outputs> &&

@@ -1,5 +1,5 @@
-// Whether a machine does what it is told: its pose against the commands, with the lag that the rig file
-// believes. A machine that is off, jammed or at another scale moves nothing that a force could tell.
+// Detects a machine that does not follow its commands: compares its pose with the commands, given the lag in
+// the rig file. A machine that is off, jammed or scaled wrongly shows no sign in the force.
 #pragma once
 
 #include <algorithm>
@@ -9,35 +9,36 @@
 
 namespace enc {
 
-// How long something has been elsewhere than it was sent. A fast command excuses more, for as long as one may
-// lag behind it.
+// Time for which something has been off its commanded path. A fast command excuses a larger error, for as
+// long as the machine may lag behind that command.
 struct Straying {
   double fastest = 0.0;  // m/s
   double off = 0.0;      // s
 
-  // m that the commands of late excuse; a machine may be twice as slow as is believed.
+  // Distance that recent commands excuse, m. The machine may be twice as slow as its model.
   [[nodiscard]] double excused(double speed, double lag, double dt) noexcept {
     constexpr double kLags = 2.0;
     fastest = std::max(speed, fastest * std::max(0.0, 1.0 - dt / lag));
     return kLags * lag * fastest;
   }
-  // A tick on which it is away, or is not: whether it has been for so long, s.
+  // Call once a tick. `away`: it is off its path in this tick. True once it has been away for `patience`, s.
   [[nodiscard]] bool too_long(bool away, double patience, double dt) noexcept {
     off = away ? off + dt : 0.0;
     return off >= patience;
   }
 };
 
-// What is remembered.
+// Memory of follows().
 struct Following {
-  Point<'R'> expected;  // where the model of the servo is; unset: nothing is known yet
+  Point<'R'> expected;  // position of the servo model; unset: not started
   Vec<'R'> velocity = Vec<'R'>::zero();
   Straying straying;
-  bool lost = false;  // it was for too long: until the tool has gone
+  bool lost = false;  // off for too long; stays set until the tool leaves
 };
 
-// A tick: `command` is what was sent for it, `measured` where the machine says it is. False: it has been
-// farther than 0.5 mm and twice the lag from all that is between the model and the command for 50 ms.
+// Call once a tick: `command` was sent for this tick, `measured` is the machine's reported position. False
+// once the machine has been off for 50 ms: farther than 0.5 mm plus twice the lag from the segment between
+// model and command.
 [[nodiscard]] bool follows(const ServoModel& servo, const Point<'R'>& command, const Vec<'R'>& velocity,
                            const Point<'R'>& measured, Following& state) noexcept;
 

@@ -1,12 +1,12 @@
-// A scene with an arm made ready: the part of prepare() for machines that take a force and give a position.
+// Prepares a scene with an arm: the part of prepare() for machines that take a force and report a position.
 #pragma once
 
 #include "core/control/scene/scene.h"
 
 namespace enc {
 
-// Throws Error as prepare() does: an object out of reach or near a singular pose, gains that are negative or
-// under-damped, a role that is missing.
+// Throws Error like prepare(): an object out of reach or near a singular pose, a gain that is negative or
+// under-damped, a missing role.
 [[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
 
 // What of both files a scene of any machine keeps as it stands there: frames, settings and the tracker's

@@ -1,5 +1,4 @@
-// A scene made ready: constant while the loop runs. What mjModel is to mjSpec, Scene is to SceneSpec and
-// RigSpec.
+// A prepared scene, constant while the loop runs. Scene is to SceneSpec and RigSpec as mjModel is to mjSpec.
 #pragma once
 
 #include <span>
@@ -18,7 +17,7 @@
 namespace enc {
 
 struct Scene : CommonScene {
-  // Made, copied and destroyed in scene.cpp: inline, every other file would compile that anew.
+  // Defined in scene.cpp: inline, every including file would compile them anew.
   Scene();
   ~Scene();
   Scene(const Scene&);
@@ -26,9 +25,9 @@ struct Scene : CommonScene {
   Scene& operator=(const Scene&);
   Scene& operator=(Scene&&) noexcept;
 
-  Tasks::Any task;  // what is done
+  Tasks::Any task;  // the task of this scene
 
-  // The task, where it is this one; else null. An arm's law is that of Meet and of Push.
+  // The task if it has this type, else null. The law of an arm is that of Meet or of Push.
   [[nodiscard]] const Render* render() const { return std::get_if<Render>(&task); }
   [[nodiscard]] const Probe* probe() const { return std::get_if<Probe>(&task); }
   [[nodiscard]] const Travel* travel() const { return std::get_if<Travel>(&task); }
@@ -38,36 +37,35 @@ struct Scene : CommonScene {
   }
 };
 
-// Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an
-// object or a press out of reach, a response that is not monotone or too soft, a role that is missing.
+// Throws Error (key = the file key without its unit) if this rig cannot render the scene: an object or a
+// press out of reach, a response that is not monotone or too soft, a missing role.
 [[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
 
 [[nodiscard]] Tool made_tool(const ToolSpec& spec);
 
-// The loop of hand, filter, machine and dead time that a rig file promises (loop_model.h).
+// The loop of hand, filter, machine and dead time, by the rig file (loop_model.h).
 [[nodiscard]] LoopModel loop_of(const RigSpec& rig);
 
-// The reach that a rig file promises. A device that can do less is refused before anything moves.
+// The reach that the rig file states. The program refuses a device with less before anything moves.
 [[nodiscard]] Reach reach_of(const RigSpec& rig);
 template <char A, char B>
 [[nodiscard]] Pose<A, B> pose_of(const PoseSpec& spec) {
   return {rotation_xyz(spec.rotation), spec.position};
 }
 
-// Which tool the gripper of the scene clamps; nothing without a gripper.
+// The tool that the scene's gripper clamps; null without a gripper.
 [[nodiscard]] const ToolSpec* clamped_tool(const SceneSpec& spec);
 
-// Largest residual of the chains of the frame graph [VHMR Fig 4], m (N, rad): where the stages of a tick say
-// that tool, tip, force and objects are, against where plain matrices of the same specs put them
-// (chains.cpp).
+// Largest residual of the chains of the frame graph [VHMR Fig 4], m (N, rad): tool, tip, force and objects
+// from the stages of a tick, against plain matrices of the same specs (chains.cpp).
 [[nodiscard]] double chain_residual(const SceneSpec& spec, const RigSpec& rig, const Scene& scene);
-// Where the user of the scene presses: the surface point and its outward normal, in W.
+// The surface point that the scene's user presses, with its outward normal, in W.
 struct PressPoint {
   Point<'W'> point;
   Vec<'W'> normal;
 };
 [[nodiscard]] PressPoint press_point(const SceneSpec& spec, const UserSpec& user);
-// Where the pusher of the scene pushes, and where that shall end: at its depth or its force, whichever comes
+// The point that the scene's pusher pushes, and the end of the push: its depth or its force, whichever comes
 // first.
 struct PushedPoint {
   PressPoint at;

@@ -1,4 +1,4 @@
-// What every task needs to remember.
+// The state that every task needs.
 #pragma once
 
 #include <array>
@@ -16,21 +16,22 @@ namespace enc {
 
 struct Hints {
   std::array<ObjectHint, 2> tool;  // nearest to the tool, and the runner-up
-  ObjectHint tip;                  // nearest to the tip, and
-  ObjectHint command;              // to where it is sent
+  ObjectHint tip;                  // nearest to the tip
+  ObjectHint command;              // nearest to the tip's set-point
 };
 
 struct CommonState {
   bool started = false;
-  Mode mode = Mode::away;  // the mode under a hold
-  bool held = false;       // the last tick was one
+  Mode mode = Mode::away;  // the mode underneath a hold
+  bool held = false;       // the last tick was a hold
   std::int32_t contacts = 0;
   std::int32_t object = -1;
   bool entered = false;  // the tip has been inside that object
   Stamped<TrackedTool> tool;
-  TipMotion tip_motion;  // of the tracked tool
+  TipMotion tip_motion;  // motion of the tracked tool's tip
   Vec<'W'> force = Vec<'W'>::zero();
-  Point<'W'> last_query, last_point;  // of the last tick: the tracked tool's tip and the surface under it
+  // Last tick's position of the tracked tool's tip, and the surface point under it.
+  Point<'W'> last_query, last_point;
   Hints hints;
 };
 static_assert(std::is_trivially_copyable_v<CommonState>);

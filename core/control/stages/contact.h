@@ -1,4 +1,4 @@
-// The anchor of a contact: which object is touched, by which tool, and where.
+// The anchor of a contact: the touched object, the tool and the position.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,21 @@ namespace enc {
 // [VHMR 3.4]
 struct Contact {
   std::int32_t object = -1;
-  std::int32_t tool = -1;  // that began it; -1: none was known
-  Pose<'W', 'N'> X_WN;     // at the first touch
-  bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
-  bool below = false;      // nothing was felt yet, and the tip is still on its way to it, lower than its tool
-  // The contact's own tool is out of view. It may stay true after the contact: the tool may still press, and
-  // no zero is learnt before it is seen clear.
+  std::int32_t tool = -1;  // tool that began the contact; -1: unknown
+  Pose<'W', 'N'> X_WN;     // anchor frame, set by the first touch
+  // True once the sensor felt a force with the tip under the tool; the anchor no longer moves then.
+  bool anchored = false;
+  // True before the first force, while the tip is still on its way to the anchor, lower than its tool.
+  bool below = false;
+  // The contact's own tool is out of view. This may stay true after the contact, because the tool may still
+  // press; the core then learns no force zero until the tool is seen clear of the object.
   bool unseen = false;
-  float steady_force = 0.0F;  // N: the force that has stayed the same while the contact's own tool is unseen
-  Time loaded{};              // last tick on which force was felt; the start of time: never
-  Time began{}, left{};       // when it began, and when the tip was sent back
-  double clear = 0.0;         // s for which the force has had no cause (force_is_drift in render/mode.cpp)
+  // N: the force that has stayed constant while the contact's own tool is unseen.
+  float steady_force = 0.0F;
+  Time loaded{};         // last tick with force; the start of time: never
+  Time began{}, left{};  // start of the contact, and of the tip's return
+  // Time for which the force has had no cause, s (force_is_drift in render/mode.cpp).
+  double clear = 0.0;
 };
 
 template <class F>
@@ -30,7 +34,8 @@ void fields(F& f, Contact& c) {
   f("contact_tool", c.tool);
   fields(f, "contact_X_WN", c.X_WN);
   f("anchored", c.anchored);
-  if (c.below) f("contact_below", c.below);  // mostly it is not, and a hash is what it was
+  // Hashed only when true, which is rare, so that earlier hashes hold.
+  if (c.below) f("contact_below", c.below);
   f("loaded", c.loaded);
   f("contact_began", c.began);
   f("contact_left", c.left);

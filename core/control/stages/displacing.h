@@ -1,5 +1,5 @@
-// What all tasks of a machine that takes positions share: it is sent somewhere on each tick, and it must
-// follow.
+// The part shared by all tasks of a machine that takes positions: each tick commands a position, and the
+// machine must follow.
 #pragma once
 
 #include "core/base/fields.h"
@@ -9,18 +9,19 @@ namespace enc {
 
 struct CommonState;
 
-// Such a task: it has the stages of this file, where it has none of its own.
+// Base of such a task. It uses the stages of this file unless it has its own.
 struct Displacing {};
 
-// What is remembered.
+// State of these stages.
 struct Commanded {
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
   Following following;
   Vec<'F'> force_zero = Vec<'F'>::zero();
-  double tared = 0.0;             // s of signal in force_zero
-  Vec<'F'> tare_mean, tare_last;  // Tare::window: of the present window so far, and of the one before
-  double tare_window = 0.0;       // s of signal in tare_mean
+  double tared = 0.0;  // s of signal in force_zero
+  // Means over Tare::window: the present window so far, and the one before.
+  Vec<'F'> tare_mean, tare_last;
+  double tare_window = 0.0;  // s of signal in tare_mean
 };
 
 template <class F>
@@ -41,13 +42,13 @@ void fields(F& f, Commanded& d) {
 
 namespace stages {
 struct Walk;
-// Where tip and tool are.
+// Computes the poses of tip and tool.
 void track(Walk& walk, const Displacing& task, CommonState& state, Commanded& now) noexcept;
-// Whether the gripper holds its tool, where it should hold one.
+// Checks that the gripper holds its tool, if the scene has a clamped tool.
 void grip(Walk& walk) noexcept;
-// What force is on the tip. `clear`: nothing can be on it, so that what the sensor says is its zero.
+// Computes the force on the tip. `clear`: nothing can touch the tip, so the sensor's reading is its zero.
 void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept;
-// A machine that did not follow is held.
+// Holds a machine that did not follow.
 void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept;
 }  // namespace stages
 

@@ -1,20 +1,21 @@
-// Which tool the eye is shown (DisplayRig::tip). While a tool presses, its tip touches the haptic-tip, whose
-// place the machine knows each cycle to a few micrometres: far better than the tracker knows the tool.
+// Chooses the tool pose that the display shows (DisplayRig::tip). While a tool presses, its tip touches the
+// haptic-tip. The machine knows that position to a few micrometres in each cycle, far better than the tracker
+// knows the tool.
 #pragma once
 
 #include "core/control/stages/walk.h"
 
 namespace enc {
 
-// The centre of a tool's tip that touches the haptic-tip: in the direction in which it is `believed`, as far
-// off as the two radii together (`apart`, m). `believed` itself where it is in the haptic-tip's very middle.
+// Centre of a tool's tip that touches the haptic-tip: `apart` (m, the two radii together) from it, in the
+// direction of `believed`. Returns `believed` itself if it coincides with the haptic-tip's centre.
 [[nodiscard]] Point<'W'> touching(const Point<'W'>& haptic_tip, double apart, const Point<'W'>& believed);
 
-// How much of the tool's place is taken from the haptic-tip: 0 where nothing presses, 1 from the force on
-// that is a contact, so that the seen tool does not leap from one source to the other.
+// Share of the tool's position taken from the haptic-tip: 0 without force, 1 from the contact force on, so
+// that the shown tool does not jump between the two sources.
 [[nodiscard]] double pressing_share(double pressing_force, double contact_force);
 
-// The tool of the view. Its rotation is the tracker's: the machine does not feel it.
+// The tool in the view. Its rotation is the tracker's, because the machine does not measure it.
 struct SeenTool {
   Pose<'W', 'T'> X_WT;
   Point<'W'> tip;  // centre of its tip

@@ -1,4 +1,5 @@
-// The last word before a machine that takes positions: can it do what it is asked? Internal to the core.
+// Last check before a machine that takes positions: makes each command one that the machine can follow.
+// Internal to the core.
 #pragma once
 
 #include <limits>
@@ -10,20 +11,21 @@
 
 namespace enc::stages {
 
-// How far the command may still go along a normal: out to the surface, in to the deflection limit.
+// Distance that the command may still go along a normal: out to the surface, in to the deflection limit.
 struct Walls {
   Vec3 normal = Vec3::UnitZ();                                                                         // in W
   double out = std::numeric_limits<double>::infinity(), in = std::numeric_limits<double>::infinity();  // m
-  double speed = std::numeric_limits<double>::infinity();  // along the normal, m/s
-  double share = kAlongShare;                              // of the acceleration, along the normal
-  double depth = kUnset;  // of the tip's centre in the object that it shall stay in, m
+  double speed = std::numeric_limits<double>::infinity();  // m/s, along the normal
+  double share = kAlongShare;                              // share of the acceleration, along the normal
+  // Current depth of the tip's centre in the object that it must stay inside, m; unset: it may leave.
+  double depth = kUnset;
 };
 
-// Finite, reachable, slow enough, within the walls: writes the set-point into now.command. To be called once
-// the machine has said where it is.
+// Writes a set-point into now.command that is finite, reachable, slow enough and within the walls. Call it
+// only after the machine has reported its position.
 void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& walls) noexcept;
 
-// Where all of the tip is inside, of its centre, m.
+// Depth of the tip's centre at which the whole tip is inside, m.
 [[nodiscard]] inline double least_depth(const Walk& walk) { return walk.scene.tip_radius + kSkin; }
 [[nodiscard]] Brake brake_of(const Walk& walk, const Commanded& now);
 

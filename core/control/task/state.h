@@ -1,4 +1,4 @@
-// All the memory that the core has: what every task needs, and what this one does.
+// The whole state of the core: the common part and the part of the scene's task.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ struct State : CommonState {
 };
 static_assert(std::is_trivially_copyable_v<State>);
 
-// What the task of the scene remembers; of another task, or before the first tick, nothing yet.
+// State of the scene's task; a default one for another task or before the first tick.
 template <class Memory>
 [[nodiscard]] const Memory& recall(const State& state) noexcept {
   static const Memory kNothing{};
@@ -30,19 +30,19 @@ template <class Memory>
   return found != nullptr ? *found : kNothing;
 }
 
-// The present or last contact of a scene in which something is felt.
+// The present or last contact of a scene that renders a contact.
 [[nodiscard]] inline const Contact& contact_of(const State& state) noexcept {
   const auto* rendering = std::get_if<Rendering>(&state.task);
   return rendering != nullptr ? rendering->contact : recall<Meeting>(state).contact;
 }
 
-// How far the objects that move have got, in the order of Push::movers.
+// State of the objects that move, in the order of Push::movers.
 [[nodiscard]] inline std::span<const Moved> moved_in(const State& state) noexcept {
   const auto* pushing = std::get_if<Pushing>(&state.task);
   return pushing != nullptr ? std::span<const Moved>(pushing->moved) : std::span<const Moved>();
 }
 
-// Bytes that a scene of this task remembers, of State.
+// Bytes of State that a scene of this task uses.
 template <class Task>
 [[nodiscard]] constexpr std::size_t remembered() {
   return sizeof(State) - sizeof(Tasks::Memory) + sizeof(typename Task::Memory);

@@ -1,5 +1,5 @@
-// All tasks. A task is a folder beside this file and a line of the list. The folder has what the task is made
-// of, what it remembers (Memory), and its stages from track to report. Its part of a scene file stands in
+// All tasks. A task is a folder beside this file and a line of the list below. The folder has the task's
+// data, its state (Memory) and its stages from track to report. Its part of a scene file is defined in
 // core/spec.
 #pragma once
 
@@ -16,15 +16,15 @@ namespace enc {
 template <class... Task>
 struct TaskList {
   using Any = std::variant<Task...>;
-  // Nothing is remembered before the first tick.
+  // Before the first tick there is no state.
   using Memory = std::variant<std::monostate, typename Task::Memory...>;
 };
 
-using Tasks = TaskList<Render,  // by displacement: the tip gives way under a tool
-                       Meet,    // by force: a prop meets a finger
-                       Push,    // and at things that the finger moves
-                       Probe,   // a real object is pressed and measured: nothing is rendered
-                       Travel   // a tool is carried past the tracker: nothing is rendered
+using Tasks = TaskList<Render,  // admittance rendering: the tip gives way under a tool
+                       Meet,    // impedance rendering: a prop meets a finger
+                       Push,    // dynamic objects, which the finger moves
+                       Probe,   // indentation test: presses and measures a real object
+                       Travel   // tracking test: carries a tool past the tracker
                        >;
 
 static_assert(std::is_trivially_copyable_v<Tasks::Memory>);

@@ -1,4 +1,4 @@
-// How people move from here to there: minimum jerk, from 0 to 1 in unit time [Flash and Hogan 1985].
+// Minimum-jerk motion, as people move between two points: from 0 to 1 in unit time [Flash and Hogan 1985].
 #pragma once
 
 #include <algorithm>

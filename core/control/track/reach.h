@@ -1,8 +1,8 @@
-// Where a reaching hand will touch, out of a few pictures of it and of how people reach: a first movement
-// that falls short or shoots over, and a second one that corrects it, each of minimum jerk [Woodworth 1899;
-// Flash and Hogan 1985; Meyer et al. 1988]. Many such reaches are held against the pictures, each with its
-// best ways; their mean, weighted by how well they fit, is the place. A hand that comes with an even speed is
-// one of them.
+// Predicts where a reaching hand will touch, from a few pictures and a model of how people reach: a first
+// movement that falls short or overshoots, and a second one that corrects it, each of minimum jerk [Woodworth
+// 1899; Flash and Hogan 1985; Meyer et al. 1988]. Many such reaches, each with its best paths, are compared
+// with the pictures. The prediction is their mean, weighted by fit. A hand at constant velocity is one of
+// these reaches.
 #pragma once
 
 #include <cstddef>
@@ -13,27 +13,29 @@
 
 namespace enc {
 
-// The tip of a finger in one picture, in axes whose z is the surface's normal, 0 where the tip touches, m.
+// A fingertip in one picture, m, in axes whose z is the surface's normal; z = 0 where the tip touches.
 struct Sighting {
   Vec3 at{kUnset, kUnset, kUnset};
-  double age = kUnset;  // s, since its exposure
+  double age = kUnset;  // s since its exposure
 };
-inline constexpr std::size_t kSightings = 5;  // as many pictures are of use
+inline constexpr std::size_t kSightings = 5;  // more pictures do not help
 
-// Where the tip touches if it touches at a time, and how well that time fits the pictures.
+// The place of a touch at an assumed time, and how well that time fits the pictures.
 struct Touch {
   Eigen::Vector2d place{kUnset,
-                        kUnset};  // x and y; unset: fewer than three pictures, or it does not come nearer
-  double evidence = kUnset;       // logarithm of a density of that time, per s; but for what all times share
+                        // x and y; unset: fewer than three pictures, or the finger does not approach.
+                        kUnset};
+  // Logarithm of the density of that time, per s, without the part that all times share.
+  double evidence = kUnset;
 };
-// Ages are those at that time. `noise`: of a picture, m rms. `carried`: where a hand that goes on with an
-// even speed is at that time, by all that is known of it; unset: these few say it.
+// Ages hold at the assumed time. `noise`: of a picture, m rms. `carried`: position at that time of a hand at
+// constant velocity, from all data; unset: from these few pictures.
 [[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise,
                                const Eigen::Vector2d& carried = {kUnset, kUnset}) noexcept;
 
-// How well the pictures fit a finger that goes on with an even speed and has not come to the surface by then,
-// s from the time at which the ages hold: logarithm of a probability, but for what touch_then() leaves out,
-// too. -infinity: there are too few pictures, or none is sound.
+// Fit of the pictures to a finger at constant velocity that has not reached the surface by `until`, s from
+// the time of the ages: logarithm of a probability, without the part that touch_then() leaves out too.
+// -infinity: too few pictures, or no sound one.
 [[nodiscard]] double passes_by(std::span<const Sighting> newest_first, double noise, double until) noexcept;
 
 }  // namespace enc

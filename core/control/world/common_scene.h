@@ -1,5 +1,5 @@
-// What every task needs of a scene that is made ready: objects, tools, where the devices stand, and what is
-// believed of them. A part of scene.h.
+// The part of a prepared scene that every task needs: objects, tools, poses of the devices, and models of the
+// devices. A part of scene.h.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ namespace enc {
 
 struct Tool {
   Tip<'T'> tip;
-  double length = 0.0;  // of its shaft: from the tip's centre to the middle of the markers, m
+  // Shaft length from the tip's centre to the middle of the markers, m.
+  double length = 0.0;
 };
 
 struct CommonScene {
@@ -25,16 +26,17 @@ struct CommonScene {
   std::vector<Tool> tools;
   bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
 
-  std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none
+  std::int32_t clamped_tool = -1;  // held by the gripper; -1: no tool
   double grip_force = kUnset;      // N
 
-  Pose<'W', 'R'> X_WR;  // from "H is W at the machine's zero" [VHMR 2]
+  // X_WR follows from "H is W at the machine's zero" [VHMR 2].
+  Pose<'W', 'R'> X_WR;
   Pose<'W', 'C'> X_WC;
   Pose<'W', 'S'> X_WS;
   Pose<'G', 'L'> X_GL;
   Pose<'H', 'F'> X_HF;
   Reach reach;
-  ServoModel servo;  // of the machine, as it is believed
+  ServoModel servo;  // the machine's servo model
 
   FollowSpec follow;
   ForceRig force;
@@ -42,11 +44,12 @@ struct CommonScene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
-  double tip_radius = kUnset;    // of the haptic-tip or the probe, m
+  double tip_radius = kUnset;    // radius of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
-  double filter_gain = kUnset;   // of the force low-pass, per tick
-  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
-  double strength = kUnset;      // N: pressing force that the machine carries beside its own load
+  double filter_gain = kUnset;   // force low-pass, per tick
+  double lowest_slope = kUnset;  // N/m: softest object accepted (loop_model.h)
+  // N: pressing force that the machine can carry beside its own load.
+  double strength = kUnset;
 };
 
 }  // namespace enc

@@ -1,5 +1,5 @@
-// Deflection limits that change from contact to contact [VHMR 4.3: 6, 4 and 2 mm]: the k-th contact of an
-// experiment takes the k-th, the last one stays.
+// Deflection limits that change from contact to contact [VHMR 4.3: 6, 4 and 2 mm]: contact k of an experiment
+// takes limit k; the last limit stays.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,12 @@ class ContactLimits {
   static constexpr std::size_t kMost = 16;
 
   ContactLimits() = default;
-  // Of `limits` the first kMost count, m; none: no contact has a limit of its own.
+  // Uses the first kMost of `limits`, m. An empty list gives no contact a limit of its own.
   explicit ContactLimits(std::span<const double> limits) : count_(std::min(limits.size(), kMost)) {
     std::copy_n(limits.begin(), count_, limits_.begin());
   }
-  // Of a contact, counted from 1 as State::contacts does, m; `otherwise` where it has none of its own.
+  // Limit of a contact, m, counted from 1 as State::contacts is; `otherwise` if the contact has no limit of
+  // its own.
   [[nodiscard]] double at(std::int32_t contact, double otherwise) const {
     if (count_ == 0) return otherwise;
     const auto index = static_cast<std::size_t>(std::max(contact, 1) - 1);

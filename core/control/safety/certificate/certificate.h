@@ -1,29 +1,29 @@
-// Whether a device renders a stiffness stably, and by which bound: the certificate of one loop, in all
-// directions that the tip moves in.
+// The certificate of one loop: whether the device renders a stiffness stably, and by which bound, in all
+// directions in which the tip moves.
 //
-// What "stable" means depends on the disturbance, because friction and encoder steps do: dry friction takes
-// most of a small swing's energy and little of a large one's. The classes, the first that is so:
+// "Stable" depends on the disturbance because of friction and encoder steps: dry friction takes most of the
+// energy of a small oscillation and little of a large one. The verdict is the first class that applies:
 //
-//   passive         it gives out no energy, whatever holds it: the whole theorem of Colgate and Schenkel for
-//                   this law and delay, and no more of a count's force than friction holds,
-//                   (K + 2 |B|/(nT)) step <= 2 f_c
-//   stable alone    every eigenvalue of the sampled loop is within the unit circle where nobody touches it,
-//                   and with the hand rigidly on it: any disturbance dies out, until counts and friction are
-//                   all that is left
-//   held            with the hand, and not without
-//   unheld          without the hand, and not with it: beyond the bound with a hand
-//   locally stable  linearly unstable with the hand and without, but there is friction, and it stops what is
-//                   small: let go 0.1 mm beside its target it comes to rest (release.h). Of 1 mm `large`
-//                   tells
-//   unstable        none of these
-//   unknown         a figure is missing, or is none that can be, or the release that would tell is too slow
-//   to
-//                   be simulated: `missing` names it
+//   passive         The device gives out no energy, whatever holds it: the whole theorem of Colgate and
+//                   Schenkel for this law and delay, and friction holds the force of a count,
+//                   (K + 2 |B|/(nT)) step <= 2 f_c.
+//   stable alone    Every eigenvalue of the sampled loop is within the unit circle, with no contact and with
+//                   the hand rigidly attached: any disturbance dies out until only encoder counts and
+//                   friction are left.
+//   held            Stable with the hand, not without.
+//   unheld          Stable without the hand, not with it: beyond the bound with a hand.
+//   locally stable  Linearly unstable with the hand and without, but friction stops a small motion: released
+//                   0.1 mm beside its target, the tip comes to rest (release.h). `large` has the case of 1
+//                   mm.
+//   unstable        No class above applies.
+//   unknown         A figure is missing or impossible, or the deciding release is too slow to simulate;
+//                   `missing` names it.
 //
-// `small` and `large` say for every class what becomes of 0.1 mm and of 1 mm, without a hand, with friction
-// and counts: "stable at that disturbance" is `still` there, whatever the class. A loop that is stable alone
-// and yet cycles there hunts: its counts push more than its friction holds. The release runs along the normal
-// alone: both are `unknown` if the eigenvalues of all directions say something else than those of the normal.
+// `small` and `large` report for every class how a release from 0.1 mm and from 1 mm ends, without a hand,
+// with friction and counts: `still` means stable at that disturbance, whatever the class. A loop that is
+// stable alone and yet cycles there hunts: its counts push more than its friction holds. The release runs
+// only along the normal, so both are `unknown` if the eigenvalues of all directions contradict those of the
+// normal.
 #pragma once
 
 #include <string>
@@ -40,20 +40,22 @@ constexpr auto words(Class) {
 
 struct Certificate {
   Class verdict = Class::unknown;
-  std::string missing;    // of an unknown one: the figure, and what is wrong with it where that is not plain
-  std::vector<Row> rows;  // bounds.h; also of an unknown one, NaN where they are not known
+  // Class `unknown` only: the missing figure, and the reason if it is not plain.
+  std::string missing;
+  // Bounds (bounds.h). An unknown class has rows too, NaN for the unknown ones.
+  std::vector<Row> rows;
   Plane plane{};
-  Released small{}, large{};  // let go 0.1 mm and 1 mm beside the target
+  Released small{}, large{};  // released 0.1 mm and 1 mm beside the target
 };
 
-// `loop.hand`: the hand that is on it, where one is. No figure of the loop may be missing but its filter.
+// `loop.hand`: the attached hand, if any. Every figure of the loop except its filter is required.
 [[nodiscard]] Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked);
 
-// The class alone, where one look tells: a fiftieth of the time. `unknown` where a figure is missing, and
-// where it is not stable, neither alone nor held: there friction decides.
+// The class from the eigenvalues alone, in a fiftieth of the time of certify(). `unknown` if a figure is
+// missing, or if the loop is stable neither alone nor held, because friction then decides.
 [[nodiscard]] Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked);
 
-// The row of that name; throws std::out_of_range where there is none.
+// The row with that name; throws std::out_of_range if there is no such row.
 [[nodiscard]] const Row& row_of(const Certificate& certificate, const std::string& name);
 
 }  // namespace enc::certificate

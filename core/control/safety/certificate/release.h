@@ -1,14 +1,15 @@
-// A held device is let go beside its target: does it come to rest? The sampled loop of sampled_loop.h with
-// what is not linear in it: dry friction, and encoders that count. Deterministic. Between two changes of the
-// force the device moves exactly, but for a hand's spring, which goes in steps that are short for it.
+// Simulated release: a held device is released beside its target, and the simulation finds whether it comes
+// to rest. The loop is that of sampled_loop.h plus its nonlinear parts: dry friction and encoder counts.
+// Deterministic. Between two changes of the force the device moves exactly; only a hand's spring is
+// integrated, in steps that are short for it.
 //
-// Before it is let go it has stood there, and the law has pushed all the while: every reading, filtered value
-// and force under way is that of the place. The target is at the edge between two counts, the worst place for
-// it: there the law never has nothing to do. An encoder reads the middle of its count.
+// Before its release the device has stood there while the law pushed: every reading, filtered value and
+// pending force belongs to that position. The target is at the edge between two counts, the worst place:
+// there the law always has something to correct. An encoder reads the middle of its count.
 //
-// It is watched for 100 swings, as long as a damper takes to creep to rest, and 40 delays, in quarters; but
-// for no more than 100,000 periods. Where these are fewer than 20 swings, a release that has not left is
-// `unknown`, but where it is linear: there the eigenvalues tell.
+// The simulation lasts 100 oscillations, as long as an overdamped loop takes to creep to rest, plus 40
+// delays, in quarters, but at most 100,000 periods. If these are fewer than 20 oscillations, a release that
+// has not diverged is `unknown`, unless the loop is linear: then the eigenvalues decide.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +19,25 @@
 namespace enc::certificate {
 
 enum class Rest : std::uint8_t {
-  still,  // in the last quarter it swings by less than 1 % of the disturbance; or by less than 0.9 of the
-          // quarter before: it is on its way. That only where counts cannot keep it going (holds_counts in
-          // bounds.h, or no counts): else it is watched on, a quarter more at a time
-  cycle,  // it goes on, bounded; without friction and counts never: then the eigenvalues tell
-  away,  // it swings ever wider, by more than 1.1 of the quarter before, or has left 20 times the disturbance
-  unknown  // a figure of the loop, friction or encoder is missing, or it is too slow to be simulated
+  // The oscillation is below 1 % of the disturbance in the last quarter, or below 0.9 of the quarter before
+  // (still decaying). The second case needs counts that cannot sustain it (holds_counts in bounds.h, or no
+  // counts); else the simulation goes on, a quarter more at a time.
+  still,
+  // It goes on within bounds. Impossible without friction and counts: then the eigenvalues decide.
+  cycle,
+  // It grows, by more than 1.1 a quarter, or has exceeded 20 times the disturbance.
+  away,
+  // A figure of the loop, friction or encoder is missing, or the loop is too slow to simulate.
+  unknown
 };
 constexpr auto words(Rest) { return enum_words("still", "limit cycle", "away", "unknown"); }
 
 struct Released {
   Rest rest = Rest::unknown;
-  double swing = kUnset;  // m, from peak to peak in the last quarter
-  double after = kUnset;  // s, that it was watched
+  double swing = kUnset;  // m, peak to peak in the last quarter
+  double after = kUnset;  // simulated time, s
 };
-// `disturbance`: m, above 0. With the loop's own hand.
+// `disturbance`: m, above 0. The release includes the loop's hand.
 [[nodiscard]] Released release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
                                double disturbance);
 

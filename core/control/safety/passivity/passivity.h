@@ -1,67 +1,68 @@
-// Observer and controller of the energy that a law gives out along one way, of one contact [Hannaford and Ryu
-// 2002]. Outwards is positive: pushed outwards while it moves outwards, the law gives out.
+// Passivity observer and controller of the energy that a law gives out along one direction, for one contact
+// [Hannaford and Ryu 2002]. Outwards is positive: a law that pushes outwards gives out energy while the tip
+// moves outwards.
 //
 //   left <- min(left - f_{n-1} (x_n - x_{n-1}), stored_n)
-//   f_n  =  of the law's push as much, from none to all, as keeps  f (u + g f) <= left,   g = T^2 / (2 m)
+//   f_n  =  the largest part of the law's push that keeps  f (u + g f) <= left,   g = T^2 / (2 m)
 //
-// A force that is held over a period does exactly f_{n-1} (x_n - x_{n-1}): the observer needs no model, and
-// whatever is inside the law (filter, rates, late readings) is seen. What may be given out is what was put
-// in; and never more than the law's spring holds now: what its dampers took is gone, and cannot hide what is
-// given out later (reference energy following [Ryu et al. 2005]).
+// Observer: a force held over a period does exactly the work f_{n-1} (x_n - x_{n-1}), so the observer needs
+// no model and sees everything inside the law (filter, rates, late readings). The law may give out the energy
+// that was put in, but never more than its spring holds now. Energy that its dampers took is gone and cannot
+// hide what the law gives out later (reference energy following [Ryu et al. 2005]).
 //
-// The controller looks ahead a period instead of mending what is past: x_{n+1} - x_n is believed to be u + g
-// f, u being what the mass m does by itself after it has moved by x_n - x_{n-1} under f_{n-1}. So nothing is
-// divided by a low velocity: at rest the bound is sqrt(left / g). It only lessens a push, and never turns it
-// round: where more was given out than there was, nothing more is, until as much was put in.
+// Controller: it looks one period ahead instead of correcting afterwards. It predicts x_{n+1} - x_n as u + g
+// f; u is the free motion of the mass m after it moved by x_n - x_{n-1} under f_{n-1}. So it never divides by
+// a low velocity: at rest the bound is sqrt(left / g). It only reduces a push and never reverses it: after a
+// deficit the push is zero until as much energy was put in.
 #pragma once
 
 #include <string_view>
 
 namespace enc {
 
-// J: less is owed by what no encoder sees, and a wall that stops pushing for it would be felt.
+// Tolerated energy deficit, J. Encoders cannot see a smaller one, and a user would feel a wall that stops
+// pushing because of it.
 constexpr double kForgiven = 0.03e-3;
 
 struct Passivity {
   bool on = false;
-  double left = 0.0;                 // J, that may be given out; below 0: more was
-  double stored = 0.0;               // J, that the law's spring holds
-  double moved = 0.0;                // m, outwards, in the last period
-  double slack = 0.0;                // m: a reading is so far outwards of where it turned
-  double way = -1.0;                 // which way it last moved
+  double left = 0.0;                 // J, may still be given out; negative: deficit
+  double stored = 0.0;               // J, energy in the law's spring
+  double moved = 0.0;                // m, outward motion in the last period
+  double slack = 0.0;                // m: outward distance of the reading from where it turned
+  double way = -1.0;                 // sign of the last motion
   double depth = 0.0, spring = 0.0;  // m, N: at the last tick
-  double pushed = 0.0;               // N, outwards, since the last tick
-  double taken = 0.0;                // N: the law asked for so much more
-  // Of this contact; `given` since the tip was outside.
-  double given = 0.0;       // J: work of what was pushed; above 0: more out than in
-  double dissipated = 0.0;  // J: what the law would have given out more
-  double most = 0.0;        // N, the largest of `taken`
+  double pushed = 0.0;               // N, outward push since the last tick
+  double taken = 0.0;                // N, reduction of the law's push
+  // Totals of this contact; `given` counts since the tip was outside.
+  double given = 0.0;       // J: work of the actual push; positive: net energy out
+  double dissipated = 0.0;  // J: extra energy that the unreduced law would have given
+  double most = 0.0;        // N, largest value of `taken`
 };
 
-// A tick.
+// Observation of one tick.
 struct Yielded {
-  double moved = 0.0;   // m, outwards, since the last tick
-  double depth = 0.0;   // m, of the law's spring
-  double spring = 0.0;  // N, that it pushes outwards with where nothing moves
+  double moved = 0.0;   // m, outward motion since the last tick
+  double depth = 0.0;   // m, depth in the law's spring
+  double spring = 0.0;  // N, outward push of the spring without motion
 };
-// A contact begins. `left`, J: what was put in before, of which no more counts than the spring holds; 0 of a
-// wall that was not felt yet; below 0: what is owed.
+// Starts a contact. `left`, J: the energy put in before, counted up to what the spring holds; 0 for a wall
+// that was not in contact yet; negative: a deficit.
 void begin(Passivity& now, const Yielded& tick, double left) noexcept;
-// Its spring is another one from now on, as where the normal jumps: nothing is given for that.
+// Replaces the spring from now on, for example when the normal jumps; the change gives no energy.
 void renew(Passivity& now, const Yielded& tick) noexcept;
-// The period is over in which `pushed` was held; readings step by `count`, m.
+// Ends the period in which `pushed` was held; readings step by `count`, m.
 void observe(Passivity& now, const Yielded& tick, double count) noexcept;
-// N: what of the wanted push is given, whatever the limits; `per_newton` is g, `count` as above.
+// The part of the wanted push that is allowed, N, before other limits; `per_newton` is g, `count` as above.
 [[nodiscard]] double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept;
-// m: how far outwards of where it is a machine may be sent that keeps to its way. It is pushed with `push`,
-// N, and on the way that grows by `stiffness`, N/m:
-//
+// Largest outward distance to which a machine that holds its path may be commanded, m. The hand pushes with
+// `push` (N), and its push grows along the path by `stiffness` (N/m):
 //   push s + stiffness s^2 / 2 <= left + forgiven
 [[nodiscard]] double way_left(const Passivity& now, double forgiven, double push, double stiffness) noexcept;
-// What is held from now on, and what the law asked for.
+// Stores the push that is held from now on, and the push that the law asked for.
 void hold(Passivity& now, double pushed, double wanted) noexcept;
 
-// Nothing of one that is off: a scene without it has the hash that it had.
+// A controller that is off adds no field, so a scene without it keeps its hash.
 template <class F>
 void fields(F& f, Passivity& p) {
   if (!p.on) return;

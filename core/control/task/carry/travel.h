@@ -1,5 +1,5 @@
-// The travel of [VHMR 4.1, Fig 6], made ready: straight legs from stop to stop, along one axis of W after
-// another. Each is a trapezoid: the leg's speed, the machine's acceleration.
+// The tracking test of [VHMR 4.1, Fig 6], prepared: straight legs from stop to stop, along one axis of W
+// after another. Each leg is a trapezoid with the leg's speed and the machine's acceleration.
 #pragma once
 
 #include <cstddef>
@@ -22,33 +22,33 @@ struct TravelLeg {
   Vec<'W'> along{1, 0, 0};  // unit
   double length = 0.0;      // m
   double speed = kUnset;    // m/s
-  double dwell = kUnset;    // s, at its end
-  std::int32_t axis = -1;   // 0 to 2; -1: on the way to a start
-  std::int32_t way = 0;     // 1 towards + of the axis, -1 towards -
+  double dwell = kUnset;    // s, at the leg's end
+  std::int32_t axis = -1;   // 0 to 2; -1: a leg to a start
+  std::int32_t way = 0;     // 1: towards + of the axis, -1: towards -
 };
 
-// Where the machine is in its travel. Time stands still in a hold, here too.
+// Phase of the travel. The travel's time stands still in a hold.
 enum class TravelPhase : std::uint8_t { wait, move, dwell, done };
 struct Travelling : Commanded {
   TravelPhase phase = TravelPhase::wait;
   double elapsed = 0.0;  // s of this phase
-  std::int32_t leg = 0;  // of the programme
+  std::int32_t leg = 0;  // index in Travel::legs
 };
 
 struct Travel : Displacing {
   using Memory = Travelling;
-  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
-  // the travel.
+  // The travel that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this machine
+  // cannot do the travel.
   [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::vector<TravelLeg> legs;
   double acceleration = kUnset;  // m/s^2
-  bool tool_held = false;        // the tool must be clamped before anything moves
+  bool tool_held = false;        // the tool must be clamped before any motion
 
   [[nodiscard]] bool on_leg(std::int32_t leg) const {
     return leg >= 0 && static_cast<std::size_t>(leg) < legs.size();
   }
-  // s, from the start to the end of the last dwell; a little more than it takes.
+  // Upper bound of the time from the start to the end of the last dwell, s.
   [[nodiscard]] double duration() const;
 };
 

@@ -1,6 +1,6 @@
-// The test rig of [VHMR 4.2, Fig 7], made ready: where the machine pushes its probe into a real object, and
-// how often. Force against deflection is what it is for; the reference curves of an object are fitted to
-// that.
+// The indentation test rig of [VHMR 4.2, Fig 7], prepared: the position and number of the pushes of a probe
+// into a real object. It measures force against deflection; the reference curves of an object are fitted to
+// these data.
 #pragma once
 
 #include <cstdint>
@@ -17,37 +17,38 @@ struct Outputs;
 struct CommonScene;
 struct SceneSpec;
 
-// Where the machine is in its programme of pushes. Time stands still in a hold, and the programme with it.
+// Phase of the programme of pushes. The programme's time stands still in a hold.
 enum class ProbePhase : std::uint8_t { wait, approach, rest, push, dwell, back, done };
 struct Probing : Commanded {
   ProbePhase phase = ProbePhase::wait;
   double elapsed = 0.0;     // s of this phase
-  double deflection = 0.0;  // wanted, m; negative: above the surface
+  double deflection = 0.0;  // requested, m; negative: above the surface
 };
 
 struct Probe : Displacing {
   using Memory = Probing;
-  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
-  // the programme: out of reach, something in its way, no force sensor, too deep.
+  // The programme that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this
+  // machine cannot do it: out of reach, an obstacle, no force sensor, too deep.
   [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::int32_t object = 0;  // index in the scene
   // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
-  // the push. x: where an offset goes.
+  // the push. x: direction of an offset.
   Pose<'W', 'N'> X_WN;
   double depth = kUnset, clear = kUnset;  // m, below and above the first touch
   double speed = kUnset;                  // m/s
   double dwell = kUnset, rest = kUnset;   // s
   std::int32_t repeats = 0;
 
-  // Of a probe whose centre is at `p`: how far it is along the push, m; negative before the first touch.
+  // Deflection of a probe with its centre at `p`, m: distance along the push, negative before the first
+  // touch.
   [[nodiscard]] double deflection(const Point<'W'>& p) const { return -(X_WN.inverse() * p).xyz[2]; }
   [[nodiscard]] Point<'W'> at(double deflection) const { return X_WN * Point<'N'>(0, 0, -deflection); }
 };
 
-// The object that [probe] names, or the first. Throws Error where there is none.
+// The object that [probe] names, or the first. Throws Error if there is no such object.
 [[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
-// s, from the start to the rest after the last push; a little more than it takes.
+// Upper bound of the time from the start to the rest after the last push, s.
 [[nodiscard]] double programme_time(const CommonScene& scene, const Probe& probe);
 
 template <class F>

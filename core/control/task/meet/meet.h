@@ -1,5 +1,5 @@
-// Meet by force: an arm takes its prop to where the finger will touch, and gives the force of what is touched
-// [VisHap 2.3].
+// Impedance rendering: an arm moves its prop to the expected touch and exerts the object's force [VisHap
+// 2.3].
 #pragma once
 
 #include <array>
@@ -17,44 +17,45 @@ namespace enc {
 struct Outputs;
 struct CommonState;
 
-// What the control law remembers (impedance.h).
+// State of the control law (impedance.h).
 struct Aim {
-  Point<'W'> target;  // X_d: where the tip shall be
+  Point<'W'> target;  // X_d: commanded position of the tip
   Vec<'W'> velocity = Vec<'W'>::zero();
   Vec<'W'> error = Vec<'W'>::zero(), error_rate = Vec<'W'>::zero();  // low-passed [eq. 3]
   double gain = 1.0;                                                 // lambda_z
-  double sunk = 0.0;       // m: how far the target is behind the surface, in a button
-  bool caught_up = false;  // the target is where the finger's projection is
+  // m: depth of the target behind the surface, in a button.
+  double sunk = 0.0;
+  bool caught_up = false;  // the target has reached the finger's projection
   bool triggered = false;
-  double blind = 0.0;    // s since the machine last said where it is
-  Straying straying;     // from the target, where nothing but the arm itself can be why
-  bool stuck = false;    // and it was for too long: until the finger has gone
-  bool hurried = false;  // its velocity is one of haste
-  Point<'W'> stood;      // where the tip rests while the finger is far; unset: it does not
-  bool slipped = false;  // and it did not stay there
+  double blind = 0.0;    // s since the machine's last position report
+  Straying straying;     // deviation from the target that only the arm can cause
+  bool stuck = false;    // off the target for too long, until the finger leaves
+  bool hurried = false;  // the velocity uses the raised speed limit
+  Point<'W'> stood;      // resting position of the tip; unset: it moves
+  bool slipped = false;  // the tip did not stay where it rested
 };
 
-// The pictures of a finger that comes, newest first, and where it will touch (core/control/track/reach.h).
+// Pictures of an approaching finger, newest first, and its predicted touch (core/control/track/reach.h).
 struct Coming {
   std::array<Point<'W'>, kSightings> at;
   std::array<Time, kSightings> exposed{};
   std::int32_t count = 0;
-  std::int32_t tool = -1;  // of which finger
-  bool clear = false;      // they tell where it is well enough
-  // If it touched so long after `told`: x and y of N, and the logarithm of how well that fits (reach.h).
+  std::int32_t tool = -1;  // index of the finger
+  bool clear = false;      // the pictures are accurate enough
+  // The touch for each of a few times after the prediction: x and y in N, logarithm of its fit (reach.h).
   static constexpr std::size_t kTimes = 7;
   std::array<std::array<double, 3>, kTimes> touches{};
-  double passes = -HUGE_VAL;  // likewise, that it does not touch within those times
-  Pose<'W', 'N'> X_WN;        // the surface under it when that was asked
-  Time told{};                // when it was asked
-  std::int32_t object = -1;   // of which it was; -1: nothing is known
+  double passes = -HUGE_VAL;  // that logarithm for no touch within those times
+  Pose<'W', 'N'> X_WN;        // surface under the finger at the time of prediction
+  Time told{};                // time of this prediction
+  std::int32_t object = -1;   // the predicted object; -1: no prediction
 };
 
 struct Meeting {
   Contact contact;
   Aim aim;
   Coming coming;
-  Heat heat;  // of the motors, as it is believed
+  Heat heat;  // thermal model of the motors
   Tamed tamed;
 };
 
@@ -112,7 +113,7 @@ void guard(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) 
 void report(const Walk& walk, const Impedance& task, CommonState& state, const Meeting& now,
             Outputs& out) noexcept;
 
-// The stages that act() is made of: where the prop should be; depth in, force out.
+// The stages of act(): place the prop (aim); position in, force out (impede).
 void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
 void impede(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
 }  // namespace stages

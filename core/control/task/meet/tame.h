@@ -1,9 +1,9 @@
-// The passivity controller of an arm, along the normal of what is touched: between its law and what the
-// machine can. Internal to the core.
+// The passivity controller of an arm, along the normal of the touched object: it acts between the law and the
+// machine's limits. Internal to the core.
 //
-// It watches the tip against the law's target, along the mean of two ticks' normals: what a target does that
-// moves goes neither in nor out, be it that it is carried by an object, on its way, or on a round one. Nor
-// does a normal that turns under a tip that slides.
+// It observes the tip relative to the law's target, along the mean normal of two ticks. So the motion of a
+// target neither adds nor takes energy, whether an object carries the target, it follows its path or it runs
+// over a round object. The same holds for a normal that turns under a sliding tip.
 #pragma once
 
 #include "core/control/stages/walk.h"
@@ -12,12 +12,12 @@
 namespace enc::stages {
 
 struct Tame {
-  // What the law asks for, and what of that is given.
+  // Limits the force that the law asks for.
   Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept;
-  // What was really pushed with, after all limits.
+  // Stores the push after all limits.
   void held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept;
   Vec3 wanted;
-  double taken = 0.0;  // N, outwards
+  double taken = 0.0;  // N, outward force taken from the law's
 };
 
 }  // namespace enc::stages

@@ -1,4 +1,4 @@
-// What the passivity controller of an arm remembers (tame.h).
+// State of an arm's passivity controller (tame.h).
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,15 @@
 
 namespace enc {
 
-// What the push along the normal has given out in the present contact; nothing where that is not controlled.
+// The energy that the push along the normal has given out in this contact; unused without a passivity
+// controller.
 struct Tamed {
   Passivity energy;
-  double kept = 0.0;  // J: was left of a contact that was lost while the tip was inside
+  // J: energy left by a contact that was lost while the tip was inside.
+  double kept = 0.0;
   std::int32_t object = -1;
-  bool pressed = false;    // its prop was met, and is not let go of
-  Point<'W'> tip, target;  // at the last tick, and the normal
+  bool pressed = false;    // a finger pressed the prop and has not left it
+  Point<'W'> tip, target;  // values of the last tick
   Vec<'W'> normal;
 };
 

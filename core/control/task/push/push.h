@@ -1,5 +1,5 @@
-// Push: an arm meets the finger at objects that it moves: hits, shifts, or that run away under it [VisHap 1,
-// 2].
+// Dynamic objects: an arm renders objects that the finger moves (hit, shift) and surfaces that run under it
+// (spin) [VisHap 1, 2].
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Pushing : Meeting {
 
 struct Push : Impedance {
   using Memory = Pushing;
-  std::vector<Mover> movers;  // in the order of Pushing::moved
+  std::vector<Mover> movers;  // same order as Pushing::moved
 };
 
 template <class F>

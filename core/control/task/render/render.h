@@ -1,5 +1,4 @@
-// Render by displacement: the force on the tip moves the tip as the object gives way under it
-// [VHMR 3.3, 3.4].
+// Admittance rendering: the force on the tip moves the tip as the object gives way under it [VHMR 3.3, 3.4].
 #pragma once
 
 #include <optional>
@@ -16,16 +15,17 @@ namespace enc {
 
 struct Outputs;
 
-// What the passivity controller remembers (spare.cpp); nothing where nothing is controlled.
+// State of the passivity controller (spare.cpp); unused without one.
 struct Spent {
-  Passivity energy;      // of the present contact
-  double pressed = 0.0;  // N, along the normal, at the last tick; and where the tip was
+  Passivity energy;  // energy of the present contact
+  // N, along the normal, and tip position: both at the last tick.
+  double pressed = 0.0;
   Point<'W'> tip;
 };
 
 struct Rendering : Commanded {
   Contact contact;
-  ResponseState response;  // how the object answers from the first touch on
+  ResponseState response;  // the object's response since the first touch
   Swing swing;
   Spent spent;
   Vec<'N'> displacement = Vec<'N'>::zero();
@@ -35,9 +35,9 @@ struct Rendering : Commanded {
 
 struct Render : Displacing {
   using Memory = Rendering;
-  std::optional<DampingLaw> damping;  // where the rig wants the object damped
+  std::optional<DampingLaw> damping;  // set if the rig asks for a damper
   PassivityForm passivity = PassivityForm::none;
-  double hand_stiffness = 0.0;  // N/m, that the rig expects
+  double hand_stiffness = 0.0;  // N/m, stiffness of the rig's operator model
 };
 
 template <class F>
@@ -78,17 +78,19 @@ void guard(Walk& walk, const Render& task, CommonState& state, Rendering& now) n
 void report(const Walk& walk, const Render& task, CommonState& state, const Rendering& now,
             Outputs& out) noexcept;
 
-void rest(Rendering& now) noexcept;  // the object as it is when nothing presses it
+void rest(Rendering& now) noexcept;  // resets the object to its unloaded state
 
-// The stages that act() is made of.
+// The stages of act().
 void check_tip(Walk& walk, CommonState& state,
-               Rendering& now) noexcept;  // is it inside the object and the seen surface?
+               Rendering& now) noexcept;  // Is the tip inside the object and the shown surface?
 void mode(Walk& walk, const Render& task, CommonState& state,
           Rendering& now) noexcept;  // away, follow, contact, restore
 void model(Walk& walk, const Render& task, CommonState& state,
-           Rendering& now) noexcept;                                         // force in, displacement out
-void target(Walk& walk, CommonState& state, const Rendering& now) noexcept;  // where the tip should be
-// Of a controller of energy: what it has given out by now, and no farther out than what is left carries it.
+           Rendering& now) noexcept;  // force in, displacement out
+// Computes the wanted tip position.
+void target(Walk& walk, CommonState& state, const Rendering& now) noexcept;
+// Passivity controller: weigh() updates the energy balance; spare() limits the outward command to the energy
+// left.
 void weigh(const Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
 void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
 }  // namespace stages
