@@ -1,5 +1,5 @@
-// Where the user sees the scene: headset or window. It also says which deformed surface it drew, late
-// [VHMR 3.5].
+// The headset or window that shows the scene to the user. It also reports, late, which deformed surface it
+// drew [VHMR 3.5].
 #pragma once
 
 #include "core/base/sample.h"
@@ -11,8 +11,8 @@ namespace enc {
 class Display : public Device {
  public:
   virtual void show(const View& view) noexcept = 0;  // newest only; never blocks
-  virtual bool poll(Time now,
-                    Stamped<DentSample>& newest) noexcept = 0;  // true when a drawn surface came back
+  // Returns true if a new drawn surface came back.
+  virtual bool poll(Time now, Stamped<DentSample>& newest) noexcept = 0;
 };
 
 }  // namespace enc

@@ -1,4 +1,4 @@
-// What a driver offers: a maker for each role that its device fills, and the keys of its table.
+// A driver's offer: a maker for each role of its device, and the keys of its table.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ namespace enc {
 class Fake;
 struct FakeOffer;
 
-// What a driver has to tell a person: printed when the run is over. From any thread, but never from read(),
+// The driver's messages to the user, printed after the run. Call it from any thread, but never from read(),
 // poll(), command() or show(), which must not wait.
 class Log {
  public:
@@ -28,43 +28,47 @@ class Log {
   virtual void say(const std::string& line) = 0;
 };
 
-// What the trial gives to whoever makes a device. `log` stays until the device is gone, the rest for the
-// call.
+// The arguments of a maker. `log` lives until the device is gone, everything else only during the call.
 struct Offer {
-  Settings& table;     // the driver's own, [driver.NAME]; all roles of one driver share it
-  const RigSpec& rig;  // what the core believes of each role: rig.manipulator, rig.arm, ...
-  const Reach& reach;  // what the rig file promises of a manipulator
-  Duration period;     // of the loop's clock; what time it is comes with each read() and poll()
+  // The driver's own table, [driver.NAME]; all roles of one driver share it.
+  Settings& table;
+  const RigSpec& rig;  // The rig file's model of each role: rig.manipulator, rig.arm, ...
+  const Reach& reach;  // reach of a manipulator by the rig file
+  // Period of the loop's clock; read() and poll() pass the present time.
+  Duration period;
   Log& log;
-  // The run waits for whoever is slow, so that it can be repeated; else it keeps the wall clock and nobody
-  // may make it wait.
+  // True: the run waits for slow devices, so that it is repeatable. False: the run keeps the wall clock, and
+  // no device may make it wait.
   bool waits = false;
-  // And what answers is a fake whose time goes on with the run's, a cycle with each set-point.
+  // True: the peer is also a fake whose time advances with the run, one cycle for each set-point.
   bool lockstep = false;
-  std::span<const std::string> tools{};  // names of the scene's, by index
+  std::span<const std::string> tools{};  // the scene's tools: names by index
 };
 
 template <class Role>
 using Maker = std::unique_ptr<Role> (*)(const Offer& offer);
-// The maker of a device whose constructor takes the offer.
+// Maker of a device whose constructor takes the offer.
 template <class Role, class Made>
 std::unique_ptr<Role> make(const Offer& offer) {
   return std::make_unique<Made>(offer);
 }
 
-// What it does not offer stays null. Makers throw Error (kind device) with a way out, and move nothing.
+// Roles that the driver does not offer stay null. Makers throw Error (kind device) with a remedy, and move
+// nothing.
 struct DriverModule {
-  void (*settings)(Settings& table) = nullptr;  // declares every key; null: the driver has none
+  void (*settings)(Settings& table) = nullptr;  // declares every key; null: the driver has no keys
   Maker<Manipulator> manipulator = nullptr;
   Maker<HapticArm> arm = nullptr;
   Maker<ForceSensor> force = nullptr;
   Maker<PoseTracker> tracker = nullptr;
   Maker<Display> display = nullptr;
   Maker<Gripper> gripper = nullptr;
-  Maker<StereoCamera> camera = nullptr;  // for a tracker that looks through it: no role of the loop
-  bool plays = false;                    // its devices play what was recorded: they need no wall clock
-  bool lockstep = false;                 // its devices can keep step with a fake (Offer::lockstep)
-  std::unique_ptr<Fake> (*fake)(const FakeOffer& offer) = nullptr;  // what stands in for them all (fake.h)
+  // A camera for a tracker, which reads it; it is not a role of the loop.
+  Maker<StereoCamera> camera = nullptr;
+  bool plays = false;     // its devices replay recordings and need no wall clock
+  bool lockstep = false;  // its devices can keep step with a fake (Offer::lockstep)
+  // Makes the stand-in for all its devices (fake.h).
+  std::unique_ptr<Fake> (*fake)(const FakeOffer& offer) = nullptr;
 };
 
 }  // namespace enc

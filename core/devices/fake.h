@@ -1,5 +1,6 @@
-// What stands in for a driver's device: its wire, answered out of the same role of another rig, such as the
-// twin's. A program of its own serves it (encounter fake), on one thread for all that a rig names.
+// A stand-in for a driver's device: it speaks the device's protocol and takes its data from that role of
+// another rig, such as the twin's. A separate program serves it (encounter fake), on one thread for all fakes
+// of a rig.
 #pragma once
 
 #include <cstdint>
@@ -14,54 +15,57 @@
 
 namespace enc {
 
-// How a fake names itself on its wire: a part of a name or of a number that the protocol has anyway.
+// A fake's name in its protocol, inside a name or number that the protocol already has.
 inline constexpr std::string_view kFakeName = "Encounter fake";
 
-// What goes wrong with a device or on its wire.
+// A fault of a device or of its connection.
 struct Trouble {
   enum class Kind : std::uint8_t {
-    loss,          // of so many messages: datagrams alone
-    jitter,        // each message takes up to so long
-    reorder,       // so many messages come behind the next: datagrams alone
-    duplicate,     // so many messages come twice: datagrams alone
-    stall,         // nothing is heard or said, the line stays open
-    disconnect,    // the line is cut, and nobody is let in
-    garbage,       // so many messages are noise
-    half_message,  // of so many messages the second half is missing
-    saturate,      // the sensor is at its end
-    error_code,    // the device reports this error
-    slow_start,    // for so long after somebody came nothing is said
+    loss,          // share of lost messages; datagrams only
+    jitter,        // longest delay of a message
+    reorder,       // share of messages that arrive after their successor; datagrams only
+    duplicate,     // share of messages sent twice; datagrams only
+    stall,         // no data in or out, the connection stays open
+    disconnect,    // the connection is cut, and new ones are refused
+    garbage,       // share of messages that are noise
+    half_message,  // share of messages that lack their second half
+    saturate,      // the sensor is at its range
+    error_code,    // the device reports this error code
+    slow_start,    // silence for this time after a client connects
   };
   Kind kind = Kind::loss;
-  double value = kUnset;  // a share from 0 to 1, a time in s; a code, unset: the device's own
+  // Share from 0 to 1, time in s, or error code. Code unset: the device's default code.
+  double value = kUnset;
 };
 
 class Fake {
  public:
   virtual ~Fake() = default;
   [[nodiscard]] virtual std::string describe() const = 0;  // "C-887 at 127.0.0.1:50000"
-  // Answers whoever has said something; never waits. `now`: of the rig's world.
+  // Answers every waiting request; never blocks. `now`: time of the rig's world.
   virtual void serve(Time now) = 0;
-  // The world has gone on to this time: what is sent without a question goes now.
+  // The world has reached this time: sends the data that need no request.
   virtual void publish(Time now) = 0;
-  // The file descriptors on which something may come.
+  // Adds the file descriptors that may receive data.
   virtual void wait_on(std::vector<int>& descriptors) const = 0;
-  // What its device or its wire may meet, and a code that it has; with others suffer() is not to be called.
+  // True if this device or its connection can have this fault (and error code). Otherwise, never call
+  // suffer() with it.
   [[nodiscard]] virtual bool knows(const Trouble& trouble) const = 0;
-  virtual void suffer(const Trouble& trouble) = 0;  // from now on, until it is healed
+  virtual void suffer(const Trouble& trouble) = 0;  // lasts until heal()
   virtual void heal(Trouble::Kind kind) = 0;
 };
 
 struct FakeOffer {
-  Settings& table;      // the driver's own: where it looks for its device, there the fake is
-  Rig& rig;             // whose roles it shows; stays until the fake is gone
-  const RigSpec& spec;  // what the rig file says of each role
-  Log& log;             // likewise
-  // The world goes on by a period, and all fakes publish; empty: time goes on by itself.
+  Settings& table;  // the driver's own; the fake listens where the driver connects
+  // The rig whose roles the fake shows; lives until the fake is gone.
+  Rig& rig;
+  const RigSpec& spec;  // the rig file's data of each role
+  Log& log;             // lives until the fake is gone
+  // Advances the world by a period, and all fakes publish. Empty: time runs by itself.
   std::function<void()> advance{};
-  std::span<const std::string> tools{};  // names of the scene's, by index; for the call
-  std::function<void()> begin{};         // somebody came to tell the machine: the world begins anew
-  std::uint64_t seed = 1;                // of what is lost, late or noise
+  std::span<const std::string> tools{};  // the scene's tools: names by index; valid during the call
+  std::function<void()> begin{};         // a client connected to command the machine: restart the world
+  std::uint64_t seed = 1;                // seed of losses, delays and noise
 };
 
 }  // namespace enc

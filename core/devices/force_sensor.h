@@ -8,7 +8,7 @@ namespace enc {
 
 class ForceSensor : public Device {
  public:
-  // Newest; never blocks. Raw: weight, inertia and zero error are still in it.
+  // The newest sample; never blocks. It is raw: weight, inertia and zero error are still in it.
   virtual Stamped<Wrench> read(Time now) noexcept = 0;
 };
 

@@ -9,9 +9,9 @@ namespace enc {
 class Gripper : public Device {
  public:
   virtual Stamped<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
-  virtual void command(
-      const Grip& grip) noexcept = 0;  // stays until the next one; force clamped to its range
-  virtual void stop() noexcept = 0;    // keeps what it holds and opens nothing; see Manipulator
+  // Stays in force until the next command; the device limits the force to its range.
+  virtual void command(const Grip& grip) noexcept = 0;
+  virtual void stop() noexcept = 0;  // Keeps its grip and opens nothing; see Manipulator.
 };
 
 }  // namespace enc

@@ -8,19 +8,19 @@
 namespace enc {
 
 struct PropCommand {
-  double surface_speed = 0.0;  // of its surface against the prop, m/s
-  Vec<'R'> facing;             // that its front shall face, unit; unset: as it does
+  double surface_speed = 0.0;  // object's surface against the prop, m/s
+  Vec<'R'> facing;             // commanded direction of the prop's front, unit; unset: keep it
 };
 
 class HapticArm : public Device {
  public:
-  [[nodiscard]] virtual ArmAbility ability() const = 0;    // asked once, before anything moves
+  [[nodiscard]] virtual ArmAbility ability() const = 0;    // called once, before anything moves
   virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
-  // Force that the tip shall exert on what touches it, gravity included: stays until the next one. The device
-  // makes joint torques of it (J^T F) and clips them to what its motors can.
+  // Commanded force of the tip on its surroundings, including gravity compensation; stays in force until the
+  // next command. The device converts it to joint torques (J^T F) and limits these to its motors.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
-  virtual void stop() noexcept = 0;  // pushes no more, and whatever it drives stands; see Manipulator
-  // Of a prop that has motors of its own; others have nothing to move.
+  virtual void stop() noexcept = 0;  // Ends all force and stops every driven part; see Manipulator.
+  // Only for a prop with its own motors; other props do nothing.
   virtual void move_prop([[maybe_unused]] const PropCommand& prop) noexcept {}
 };
 

@@ -1,4 +1,4 @@
-// What the machine is doing, and why. Reasons are bits, so that a tick can have several.
+// The mode of the machine and its reasons. Reasons are bits, because a tick can have several.
 #pragma once
 
 #include <cstdint>
@@ -7,63 +7,72 @@
 
 namespace enc {
 
-// Each mode has a cause, and is over when that is:
+// Each mode has a cause and ends with it. The last column is how long a mode may outlive its cause.
 //
-//   follow   a tool that is known is within the pause distance                                   at once
-//   contact  the contact's own tool is within the leave gap; or force is felt and that tool is    leave time
-//            within 10 mm. Before force was first felt: that tool is within 10 mm, for 0.5 s
-//            force is felt and its own tool is seen clear of the object (tare_clearance)          0.5 s
-//            force is felt and that tool is out of view: the force varies, as a hand's does;
-//            or it is steady and small, and the tool in view is clear                             5 s
-//            or it is steady and larger, or another tool is near the object                       60 s
-//            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away      5 s
-//   restore  the tip is on its way to the buffered point                                         2 s
-//   hold     a reason to hold; of a machine that did not follow: the tool is still there         at once
-//
-// (the last column: how long a mode may outlive its cause).
+//   follow   a known tool is within the pause distance                                   at once
+//   contact  the contact's own tool is within the leave gap; or a force is measured and
+//            that tool is within 10 mm                                                   leave time
+//            (before the first force, that tool may be within 10 mm for 0.5 s)
+//            a force is measured and its own tool is seen clear of the object
+//            (tare_clearance)                                                            0.5 s
+//            a force is measured and that tool is out of view: the force varies, as a
+//            hand's does; or it is steady and small, and the tool in view is clear       5 s
+//            or it is steady and larger, or another tool is near the object              60 s
+//            with a damper, the tip is deeper than the leave gap and no tool is within
+//            10 mm                                                                       5 s
+//   restore  the tip returns to the buffered point                                       2 s
+//   hold     a reason to hold; for a machine that did not follow: the tool is still
+//            there                                                                       at once
 enum class Mode : std::uint8_t {
-  away,     // no tool, or farther than the pause distance: the tip waits where it is [VHMR 3.3]
-  follow,   // the tip tracks the surface point nearest to the tool, from just inside [VHMR 3.3]
-  contact,  // tool and tip are engaged: the tip is where the object's model puts it under the measured force
-            // [VHMR 3.4]
+  // No tool, or beyond the pause distance: the tip waits in place [VHMR 3.3].
+  away,
+  // The tip tracks the surface point nearest to the tool, from just inside [VHMR 3.3].
+  follow,
+  // Tool and tip are engaged: the object's model places the tip by the measured force [VHMR 3.4].
+  contact,
   restore,  // released: the tip returns to the buffered first-touch point [VHMR 3.4]
-  hold,     // something is wrong: the tip stands still; `why` says what
-  probe,    // the machine itself presses a real object and measures it: nothing is rendered [VHMR 4.2]
-  travel    // it carries a clamped tool past the tracker: nothing is rendered [VHMR 4.1]
+  hold,     // a fault: the tip stands still; `why` has the reasons
+  // The machine itself presses and measures a real object, without rendering [VHMR 4.2].
+  probe,
+  // The machine carries a clamped tool past the tracker, without rendering [VHMR 4.1].
+  travel
 };
 inline constexpr int kModes = 7;
 
 enum Why : std::uint32_t {
   // Reasons to hold.
-  kToolInvalid =
-      1U << 0,  // tracker sample not finite, not a rotation, absurdly far, unknown tool, or out of order
+  // Tracker sample not finite, not a rotation, absurdly far, of an unknown tool, or out of order.
+  kToolInvalid = 1U << 0,
   kToolLost = 1U << 1,        // no tool pose for longer than the rig allows
   kForceInvalid = 1U << 2,    // force sample not finite or absurd
   kForceSaturated = 1U << 3,  // the sensor is at its range: its reading is a lower bound only
   kForceLost = 1U << 4,       // no force sample for longer than the rig allows
   kTipInvalid = 1U << 5,      // the machine's own pose is not finite or not reachable
   kTipLost = 1U << 6,         // no pose from the machine
-  kDentWrong = 1U << 7,       // the visual surface names an unknown object or cannot be
+  kDentWrong = 1U << 7,       // the visual surface names an unknown object or is impossible
   kDentOverdue = 1U << 8,     // the visual surface is too old
   kOutsideObject = 1U << 9,   // the tip is outside the undeformed object
   kOutsideDent = 1U << 10,    // the tip is outside the deformed surface by more than its age excuses
   kClockLate = 1U << 11,      // cycles were missed
-  kNotFinite = 1U << 12,      // the core's own target is not finite: a defect, caught
-  kToolNotHeld = 1U << 13,    // the gripper has lost its tool, or says nothing
-  kNotFollowing = 1U << 14,   // the machine is not where its commands have sent it
-  kTrackerFault = 1U << 15,   // the tracker says that it is at fault, or its link is lost
+  kNotFinite = 1U << 12,      // the core's own target is not finite: a caught defect
+  kToolNotHeld = 1U << 13,    // the gripper has lost its tool or does not report
+  kNotFollowing = 1U << 14,   // the machine is not at its commanded position
+  kTrackerFault = 1U << 15,   // the tracker reports a fault, or its link is lost
   // Notices: the loop goes on.
   kToolPredicted = 1U << 16,  // tool pose older than usual
-  kUnreachable = 1U << 17,    // target clamped to what the machine reaches
-  kLimited = 1U << 18,        // target clamped to speed or acceleration
+  kUnreachable = 1U << 17,    // target limited to the machine's reach
+  kLimited = 1U << 18,        // target limited by speed or acceleration
   kAtLimit = 1U << 19,        // deflection limit reached
   kByForce = 1U << 20,        // this contact was found by force, not by gap
   kTaring = 1U << 21,         // force zero not known yet
   kToolUnseen = 1U << 22,     // no tool in the tracker's view
-  kOverload = 1U << 24,       // pressed harder than the machine carries: it stands at the deflection limit
-  kHot = 1U << 25,            // pushed less than it should: the motors are warm
-  kSurfaceJump = 1U << 23,    // the surface point under the tool jumped: it is as near to another part
-  kPassive = 1U << 26,        // pushed less than the law asked: more would have come out than was put in
+  // Pressed harder than the machine can carry: it stays at the deflection limit.
+  kOverload = 1U << 24,
+  kHot = 1U << 25,  // reduced force: the motors are warm
+  // The surface point under the tool jumped: another part of the surface is as near.
+  kSurfaceJump = 1U << 23,
+  // The passivity controller reduced the force: the law would have given out more energy than was put in.
+  kPassive = 1U << 26,
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
 

@@ -8,9 +8,8 @@ namespace enc {
 
 class PoseTracker : public Device {
  public:
-  virtual bool poll(
-      Time now,
-      Stamped<TrackedTool>& newest) noexcept = 0;  // true when there is news; leaves `newest` alone otherwise
+  // Returns true for a new pose; otherwise leaves `newest` alone.
+  virtual bool poll(Time now, Stamped<TrackedTool>& newest) noexcept = 0;
 };
 
 }  // namespace enc

@@ -1,5 +1,5 @@
-// The devices of an experiment, one slot for each role that the loop uses. An empty slot is a device that the
-// scene does not need. What they are told goes through the gate (trial/gate.h).
+// The devices of an experiment, one slot for each role of the loop. A slot is empty if the scene does not
+// need the device. Commands to the devices go through the gate (trial/gate.h).
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ struct Rig {
   std::unique_ptr<Display> display;
   std::unique_ptr<Gripper> gripper;
 
-  // What the devices say on this cycle. A device without a clock of its own stamps with `now`.
+  // Reads the devices' data for this cycle. A device without its own clock stamps with `now`.
   void read(Time now, Inputs& in) noexcept {
     in.missed = clock->missed();
     if (manipulator) in.tip = manipulator->read(now);

@@ -1,5 +1,4 @@
-// The one table of roles: what each is called, and where it stands in scene, rig file, driver, rig and
-// inputs.
+// The one table of roles: the names of each, and its place in scene, rig file, driver, rig and inputs.
 #pragma once
 
 #include <optional>
@@ -18,13 +17,13 @@ struct Role {
   RoleId id;
   const char *table, *name;  // [force] of scene and rig file; "force sensor" in messages
   std::optional<Asked> SceneSpec::*scene;
-  Believed RigSpec::*rig;  // with its `driver`
+  Believed RigSpec::*rig;  // includes its `driver`
   Maker<Device> DriverModule::*make;
   std::unique_ptr<Device> Rig::*slot;
   Stamped<Said> Inputs::*said;
 };
 
-// Clang before 17 finds none by itself.
+// Clang before 17 cannot deduce these arguments by itself.
 template <class Device, class Asked, class Believed, class Said>
 Role(RoleId, const char*, const char*, std::optional<Asked> SceneSpec::*, Believed RigSpec::*,
      Maker<Device> DriverModule::*, std::unique_ptr<Device> Rig::*, Stamped<Said> Inputs::*)

@@ -1,4 +1,4 @@
-// What goes into a tick and what comes out of it.
+// Inputs and outputs of a tick.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace enc {
 
-// The newest sample of each device that exists; the others stay absent.
+// The newest sample of each existing device; the others stay absent.
 struct Inputs {
   Stamped<TrackedTool> tool;
   Stamped<Wrench> wrench;
@@ -17,9 +17,11 @@ struct Inputs {
   Stamped<ArmSample> arm;
   Stamped<DentSample> dent;
   Stamped<GripSample> grip;
-  std::int64_t missed = 0;  // cycles the clock lost before this tick
-  bool withheld = false;    // what the machine is told is not sent: it need not follow
-  bool resumed = false;     // of a machine whose link was lost: it may be anywhere, so it begins anew
+  std::int64_t missed = 0;  // cycles that the clock lost before this tick
+  // Commands are not sent to the machine, so it need not follow.
+  bool withheld = false;
+  // The machine's link was lost and is back: the machine may be anywhere, so it begins anew.
+  bool resumed = false;
 };
 
 struct Outputs {
@@ -28,20 +30,21 @@ struct Outputs {
   std::uint32_t why = 0;      // bits of Why
   std::int32_t object = -1;   // nearest object, or the one in contact
   std::int32_t contacts = 0;  // contacts since the start
-  double gap = kUnset;        // of the tracked tool's tip to the surface, m; negative inside
+  double gap = kUnset;        // tracked tool's tip to the surface, m; negative inside
   Vec<'N'> force;             // on the tip, N, filtered; z along the outward normal
-  Vec<'W'> felt;              // the same force before the low-pass, N
-  double deflection = 0.0;    // along -z of N, m: wanted; of a probe: measured, negative before it touches
-  Point<'W'> first_touch;     // buffered point of the current or last contact, tip centre
+  Vec<'W'> felt;              // that force before the low-pass, N
+  // Deflection along -z of N, m: commanded; for a probe: measured, negative before the first touch.
+  double deflection = 0.0;
+  Point<'W'> first_touch;  // Buffered point of the current or last contact, tip centre.
   View view;
   Grip grip;
-  // Of an arm [VisHap 2.3]: force that it is told, gravity included; where its tip shall be; gain along the
-  // normal. `force` and `felt` are then -Lambda f: what the finger feels, without gravity.
+  // Arm only [VisHap 2.3]: commanded tip force including gravity compensation; target tip position; gain
+  // along the normal. `force` and `felt` are then -Lambda f: the force on the finger, without gravity.
   Vec<'R'> arm_force;
   Point<'W'> wanted;
   double gain = kUnset;
-  double prop_speed = 0.0;  // of a driven prop's surface against the prop, m/s
-  Vec<'R'> prop_facing;     // that a prop's front shall face, unit; unset: as it does
+  double prop_speed = 0.0;  // driven prop's surface against the prop, m/s
+  Vec<'R'> prop_facing;     // commanded direction of a prop's front, unit; unset: keep it
 };
 
 }  // namespace enc

@@ -1,5 +1,5 @@
-// Two cameras that look at the same scene and are exposed at the same time [VisHap 2]. Nothing of the loop
-// polls it: it belongs to the tracker that looks through it.
+// Two cameras with the same view and the same exposure time [VisHap 2]. The loop never polls them: they
+// belong to the tracker that uses them.
 #pragma once
 
 #include "core/base/image.h"
@@ -8,16 +8,16 @@
 
 namespace enc {
 
-// A raw pair, of equal size. Its pixels stay until the next poll().
+// A raw pair of equal size. The camera keeps its pixels until the next poll().
 struct StereoFrame {
   ImageView left, right;
 };
 
 class StereoCamera : public Device {
  public:
-  // Of each image; none where only frames tell.
+  // Size of each image; empty if it is known only from a frame.
   [[nodiscard]] virtual ImageSize size() const { return {}; }
-  // True when there is a newer pair, stamped with when it was exposed; leaves `newest` alone otherwise.
+  // Returns true for a newer pair, stamped with its exposure time; otherwise leaves `newest` alone.
   virtual bool poll(Time now, Stamped<StereoFrame>& newest) noexcept = 0;
 };
 

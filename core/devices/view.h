@@ -1,4 +1,4 @@
-// What the eye needs from a tick: which tool is where, and what the hand is doing.
+// The part of a tick that the display needs: the tools' poses and the mode.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace enc {
 
 struct View {
   Time t{};
-  std::int32_t tool = -1;    // index in the scene, -1: none seen
-  std::int32_t object = -1;  // nearest, -1: none
+  std::int32_t tool = -1;    // index in the scene; -1: no tool seen
+  std::int32_t object = -1;  // nearest object; -1: no object
   Pose<'W', 'T'> X_WT;       // the tool's markers, as tracked
   Point<'W'> tip;            // centre of the tool's tip
   Mode mode = Mode::away;

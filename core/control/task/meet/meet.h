@@ -1,5 +1,4 @@
-// Impedance rendering: an arm moves its prop to the expected touch and exerts the object's force [VisHap
-// 2.3].
+// Impedance rendering: an arm moves its prop to the expected touch and exerts the force there [VisHap 2.3].
 #pragma once
 
 #include <array>
@@ -23,8 +22,7 @@ struct Aim {
   Vec<'W'> velocity = Vec<'W'>::zero();
   Vec<'W'> error = Vec<'W'>::zero(), error_rate = Vec<'W'>::zero();  // low-passed [eq. 3]
   double gain = 1.0;                                                 // lambda_z
-  // m: depth of the target behind the surface, in a button.
-  double sunk = 0.0;
+  double sunk = 0.0;       // m: depth of the target behind a button's surface
   bool caught_up = false;  // the target has reached the finger's projection
   bool triggered = false;
   double blind = 0.0;    // s since the machine's last position report
