@@ -1,5 +1,5 @@
-// A six-strut parallel machine: geometry, inverse and forward kinematics, Jacobian. Geometry is data (H-840
-// as default).
+// A six-strut parallel machine: geometry, inverse and forward kinematics, Jacobian. Geometry is data
+// (default: H-840).
 #pragma once
 
 #include <array>
@@ -20,13 +20,14 @@ struct HexapodGeometry {
   double base_half_angle = 22.6 * M_PI / 180.0;
   double platform_half_angle = 17.2 * M_PI / 180.0;
   double height = 0.1545;
-  double tip_height = 0.190;  // 30 mm to the catalogue's pivot, 160 mm of sensor, gripper and tip above it
-  double stroke = 0.0236;     // of a strut, +/-
+  // 30 mm to the catalogue's pivot, and above it 160 mm of sensor, gripper and tip.
+  double tip_height = 0.190;
+  double stroke = 0.0236;  // half stroke of a strut, +/-
   double tilt_limit = 15.0 * M_PI / 180.0;
   double yaw_limit = 30.0 * M_PI / 180.0;
 };
 
-// Tells whether a pose is reachable and, if not, which limit is in the way.
+// The limit that makes a pose unreachable, if any.
 enum class ReachLimit { none, stroke, tilt, yaw };
 
 class Hexapod {
@@ -50,8 +51,8 @@ class Hexapod {
 
   [[nodiscard]] Lengths inverse(const Pose<'R', 'H'>& X_RH) const noexcept;
   [[nodiscard]] Jacobian jacobian(const Pose<'R', 'H'>& X_RH) const noexcept;
-  // Newton from `guess` until the lengths agree to `tolerance`, m. Nothing if it does not converge in 20
-  // steps.
+  // Newton iteration from `guess` until the lengths agree to `tolerance`, m. Empty if it does not converge in
+  // 20 steps.
   struct Solution {
     Pose<'R', 'H'> X_RH;
     int steps = 0;

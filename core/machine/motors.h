@@ -1,39 +1,40 @@
-// What an arm's motors give: for a moment their peak, for ever what their windings bear. Between the two the
-// law folds back smoothly as a winding warms up; so the force keeps its direction.
+// Limits of an arm's motors: briefly their peak torque, continuously what their windings bear. Between the
+// two, current fold-back reduces the torque smoothly as a winding warms up, so the force keeps its direction.
 #pragma once
 
 #include "core/machine/arm.h"
 
 namespace enc {
 
-// How a motor gets warm.
+// Thermal model of a motor.
 struct Thermal {
-  double winding_time = 12.0;   // s, of a winding against its housing (sources/arm 3, published)
-  double housing_time = 612.0;  // s, and of the housing against the room (published)
-  double winding_share =
-      3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
+  // s, time constant of a winding against its housing (sources/arm 3, published).
+  double winding_time = 12.0;
+  double housing_time = 612.0;  // s, time constant of the housing against the room (published)
+  // Winding's rise over the housing as a share of its rise over the room (published).
+  double winding_share = 3.1 / (3.1 + 14.0);
 };
 
-// What the motors of an arm may give, as a rig file says it.
+// Motor ratings of an arm, as the rig file gives them.
 struct MotorRatings {
-  double tip = 0.0;               // N: the tip nowhere pushes with more
-  PerJoint peak{}, continuous{};  // of each motor, N m: for a moment, and for ever
+  double tip = 0.0;               // N: largest tip force anywhere
+  PerJoint peak{}, continuous{};  // N m, of each motor: brief and continuous
   Thermal thermal{};
 };
 
-// Rise of each winding over its housing, and of that over the room, as shares of what a winding may have over
-// the room for ever.
+// Temperature rise of each winding over its housing, and of the housing over the room, as shares of the
+// continuously allowed rise of a winding over the room.
 struct Heat {
   PerJoint winding{}, housing{};
   [[nodiscard]] double of(std::size_t joint) const { return winding[joint] + housing[joint]; }
 };
 
-// At this share of what it may have a winding begins to get less than its peak (assumed).
+// Share of the allowed temperature rise at which fold-back begins (assumed).
 inline constexpr double kWarm = 0.8;
 
-// Torque that a motor gives at a warmth: peak, then less, and at 1 what it bears for ever.
+// Torque limit at a relative temperature: peak, then less, and at 1 the continuous torque.
 [[nodiscard]] double folded_back(double warmth, double peak, double continuous) noexcept;
-// A tick under a load, which is the torque over the continuous one.
+// One tick under a load; load is torque over continuous torque.
 class Warming {
  public:
   Warming() = default;
@@ -41,40 +42,40 @@ class Warming {
   void operator()(double load, double& winding, double& housing) const noexcept;
 
  private:
-  double winding_ = 0.0, housing_ = 0.0, share_ = 0.0;  // per tick, per tick, -
+  double winding_ = 0.0, housing_ = 0.0, share_ = 0.0;  // per tick, per tick, dimensionless
 };
-// The warmth from which on a motor gives no more than a torque that is between the two.
+// Relative temperature from which a motor gives no more than `torque`, which is between peak and continuous.
 [[nodiscard]] double folds_at(double torque, double peak, double continuous) noexcept;
-// s for which a cold motor bears a load until it is so warm; infinite: it never is.
+// Time for which a cold motor bears a load until it reaches a relative temperature, s; infinite: never.
 [[nodiscard]] double bears_for(const Thermal& thermal, double load, double warmth);
 
-// Which limit acts on a force.
+// The limit that acts on a force.
 enum class MotorLimit : std::uint8_t { none, peak, heat };
 
-// The motors as the rig believes in them.
+// The motors by the rig file's model.
 class Motors {
  public:
-  Motors() = default;  // none: nothing is given
+  Motors() = default;  // no motors: no torque
   Motors(const Arm& arm, const MotorRatings& ratings, double dt);
 
-  // Largest share, 0 to 1, of joint torques `wanted` that there is beside `held`, which goes on.
+  // Largest share, 0 to 1, of joint torques `wanted` that is available beside `held`, which continues.
   [[nodiscard]] double share(const Heat& heat, const PerJoint& held, const PerJoint& wanted,
                              MotorLimit& limit) const noexcept;
   void warm(Heat& heat, const PerJoint& torque) const noexcept;
 
-  // N: what the tip can push with along `way` (unit) at joints q, beside gravity, at most the sheet's peak:
-  // for a moment, and for ever.
+  // Tip force available along `way` (unit) at joints q, beside gravity, at most the data sheet's peak, N:
+  // brief and continuous.
   struct Strength {
     double peak = 0.0, lasting = 0.0;
   };
   [[nodiscard]] Strength strength(const Arm& arm, const PerJoint& q, const PerJoint& held,
                                   const Vec<'R'>& way) const noexcept;
-  // s until the first of them, cold at first, gives less than that force; infinite: never.
+  // Time until the first motor, cold at first, gives less than that force, s; infinite: never.
   [[nodiscard]] double holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held, const Vec<'R'>& way,
                                  double force) const;
 
-  // The same of presses with pauses, in which gravity alone is held, s: the press in which a motor gives
-  // less, 1 for the first; 0: none.
+  // The press at which a motor gives less than that force, 1 for the first, for presses with pauses in which
+  // the motors hold only gravity; 0: no press.
   struct Presses {
     double pressed = 0.0, pause = 0.0;  // s
     std::int64_t number = 1;
@@ -84,8 +85,8 @@ class Motors {
 
  private:
   std::size_t joints_ = 0;
-  PerJoint peak_{}, continuous_{};  // at the joints, N m or N
-  double tip_ = 0.0;                // N: nowhere more than this
+  PerJoint peak_{}, continuous_{};  // referred to the joints, N m or N
+  double tip_ = 0.0;                // N: largest tip force anywhere
   Thermal thermal_;
   Warming warming_;
 };

@@ -9,14 +9,14 @@ namespace enc::phantom {
 [[nodiscard]] Vec3 tip(const PhantomGeometry& geometry, const PerJoint& q) noexcept;       // in R, m
 [[nodiscard]] Mat3 jacobian(const PhantomGeometry& geometry, const PerJoint& q) noexcept;  // d tip / d q
 
-// The joints that put the tip at p. Upper arm and forearm fold one way only, q2 - q3 in [-90, 90] deg; of the
-// two turret angles that are left, the one that faces p (`ahead`) or the one that leans over backwards to it.
-// False where p is out of reach.
+// Joints that place the tip at p. Upper arm and forearm fold only one way, q2 - q3 in [-90, 90] deg. `ahead`
+// selects one of the two remaining turret angles: the one that faces p, or the one that leans over backwards
+// to it. Returns false if p is out of reach.
 [[nodiscard]] bool inverse(const PhantomGeometry& geometry, const Vec3& p, bool ahead, PerJoint& q) noexcept;
 
 [[nodiscard]] PerJoint gravity(const PhantomGeometry& geometry, const PerJoint& q, double payload,
                                Payload form) noexcept;
-// Without rotors; payload at the tip.
+// Excludes the rotors; the payload acts at the tip.
 [[nodiscard]] Mat3 mass(const PhantomGeometry& geometry, const PerJoint& q, double payload) noexcept;
 
 }  // namespace enc::phantom

@@ -1,5 +1,5 @@
-// The position servo of a machine: of second order, and no faster or harder than it can. The twin moves by
-// it, and a driver whose machine says no more than its position believes it.
+// The position servo of a machine: second order, within the machine's speed and acceleration. The twin moves
+// by it. A driver whose machine reports only its position assumes it.
 #pragma once
 
 #include <algorithm>
@@ -17,27 +17,27 @@ struct ServoLaw {
   double acceleration = 0.41;  // m/s^2
 };
 
-// What a position-controlled machine answers with, as the rig believes.
+// Model of a position-controlled machine's response, by the rig file.
 struct ServoModel {
   double frequency = kUnset;  // natural, rad/s
   double damping = kUnset;    // ratio
   double delay = 0.0;         // s
-  double dt = kUnset;         // s, of the loop
-  // s, of an even motion; no belief makes a machine slower than 0.1 s.
+  double dt = kUnset;         // s, period of the loop
+  // s, at constant speed. The model assumes at most 0.1 s, whatever the rig file says.
   double lag = std::min(0.1, 2.0 * damping / frequency + delay);
-  // Of a tick, implicit in the speed, so that no frequency and no dt make it diverge.
+  // Coefficients of a tick, implicit in the speed, so that no frequency and no dt make the model diverge.
   double turn = frequency * dt;                                    // rad
-  double pull = frequency * turn;                                  // 1/s, to the command
-  double left = 1.0 / (1.0 + 2.0 * damping * turn + turn * turn);  // of the speed
+  double pull = frequency * turn;                                  // 1/s, towards the command
+  double left = 1.0 / (1.0 + 2.0 * damping * turn + turn * turn);  // factor on the speed
 };
 
-// Of one point, in the axes of whoever moves it: m, m/s, m/s^2.
+// Motion of one point, in the axes of the caller: m, m/s, m/s^2.
 struct ServoMotion {
   Vec3 p{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};
 };
 
-// Into so many steps a time is cut: no less than 40 of the servo's period, because a fast servo in one step
-// would be quicker than it is.
+// Number of steps for a time: at least 40 for each servo period, because in one step a fast servo would be
+// quicker than it is.
 [[nodiscard]] inline int servo_steps(const ServoLaw& law, double time) noexcept {
   return static_cast<int>(std::max(1.0, std::ceil(40.0 * law.frequency * time)));
 }
@@ -47,7 +47,7 @@ struct ServoMotion {
   return size > longest ? Vec3(v * (longest / size)) : v;
 }
 
-// Towards `wanted` for this time, s; semi-implicit, so that it stays stable.
+// Moves towards `wanted` for this time, s; semi-implicit, so that it stays stable.
 inline void follow(const ServoLaw& law, const Vec3& wanted, double time, ServoMotion& motion) noexcept {
   const int steps = servo_steps(law, time);
   const double dt = time / steps;
@@ -62,7 +62,7 @@ inline void follow(const ServoLaw& law, const Vec3& wanted, double time, ServoMo
   motion.acceleration = (motion.velocity - before) / time;
 }
 
-// The nearest of the steps that a machine can make, each so long, m; 0: every place.
+// The nearest position on the machine's grid of steps (m); 0: no grid.
 [[nodiscard]] inline Vec3 in_steps(const Vec3& p, double step) noexcept {
   return step > 0.0 ? Vec3((p / step).array().round() * step) : p;
 }

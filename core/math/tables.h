@@ -1,5 +1,5 @@
-// Tables of exp, log and pow. c is the middle of a piece of [0.7, 1.4], chosen so that its entries err
-// little.
+// Tables of exp, log and pow. c is the middle of a piece of [0.7, 1.4], chosen for small errors of its
+// entries.
 //
 // Copyright (c) 2018, Arm Limited.
 // SPDX-License-Identifier: MIT
@@ -8,16 +8,16 @@
 
 namespace enc::math {
 
-// 2^(i/128): what the double nearest to it lacks, and its bits with i taken off the exponent.
+// 2^(i/128): error of the nearest double, and that double's bits with i subtracted from the exponent.
 extern const std::uint64_t kExpTable[256];
 
-// 1/c, log(c), and c itself in two doubles.
+// 1/c, log(c), and c itself as two doubles.
 struct LogRow {
   double inverse, log, c, c_tail;
 };
 extern const LogRow kLogTable[128];
 
-// 1/c of few bits, log(c) in two doubles.
+// 1/c with few bits, log(c) as two doubles.
 struct PowRow {
   double inverse, log, log_tail;
 };
