@@ -1,6 +1,6 @@
-// The fields of what walks through a tick, named once: the record, its layout hash and the state hash all go
-// through here, field by field and never over padding (sources/choices 8).
-// A visitor is called with (name, leaf) for each number.
+// Names every number that passes through a tick, once. The record, its layout hash and the state hash all use
+// these functions, field by field and never over padding (sources/choices 8). A visitor is called with (name,
+// leaf) for each number.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// A frame of a record, field by field: of the record's own files alone.
+// A frame of a record, field by field. Only the record's own files include this.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ void all_fields(F& f, RecordedTick& frame) {
   f("state_hash", frame.hash);
 }
 
-[[nodiscard]] std::size_t frame_words();  // leaves of a frame, a word each
-// Layout hashes, of each task.
+[[nodiscard]] std::size_t frame_words();  // leaves of a frame, one word each
+// Layout hash of each task.
 [[nodiscard]] const std::vector<std::uint64_t>& layouts();
 
 }  // namespace enc

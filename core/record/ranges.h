@@ -1,5 +1,5 @@
-// What a record may say: each number of a frame has a range, checked where it is read. A file may have been
-// written by anybody.
+// Valid ranges of a record's numbers. The reader checks each number of a frame, because a file may come from
+// anywhere.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,15 @@
 
 namespace enc {
 
-// All else that is no double has the range of its type.
-// `index` rises from tick to tick, and at most one contact begins in a tick.
+// Every other number that is not a double has the range of its type. `index` rises from tick to tick, and at
+// most one contact begins in a tick.
 inline constexpr std::int64_t kMostTicks = 1'000'000'000'000;  // `index` and `missed`: 30 years at 1 kHz
-inline constexpr std::int64_t kMostTime = 1'000'000'000'000'000'000;  // ns, of a tick: 30 years; from 0
-inline constexpr std::int64_t kMostPeriod = 1'000'000'000;            // ns, of a tick's length; from 0
-inline constexpr std::int64_t kMostStamp = std::int64_t{1} << 62;     // ns, of a device's stamp: either way
+inline constexpr std::int64_t kMostTime = 1'000'000'000'000'000'000;  // ns, time of a tick, from 0: 30 years
+inline constexpr std::int64_t kMostPeriod = 1'000'000'000;            // ns, length of a tick, from 0
+// Ns, a device's stamp, positive or negative.
+inline constexpr std::int64_t kMostStamp = std::int64_t{1} << 62;
 
-// The values that a leaf of a type can have, both ends included; a double has all.
+// The values that a leaf of a type can have, both ends included; a double can have all.
 struct LeafRange {
   std::int64_t low, high;
 };
@@ -41,12 +42,12 @@ constexpr LeafRange range_of_type() {
     return {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
 }
 
-// A visitor of a frame: looks for its first leaf that is out of its range.
+// A visitor of a frame that finds the first leaf out of its range.
 struct CheckLeaves {
   const std::uint64_t* from;
-  std::int64_t index;    // of the tick before; then of this one
-  std::size_t leaf = 0;  // the next; once one is wrong, that one
-  std::string wrong{};   // empty: none so far
+  std::int64_t index;    // index of the last tick, then of this one
+  std::size_t leaf = 0;  // the next leaf, or the first wrong one
+  std::string wrong{};   // empty: no wrong leaf so far
 
   template <class T>
   void operator()(std::string_view name, T&) {
@@ -63,7 +64,7 @@ struct CheckLeaves {
   }
 
  private:
-  // Of the numbers that count ticks or time since the start, and so cannot be just anything.
+  // Ranges of the numbers that count ticks or time since the start, which are narrower than their types.
   template <class T>
   [[nodiscard]] LeafRange range_of(std::string_view name) const {
     if constexpr (std::is_same_v<T, std::int64_t>) {

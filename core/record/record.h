@@ -1,5 +1,5 @@
-// A run as bytes: inputs and outputs of each tick and the state hash after it, with what is needed to run
-// them again. Format: docs/reference/record.md.
+// A run as bytes: inputs, outputs and state hash of each tick, with everything needed to run them again.
+// Format: docs/reference/record.md.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@
 
 namespace enc {
 
-inline constexpr std::uint32_t kRecordFormat = 2;        // and 1 is read, which says nothing at its end
-using RecordTexts = std::map<std::string, std::string>;  // "resolved", "seed", "version"...: what the run was
+inline constexpr std::uint32_t kRecordFormat = 2;        // also reads format 1, which has no end texts
+using RecordTexts = std::map<std::string, std::string>;  // "resolved", "seed", "version"...: about the run
 
 struct RecordedTick {
   Tick tick;
@@ -24,37 +24,37 @@ struct RecordedTick {
   std::uint64_t hash = 0;  // StateHash after the tick
 };
 
-// Names and types of all leaves of a frame, in order, and of what the task of the scene remembers. Another
-// number is another layout; what other tasks remember does not change it.
+// Hash of the names and types of all leaves of a frame, in order, and of the state of the scene's task. A
+// different number means a different layout; the states of other tasks do not change it.
 [[nodiscard]] std::uint64_t layout_hash(const Scene& scene);
 
 class RecordWriter {
  public:
   static constexpr std::size_t kManyChunks = 256;  // some 18 MB: 16 s at 1 kHz
 
-  // Throws Error where the file cannot be made or its header not be written. With one chunk write() puts it
-  // into the file when it is whole; with more another thread calls drain(), and write() only copies a tick.
-  // file: the empty file at `path`, open for writing, which is closed here; null: it is opened here, too.
+  // Throws Error if it cannot create the file or write its header. With one chunk, write() itself writes each
+  // complete chunk to the file; with more, another thread calls drain(), and write() only copies a tick.
+  // file: the empty file at `path`, open for writing, which the writer closes; null: the writer opens it.
   RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                std::size_t chunks = 1, std::FILE* file = nullptr);
-  ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
+  ~RecordWriter();  // without close() the record stays unsealed: the run did not end properly
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Into memory, no heap. After a failed write, and behind by all chunks, it does nothing: no gap.
+  // Copies to memory, no heap. After a failed write, or if all chunks are full, it does nothing: no gap.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
-  // What is whole is packed and goes to the file. From one thread at a time; the writer's goes, too.
+  // Packs the complete chunks into the file. Call from one thread at a time; the writer's may call it.
   void drain() noexcept;
-  // What is known only when the run has ended: close() puts it before the seal.
+  // Texts known only after the run: close() writes them before the seal.
   void end_with(const RecordTexts& texts);
-  void close() noexcept;  // the rest, how it ended, and the seal
+  void close() noexcept;  // writes the rest, the end texts and the seal
 
   [[nodiscard]] bool full() const noexcept { return errno_ != 0 || behind_; }
-  [[nodiscard]] std::string error() const;                              // one line; empty while all is well
-  [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // taken
+  [[nodiscard]] std::string error() const;                              // one line; empty: no error
+  [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // ticks taken so far
 
  private:
-  using Chunk = std::vector<RecordedTick>;  // with room for most_
+  using Chunk = std::vector<RecordedTick>;  // has capacity for most_
   void put(const void* bytes, std::size_t size) noexcept;
   void flush_chunk() noexcept;
   void take_away(Chunk& chunk) noexcept;  // through words_ into the file
@@ -62,37 +62,37 @@ class RecordWriter {
 
   std::string path_;
   std::FILE* file_ = nullptr;
-  std::size_t most_;  // ticks of a chunk
+  std::size_t most_;  // ticks in a chunk
   std::vector<Chunk> chunks_;
-  std::atomic<std::size_t> whole_ = 0, in_file_ = 0;  // chunks; the one that is filled is number whole_
-  std::vector<std::uint64_t> words_;  // of the chunk that goes to the file: head, leaves, checksum
-  std::vector<std::uint64_t> end_;    // as a chunk, of what is said at the end; empty: nothing
+  std::atomic<std::size_t> whole_ = 0, in_file_ = 0;  // chunk counts; number whole_ is being filled
+  std::vector<std::uint64_t> words_;                  // chunk being written: head, leaves, checksum
+  std::vector<std::uint64_t> end_;                    // the end texts as a chunk; empty: no texts
   StateHash chain_;
   std::int64_t ticks_ = 0;
   std::atomic<int> errno_ = 0;
-  bool behind_ = false;  // the file, by all chunks
+  bool behind_ = false;  // the file lags by all chunks
 };
 
-// yes: reads the whole chunks of a record that is cut off or was never sealed.
+// yes: reads the complete chunks of a record that is cut off or was never sealed.
 enum class Partial { no, yes };
 
-// Whether a file begins as a record does; false where there is none.
+// True if a file begins as a record does; false if there is no file.
 [[nodiscard]] bool is_record(const std::string& path);
 
 class RecordReader {
  public:
-  // Checks the whole file (ranges.h) before the first frame is given out. Throws Error with the byte.
+  // Checks the whole file (ranges.h) before it returns the first frame. Throws Error with the byte.
   explicit RecordReader(const std::string& path, Partial partial = Partial::no);
 
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
-  // What was said when the run had ended, such as "ledger"; empty where it did not end, or said nothing.
+  // Texts written after the run, such as "ledger"; empty if the run did not end, or has no end texts.
   [[nodiscard]] const RecordTexts& end_texts() const { return end_texts_; }
   [[nodiscard]] std::uint64_t layout() const { return layout_; }  // layout_hash() of its scene
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
   [[nodiscard]] bool sealed() const { return sealed_; }
-  // Of a partial record that was not only cut off: what is wrong, with the byte; no tick behind it is read.
+  // Damage of a partial record beyond being cut off, with the byte; the reader stops before it.
   [[nodiscard]] const std::string& damage() const { return damage_; }
-  // The next frame; false after the last.
+  // Reads the next frame; false after the last.
   bool next(RecordedTick& frame);
   void rewind();
 
@@ -100,7 +100,7 @@ class RecordReader {
   [[noreturn]] void fail(std::uint64_t byte, const std::string& what) const;
   bool get(void* bytes, std::size_t size);
   void read_header();
-  bool read_chunk();  // false at the seal, or at the last whole chunk of a partial record
+  bool read_chunk();  // false at the seal, or at the last complete chunk of a partial record
 
   std::string path_;
   Partial partial_;
@@ -109,10 +109,10 @@ class RecordReader {
   std::uint32_t format_ = kRecordFormat;
   std::vector<std::uint64_t> chunk_;  // leaves
   std::size_t used_ = 0;
-  std::uint64_t size_ = 0, byte_ = 0, first_chunk_ = 0;  // of the file; where it is read; of the first chunk
+  std::uint64_t size_ = 0, byte_ = 0, first_chunk_ = 0;  // file size; read position; first chunk's position
   StateHash chain_, header_chain_;
   std::uint64_t layout_ = 0;
-  std::int64_t ticks_ = 0, index_ = -1;  // of the last tick of the last chunk
+  std::int64_t ticks_ = 0, index_ = -1;  // index of the last tick of the last chunk
   bool sealed_ = false, done_ = false, told_end_ = false;
   std::string damage_;
 };

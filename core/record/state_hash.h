@@ -1,5 +1,5 @@
-// The hash of all that a run computes: equal hashes, equal bits. Field by field and never over padding
-// (sources/choices 8).
+// The hash of everything that a run computes: equal hashes mean equal bits. It goes field by field and never
+// over padding (sources/choices 8).
 #pragma once
 
 #include <bit>
@@ -12,8 +12,8 @@
 
 namespace enc {
 
-// A leaf as eight bytes. Every NaN is the same NaN; -0 and 0 stay apart,
-// because a bit-exact replay can tell them.
+// A leaf as eight bytes. Every NaN becomes one NaN; -0 and 0 stay different, because a bit-exact replay can
+// distinguish them.
 template <class T>
 [[nodiscard]] std::uint64_t leaf_bits(const T& x) {
   if constexpr (std::is_same_v<T, double>)
@@ -41,8 +41,8 @@ void set_leaf(T& x, std::uint64_t bits) {
     x = static_cast<T>(bits);
 }
 
-// 64-bit mixing hash over leaves, chained from tick to tick.
-// Not cryptographic: it finds differences, not forgers.
+// 64-bit mixing hash over leaves, chained from tick to tick. It is not cryptographic: it finds differences,
+// not forgeries.
 struct StateHash {
   std::uint64_t value = 0x9e3779b97f4a7c15ULL;
   void add(std::uint64_t bits) {

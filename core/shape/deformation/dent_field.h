@@ -1,5 +1,5 @@
-// The one formula of the dent, for one point, in double for the core and in float for what is drawn. Internal
-// to dent.cpp and dent_array.cpp.
+// The one formula of the deformation, for one point, in double for the core and in float for drawing.
+// Internal to dent.cpp and dent_array.cpp.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Shift {
   T gx, gy, gz;  // its gradient
 };
 
-// Of the ball that sinks, without the tip: by = s (1 - |c|^2 / L^2)^3.
+// Displacement of a sinking ball, without the tip: by = s (1 - |c|^2 / L^2)^3.
 template <class T>
 inline Shift<T> sinking(const DentField<T>& f, T x, T y, T z) noexcept {
   const T cx = x - f.contact[0];
@@ -70,7 +70,7 @@ inline Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
   const T steep = (round ? T(1) : f.slope) / root;
   const T v = h - ball.by - boundary;
   // u = b t^4 up to v = b, then v itself; t = (v + 3b) / 4b.
-  const T per_width = T(1) / (T(4) * f.blend);  // the same for all points
+  const T per_width = T(1) / (T(4) * f.blend);  // equal for all points
   const T wide = (v + T(3) * f.blend) * per_width;
   const T positive = wide > T(0) ? wide : T(0);
   const T t = positive < T(1) ? positive : T(1);

@@ -1,5 +1,5 @@
-// What makes a response fit for an admittance: it grows with deflection, and nowhere more slowly than the
-// loop renders.
+// Conditions on a response for an admittance: it grows with deflection, and everywhere at least as fast as
+// the loop can render.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace enc::response {
 
-// The first interval of [0, 1] on which f < 0, in steps fine enough that no dip of note hides between them.
+// The first interval of [0, 1] with f < 0. The steps are so fine that no relevant dip hides between them.
 struct Interval {
   double from = 0.0, to = 0.0;
   bool found = false;
@@ -33,7 +33,7 @@ Interval first_below_zero(const F& f) {
   return bad;
 }
 
-// A number to three decimals, or to six digits where nobody counts them, without a locale.
+// A number with three decimals, or six digits for large numbers, independent of the locale.
 inline std::string decimals(double x) {
   constexpr double kLarge = 1e6;
   std::array<char, 32> text{};

@@ -1,5 +1,5 @@
-// Eight floats side by side. Generic vectors of the compiler: two SSE registers on any x86-64, so that every
-// machine computes the same bits.
+// Eight floats side by side, as generic vectors of the compiler: two SSE registers on any x86-64, so that
+// every machine computes the same bits.
 #pragma once
 
 #include <cstring>
@@ -12,7 +12,7 @@ struct Lanes {
   Four lo, hi;
 
   static Lanes all(float x) { return {Four{x, x, x, x}, Four{x, x, x, x}}; }
-  // From and to eight floats in a row.
+  // Loads and stores eight consecutive floats.
   static Lanes load(const float* p) {
     Lanes x;
     std::memcpy(&x, p, sizeof x);
@@ -26,7 +26,7 @@ struct Lanes {
   friend Lanes min(Lanes a, Lanes b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi}; }
   friend Lanes max(Lanes a, Lanes b) { return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi}; }
 
-  // Per lane: yes or no.
+  // One truth value for each lane.
   struct Mask {
     Bits lo, hi;
     friend Mask operator&(Mask a, Mask b) { return {a.lo & b.lo, a.hi & b.hi}; }
@@ -43,7 +43,7 @@ struct Lanes {
     }
   };
   friend Mask operator<=(Lanes a, Lanes b) { return {a.lo <= b.lo, a.hi <= b.hi}; }
-  // 0 where the mask says yes, else `a`.
+  // 0 in lanes where the mask is true, else `a`.
   friend Lanes unless(Mask yes, Lanes a) {
     const Four zero{};
     return {yes.lo ? zero : a.lo, yes.hi ? zero : a.hi};

@@ -1,5 +1,5 @@
-// A triangle mesh as data: what files give and what the search tree is built from. Vertices in O, m;
-// triangles counter-clockwise seen from outside.
+// A triangle mesh as data: read from files, and the input of the search tree. Vertices in O, m; triangles
+// counter-clockwise seen from outside.
 #pragma once
 
 #include <array>

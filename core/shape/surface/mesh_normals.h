@@ -1,4 +1,4 @@
-// What of a mesh the sign needs: which triangles meet at an edge, and the pseudo-normals of the vertices
+// Mesh data for the sign of the distance: neighbours across edges, and pseudo-normals of the vertices
 // [Baerentzen and Aanaes 2005].
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace enc {
 
-// For each triangle the one across its edge i (from corner i to corner i + 1); -1 where there is none.
+// The triangle across each edge i (from corner i to corner i + 1) of each triangle; -1: no neighbour.
 [[nodiscard]] std::vector<std::array<std::int32_t, 3>> neighbours_of(const Mesh& mesh);
 
-// Unit normals of the faces around a vertex, weighted by their angles there, made unit; zero where they
+// Unit vertex normals: the mean of the surrounding face normals, weighted by their angles there; zero if they
 // cancel.
 [[nodiscard]] std::vector<std::array<double, 3>> vertex_normals_of(const Mesh& mesh);
 

@@ -17,13 +17,14 @@ struct Sphere {
   double radius = kUnset;
 };
 
-// Box whose face is at z = 0 of O: a button of [VisHap 2.2], a key, a tile. It is pressed on its face alone:
-// from inside, that is what is nearest, however deep; never a side.
+// Box whose face is at z = 0 of O: a button of [VisHap 2.2], a key, a tile. Only its face can be pressed:
+// from inside, the face is always the nearest part, however deep, and never a side.
 struct Button {
-  double width = kUnset, height = kUnset;  // of the face, along x and y of O, m
-  double thickness = 0.050;                // of the solid behind it, m
+  // Size of the face along x and y of O, m.
+  double width = kUnset, height = kUnset;
+  double thickness = 0.050;  // thickness of the solid behind the face, m
 };
-// What of a button is nearest: Nearest::feature.
+// The nearest part of a button: Nearest::feature.
 inline constexpr std::int32_t kButtonFace = 0, kButtonSide = 1;
 
 class MeshTree;
@@ -32,7 +33,8 @@ struct MeshSurface {
   std::shared_ptr<const MeshTree> tree;
 };
 
-// A ball that holds the whole object. Signed distance to the object >= |p - centre| - radius, inside as well.
+// A ball that contains the whole object. The signed distance to the object is at least |p - centre| - radius,
+// inside too.
 struct Ball {
   Point<'O'> centre;
   double radius = kUnset;  // m; infinite for a half space
@@ -41,9 +43,9 @@ struct Ball {
 struct Nearest {
   Point<'O'> point;          // on the surface
   Vec<'O'> normal;           // outward, unit
-  double distance = kUnset;  // of the query, m; negative inside
-  std::int32_t feature =
-      -1;  // which part of the surface; a hint for the next query. -1: the surface has no parts
+  double distance = kUnset;  // distance of the query, m; negative inside
+  // The part of the surface, a hint for the next query. -1: the surface has no parts.
+  std::int32_t feature = -1;
 };
 
 class Surface {
@@ -53,12 +55,12 @@ class Surface {
 
   [[nodiscard]] const Shape& shape() const { return shape_; }
   [[nodiscard]] Ball bound() const noexcept;
-  // Nearest surface point to p. Where several are equally near the choice is fixed: +z at the centre of a
-  // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it makes the
-  // search faster and changes nothing else.
+  // Nearest surface point to p. If several are equally near, the choice is fixed: +z at the centre of a
+  // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it only makes the
+  // search faster.
   [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
-  // The point over the face that is nearest to p, if it is no farther than `margin`; else p. Of a button; of
-  // what has no face of its own p itself.
+  // Button: the nearest point over the face, if it is within `margin` of p; else p. Shapes without a face
+  // return p.
   [[nodiscard]] Point<'O'> over_face(const Point<'O'>& p, double margin) const noexcept;
 
  private:

@@ -1,5 +1,5 @@
-// The point of a triangle that is nearest to p, in double. Slivers are no special case: nothing is divided by
-// an area.
+// The point of a triangle that is nearest to p, in double. Slivers need no special case, because no step
+// divides by an area.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace enc {
 
 [[nodiscard]] inline Vec3 vec(const std::array<double, 3>& a) noexcept { return {a[0], a[1], a[2]}; }
 
-// Which part of a triangle: its corner i, its edge from corner i to corner i + 1, or its inside.
+// Part of a triangle: its corner i, its edge from corner i to corner i + 1, or its inside.
 struct Part {
   enum Kind : std::uint8_t { face, edge, corner };
   Kind kind = face;
@@ -20,18 +20,18 @@ struct Part {
 };
 struct OnTriangle {
   Vec3 point;
-  double square = 0.0;  // of the distance, m^2
+  double square = 0.0;  // squared distance, m^2
   Part part;
 };
 
 // Corners counter-clockwise seen from outside. `ids` name the corners: an edge is computed from its lower to
-// its higher name, so that both its triangles give the same bits.
+// its higher id, so that both its triangles give the same bits.
 inline OnTriangle nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corner,
                                       const std::array<std::int32_t, 3>& ids) {
   const std::array<Vec3, 3> side{corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2]};
   const std::array<Vec3, 3> way{p - corner[0], p - corner[1], p - corner[2]};
   const Vec3 normal = side[0].cross(side[1]);
-  // Exactly on an edge is on the edge: it has a normal of its own.
+  // A point exactly on an edge counts as on the edge, which has its own normal.
   const bool inside = normal.dot(side[0].cross(way[0])) > 0.0 && normal.dot(side[1].cross(way[1])) > 0.0 &&
                       normal.dot(side[2].cross(way[2])) > 0.0;
   if (inside) {
