@@ -1,4 +1,4 @@
-// What is done about energy that a law gives out by being sampled, late or counted (passivity.h).
+// Treatment of the energy that a law gives out because it is sampled, delayed or quantised (passivity.h).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace enc {
 enum class PassivityForm : std::uint8_t { none, controlled };
 constexpr auto words(PassivityForm) { return enum_words("none", "controlled"); }
 
-// Refuses one that has nothing to control, for this reason; `key`: of the rig.
+// Refuses a passivity controller that has nothing to control, for this reason; `key`: of the rig.
 [[noreturn]] inline void refuse_passivity(const std::string& why, const std::string& key) {
   throw Error("the passivity controller has nothing to control: " + why + "; expected passivity = 'none'",
               key);

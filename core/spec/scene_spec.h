@@ -1,6 +1,6 @@
-// A scene: what the experiment is. These structs are the file format (models/scenes/*.toml), with its
-// defaults; SI here, units in the file's keys. What a scene does not name is not built, not ticked and not
-// given a thread. What only one task needs is a part of its own (probe_spec.h, travel_spec.h).
+// A scene: the definition of the experiment. These structs are the file format (models/scenes/*.toml), with
+// its defaults; SI here, units in the file's keys. A device that the scene does not name is not built, not
+// ticked and gets no thread. Keys of a single task are a part of their own (probe_spec.h, travel_spec.h).
 #pragma once
 
 #include <array>
@@ -25,42 +25,45 @@ struct ToolSpec {
   Vec3 tip{0, 0, 0};            // centre of the tip's sphere in T
   double tip_radius = 0.002;    // 0: a point
   TipShape tip_shape = TipShape::sphere;
-  Vec3 tip_axis{kUnset, kUnset, kUnset};  // in T, unit; cone: from the apex into the tool, edge: along it
-  double tip_half_angle = kUnset;         // cone, rad
-  double tip_edge = kUnset;               // edge: its length, m
-  double mass = 0.05;                     // kg, with its markers
+  // Unit, in T. Cone: from the apex into the tool; edge: along it.
+  Vec3 tip_axis{kUnset, kUnset, kUnset};
+  double tip_half_angle = kUnset;  // cone, rad
+  double tip_edge = kUnset;        // edge: length, m
+  double mass = 0.05;              // kg, including markers
 };
 
 struct FollowSpec {
-  double inset = 0.0005;      // how far inside the surface the tip waits, m
-  double pause = 0.100;       // tool farther than this: do not travel [VHMR 3.3]
-  double resume = 0.090;      // and travel again below this
-  double hysteresis = 0.001;  // another object must be nearer by this to take over, m
-  double ahead = 0.0;         // s: the nearest object is that of where the tool will be by then
+  double inset = 0.0005;      // m, depth of the waiting tip below the surface
+  double pause = 0.100;       // m, tool farther than this: do not travel [VHMR 3.3]
+  double resume = 0.090;      // m, tool nearer than this: travel again
+  double hysteresis = 0.001;  // m, another object must be nearer by this to take over
+  double ahead = 0.0;         // s: the nearest object is chosen for the tool's position by then
 };
 
-// Which machine carries the haptic-tip.
+// The machine that carries the haptic-tip.
 enum class ManipulatorKind : std::uint8_t { hexapod };
 constexpr auto words(ManipulatorKind) { return enum_words("hexapod"); }
 struct ManipulatorSpec {
   ManipulatorKind kind = ManipulatorKind::hexapod;
 };
-struct ArmSpec {};  // which one, the rig says
-// What the arm carries at its tip [VisHap 2]: a thing with a front that the finger touches.
+struct ArmSpec {};  // the rig defines the arm
+// The prop at the arm's tip [VisHap 2]: a thing with a front that the finger touches.
 struct PropSpec {
   PropKind kind = PropKind::plate;
-  double mass = 0.020;           // kg
-  Vec3 size{0.03, 0.03, 0.002};  // along x and y of its front, and behind it, m
+  double mass = 0.020;  // kg
+  // Along x and y of its front, and behind it, m.
+  Vec3 size{0.03, 0.03, 0.002};
 };
 struct ForceSpec {};
 struct TrackerSpec {};
-struct CameraSpec {};  // the tracker looks through a stereo camera, which the rig says
+struct CameraSpec {};  // the tracker uses the rig's stereo camera
 struct DisplaySpec {};
 struct GripperSpec {
-  std::string tool;  // clamped, its tip at H and its shaft upwards; empty: the first
+  // Clamped, its tip at H and its shaft upwards; empty: the first.
+  std::string tool;
 };
 
-// What the person is asked afterwards. Nothing of it is simulated.
+// Questions to the person after the experiment; they are not simulated.
 struct QuestionnaireSpec {
   std::string form;  // file in models/questionnaires without ".toml"
 };
@@ -68,7 +71,8 @@ struct QuestionnaireSpec {
 struct SceneSpec : ProbePart, TravelPart {
   std::int64_t format = 1;
   std::string title;
-  std::string rig;  // in models/rigs, that it is made for; empty: "sim"
+  // Rig in models/rigs that the scene is made for; empty: "sim".
+  std::string rig;
   std::vector<ObjectSpec> objects;
   std::vector<ToolSpec> tools;
   FollowSpec follow;

@@ -1,5 +1,5 @@
-// A driver's own table of the rig file, [driver.NAME]. The driver declares its keys once; whoever reads,
-// lists or writes the table is a visitor of that declaration.
+// A driver's own table of the rig file, [driver.NAME]. The driver declares its keys once; readers, listers
+// and writers of the table are visitors of that declaration.
 //
 //   struct Wire { std::string address = "127.0.0.1"; double timeout = 0.1; };
 //   void declare(Settings& table, Wire& wire) {
@@ -17,15 +17,15 @@
 
 namespace enc {
 
-// A key. A number carries its unit at the end of its name, "timeout_ms"; in memory it is SI. What the
-// variable holds before it is read is the default.
+// A key. A number carries its unit at the end of its name, "timeout_ms"; in memory it is SI. The variable's
+// value before reading is the default.
 struct Setting {
   std::string_view name, meaning;
-  double low = -std::numeric_limits<double>::infinity();  // in the unit of the name
+  double low = -std::numeric_limits<double>::infinity();  // limits, in the name's unit
   double high = std::numeric_limits<double>::infinity();
-  bool needed = false;                        // has no default that could be right
-  std::span<const std::string_view> words{};  // of a text: what it may be; empty: anything
-  std::string_view source = "driver";         // of the default
+  bool needed = false;                        // true: no default could be right
+  std::span<const std::string_view> words{};  // text only: valid values; empty: any
+  std::string_view source = "driver";         // source of the default
 };
 
 class Settings {
@@ -37,14 +37,14 @@ class Settings {
   virtual void value(const Setting& key, std::vector<double>& numbers) = 0;
 };
 
-// The table as the file has it: kept as text, because its driver alone knows what it means.
+// The table as text from the file, because only its driver can interpret it.
 struct DriverValue {
   std::string key, text;        // "port", "4711"
   std::string meaning, source;  // empty until the driver has read it
 };
 struct DriverTable {
-  std::string name;                 // of the driver
-  std::vector<DriverValue> values;  // by key
+  std::string name;                 // name of the driver
+  std::vector<DriverValue> values;  // sorted by key
 };
 
 }  // namespace enc

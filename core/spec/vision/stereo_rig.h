@@ -10,7 +10,7 @@
 
 namespace enc {
 
-// A pinhole with radial and tangential distortion, as OpenCV has it: k1, k2, p1, p2, k3.
+// A pinhole with radial and tangential distortion, in OpenCV's order: k1, k2, p1, p2, k3.
 struct Lens {
   double focal_x = 721.0, focal_y = 721.0;    // px
   double centre_x = 319.5, centre_y = 239.5;  // px
@@ -25,12 +25,12 @@ struct Lens {
 // 1280 x 960 binned to 640 x 480 (sources/tracking 7).
 struct StereoRig {
   std::string driver = "none";
-  std::string calibration;                 // file that says the rest; empty: the numbers here
-  std::int64_t width = 640, height = 480;  // px, of each image
+  std::string calibration;                 // file with the other keys; empty: the numbers here
+  std::int64_t width = 640, height = 480;  // px, each image
   double rate = 20.0;                      // Hz, frames
   double latency = 0.050;                  // s, from exposure to the fingertip
   Lens left, right;
-  Pose<'C', 'D'> X_CD = Pose<'C', 'D'>::shift(0.090, 0, 0);  // of the right camera
+  Pose<'C', 'D'> X_CD = Pose<'C', 'D'>::shift(0.090, 0, 0);  // right camera in C
 
   [[nodiscard]] ImageSize size() const { return {static_cast<int>(width), static_cast<int>(height)}; }
 };

@@ -14,9 +14,9 @@ struct VisionRig {
   FingertipSpec fingertip;
   TrackSpec track;
   MatchSpec match;
-  BallSpec ball;  // of the registration through the images
-  // px of the rectified left image, in which a finger that is not tracked is sought; empty: everywhere. One
-  // that is tracked may leave it.
+  BallSpec ball;  // ball for the registration through the images
+  // Search region for an untracked finger, px of the rectified left image; empty: everywhere. A tracked
+  // finger may leave it.
   Region search;
 };
 
