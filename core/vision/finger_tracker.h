@@ -1,4 +1,4 @@
-// From a pair of raw images to the fingertip in C: rectified where it is looked at, skin, disparity,
+// Tracks the fingertip in C from pairs of raw images: rectification of the needed region, skin, disparity,
 // fingertip, filter [VisHap 2.1].
 #pragma once
 
@@ -17,49 +17,50 @@
 
 namespace enc {
 
-// Why a frame told nothing.
+// Reason for refusing a frame.
 enum class Refused : std::uint8_t { no, size, missing, stamp, exchanged };
 constexpr auto words(Refused) { return enum_words("no", "size", "missing", "stamp", "exchanged"); }
 
-// What the last frame took.
+// Effort and results for the last frame.
 struct LookStats {
   Refused refused = Refused::no;
-  Region window;             // in which candidates were sought
-  bool whole_frame = false;  // the window is all there is
-  std::int64_t pixels = 0;   // segmented
+  Region window;             // region searched for candidates
+  bool whole_frame = false;  // the window covers the whole frame
+  std::int64_t pixels = 0;   // pixels segmented
   std::int64_t cells_sought = 0, cells_matched = 0;
   StepCounts steps;
-  Fingertip tip;            // as found in the image: neither the filter nor a doubt has been asked yet
-  Doubt doubt = Doubt::no;  // why the fingertip that there was is not believed
-  FingerEvidence evidence;  // of that or of the one that is believed
-  Triplet found;            // the same, with its disparity
+  Fingertip tip;            // as found in the image, before filter and doubt
+  Doubt doubt = Doubt::no;  // reason to doubt the found fingertip
+  FingerEvidence evidence;  // evidence of that fingertip, or of the accepted one
+  Triplet found;            // that fingertip with its disparity
   Vec3 variance = Vec3::Constant(kUnset);
-  bool beyond_gate = false;  // there was one, but too far from where the finger can be
-  int misses = 0;            // frames in a row without a finger
+  bool beyond_gate = false;  // one was found, but too far from the possible positions
+  int misses = 0;            // consecutive frames without a finger
 };
 
 class FingerTracker {
  public:
-  // Throws Error where a spec or the rig is impossible. `search`: where a finger that is not tracked is
-  // sought, px of the rectified left image; empty: everywhere.
+  // Throws Error if a spec or the rig is impossible. `search`: search region for an untracked finger, px of
+  // the rectified left image; empty: everywhere.
   FingerTracker(const StereoRig& rig, const SegmentationSpec& segmentation, const FingertipSpec& fingertip,
                 const TrackSpec& track, const MatchSpec& match = {}, const Region& search = {});
   ~FingerTracker();
   FingerTracker(FingerTracker&&) noexcept;
 
-  // A frame that cannot be used (another size, an image missing, not later than the one before, left and
-  // right exchanged) changes nothing and gives no place. Allocates nothing once the background is learned.
+  // An unusable frame (another size, a missing image, not later than the last one, left and right exchanged)
+  // changes nothing and gives no position. Allocates nothing once the background is learned.
   Finger see(const StereoFrame& frame, Time exposed) noexcept;
 
   [[nodiscard]] const LookStats& stats() const;
   [[nodiscard]] const RectifiedPair& pair() const;
-  [[nodiscard]] const std::vector<FingertipFinder::Candidate>& candidates() const;  // of the last look
-  [[nodiscard]] const Mask& skin() const;  // valid where the last frame was segmented
-  [[nodiscard]] bool learned() const;      // the background
-  // A fingertip of the hue of skin stood in some frame from which the background was learned: it has become
-  // background itself and will be seen badly there. Start again without it.
+  // Candidates of the last look.
+  [[nodiscard]] const std::vector<FingertipFinder::Candidate>& candidates() const;
+  [[nodiscard]] const Mask& skin() const;  // valid if the last frame was segmented
+  [[nodiscard]] bool learned() const;      // the background is learned
+  // True if a fingertip with the hue of skin was in a frame that taught the background. It is now part of the
+  // background, and detection is poor there; start again without it.
   [[nodiscard]] bool finger_in_background() const;
-  // Forgets the finger, not the background.
+  // Forgets the finger, but not the background.
   void forget();
 
  private:

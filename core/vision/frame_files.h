@@ -1,4 +1,4 @@
-// What the module of images does besides playing them: how an image becomes a file.
+// Export of the images module besides playback: writing an image to a file.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace enc {
 
 struct FrameFiles {
-  // The bytes of a PNG, from which the same pixels come back. Throws Error.
+  // The bytes of a PNG without loss of pixels. Throws Error.
   std::string (*png)(const ImageView& image) = nullptr;
 };
 

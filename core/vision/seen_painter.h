@@ -1,4 +1,4 @@
-// What vision made of a pair of images, drawn into them: skin, candidates, fingertip [VisHap Figs 2 and 3].
+// The results of vision drawn into a pair of images: skin, candidates, fingertip [VisHap Figs 2 and 3].
 #pragma once
 
 #include "core/devices/pose_tracker.h"
@@ -13,9 +13,9 @@ struct SeenPair {
 class SeenPainter {
  public:
   virtual ~SeenPainter() = default;
-  // `frame`: the one that the tracker saw last. In the left image skin is tinted green where the tracker
-  // looked for it, and candidates are yellow dots. The fingertip is a red circle, a grey one where it is not
-  // believed. The images are plain where the tracker is none of this module.
+  // `frame`: the tracker's last frame. The left image has a green tint on skin within the searched region,
+  // and yellow dots on candidates. The fingertip is a red circle, or a grey one if it is doubtful. The images
+  // are plain if the tracker is not from this module.
   [[nodiscard]] virtual SeenPair draw(const StereoFrame& frame, const PoseTracker& tracker) const = 0;
 };
 

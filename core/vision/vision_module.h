@@ -1,4 +1,4 @@
-// The module encounter_vision: what a scene without a camera never loads.
+// The module encounter_vision, which a scene without a camera never loads.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,24 @@
 
 namespace enc {
 
-// When a place is told.
+// Time at which a position is released.
 enum class Release : std::uint8_t {
-  when_due,  // the rig's latency after the exposure, however long the work took: the same in every run
-  when_done  // in wall time, as soon as it is there
+  // The rig's latency after the exposure, however long the computation took: equal in every run.
+  when_due,
+  when_done  // in wall time, as soon as it is computed
 };
 
 struct VisionModule {
-  // A tracker of a bare fingertip that looks through the camera. Throws Error where the numbers are
-  // impossible.
+  // A tracker of a bare fingertip that uses the camera. Throws Error if the numbers are impossible.
   std::unique_ptr<PoseTracker> (*tracker)(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
                                           const VisionRig& vision, Release release) = nullptr;
-  // As AugmentedView's constructor.
+  // Arguments as for AugmentedView's constructor.
   std::unique_ptr<AugmentedView> (*augmented)(const AugmentedSpec& spec,
                                               std::span<const Object> objects) = nullptr;
-  // Of what its trackers saw through such a camera.
+  // A painter for the results of the module's trackers with such a camera.
   std::unique_ptr<SeenPainter> (*painter)(const StereoRig& rig) = nullptr;
-  // Of the ball at the arm's tip, with the head as it is believed. Throws Error likewise.
+  // A finder of the ball at the arm's tip, with the rig's model of the head. Throws Error if the numbers are
+  // impossible.
   std::unique_ptr<BallFinder> (*ball)(const StereoRig& rig, const BallSpec& ball) = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// The user's view without the haptic device and with the virtual objects in its place [VisHap 3]: out of the
-// left image, the joints as measured, and what is believed of arm and camera.
+// The user's view with virtual objects in place of the haptic device [VisHap 3]. Its inputs are the left
+// image, the measured joints, and the rig's model of arm and camera.
 #pragma once
 
 #include <memory>
@@ -14,48 +14,51 @@
 
 namespace enc {
 
-// What does not change while it runs. All of it as believed.
+// Constants of a run, all from the rig file and the scene.
 struct AugmentedSpec {
   StereoRig camera;
   SegmentationSpec segmentation;
-  std::optional<ArmMachine> arm;  // none: nothing is taken out
-  std::optional<Vec3> prop;       // its size, m
+  std::optional<ArmMachine> arm;  // unset: no arm is removed
+  std::optional<Vec3> prop;       // size of the prop, m
   Pose<'W', 'R'> X_WR;
   Pose<'W', 'C'> X_WC;
-  // px round the arm's outline that are replaced, too. At 650 mm a pixel is 0.9 mm: a registration off by 0.3
-  // mm and joints a tick older than the image at 300 mm/s are 0.5 px together, a prop that is turned by 5
-  // degrees more than believed 1.4 px at its corners, and an edge is a pixel wide.
+  // px around the arm's outline that are replaced too. At 650 mm a pixel is 0.9 mm. A registration off by 0.3
+  // mm and joints a tick older than the image at 300 mm/s are 0.5 px together. A prop rotated 5 degrees more
+  // than assumed is 1.4 px at its corners, and an edge is a pixel wide.
   double margin = 3.0;
-  double opacity = 0.6;  // of a virtual object
+  double opacity = 0.6;  // opacity of a virtual object
 };
 
-// What an image was exposed in.
+// The state at the exposure of an image.
 struct AugmentedMoment {
-  PerJoint joints{};             // measured
-  Quat q_WN = Quat::Identity();  // the prop's front faces along z of N, as is believed
-  // Of the fingertip that the tracker sees: what of an object is nearer than that covers the hand. NaN: none
-  // is seen, and a hand covers the objects.
+  PerJoint joints{};  // measured
+  // The prop's assumed orientation: its front faces along z of N.
+  Quat q_WN = Quat::Identity();
+  // The tracked fingertip: parts of an object that are nearer than it cover the hand. NaN: no fingertip is
+  // seen, and a hand covers the objects.
   Point<'C'> finger;
-  std::vector<Vec<'W'>> moved;  // each object, from where the scene has it; empty: none
+  // Each object's displacement from its place in the scene; empty: none moved.
+  std::vector<Vec<'W'>> moved;
 };
 
 class AugmentedView {
  public:
-  // The objects of a scene, where they stand. Throws Error where rig or spec are impossible.
+  // The objects of a scene at their places. Throws Error if rig or spec are impossible.
   AugmentedView(const AugmentedSpec& spec, std::span<const Object> objects);
   virtual ~AugmentedView();
   AugmentedView(const AugmentedView&) = delete;
   AugmentedView& operator=(const AugmentedView&) = delete;
 
-  // A raw left image of the rig's size; each later than the one before. The first ones are the background's,
-  // as the tracker's.
+  // Takes a raw left image of the rig's size, each later than the last one. The first images teach the
+  // background, as for the tracker.
   virtual void see(const ImageView& left, const AugmentedMoment& moment);
 
-  // Of the last image, rectified. Replaced: pixels that are believed to be the arm's and are no skin.
+  // Results for the last image, rectified. Replaced: pixels that belong to the arm by its model and are not
+  // skin.
   [[nodiscard]] virtual const Image& removed() const;
   [[nodiscard]] virtual const Image& augmented() const;
   [[nodiscard]] virtual const Mask& replaced() const;
-  // Where the background is known, from frames in which nothing stood before it.
+  // Pixels with known background, from frames in which it was uncovered.
   [[nodiscard]] virtual const Mask& known() const;
 
  private:

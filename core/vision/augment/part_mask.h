@@ -1,4 +1,4 @@
-// Where a part of the arm is in the rectified left image, as it is believed to stand.
+// Pixels of an arm's part in the rectified left image, by the part's modelled position.
 #pragma once
 
 #include "core/base/image.h"
@@ -7,8 +7,8 @@
 
 namespace enc::augment {
 
-// Turns on the pixels of the part and those nearer than `margin` px to it. Of what is not in front of the
-// camera only the rest counts.
+// Sets the pixels of the part, and those within `margin` px of it. Only the portion of the part in front of
+// the camera counts.
 void cover(const RectifiedPair& pair, const Pose<'C', 'W'>& X_CW, const ArmPart& part, double margin,
            Mask& mask);
 

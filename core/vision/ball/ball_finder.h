@@ -1,7 +1,6 @@
-// Where the centre of a coloured ball is, out of one pair of raw images: for the registration of camera and
-// arm. It knows nothing of the frame before, and rather finds nothing than something else: a spot of the
-// ball's colour is round in both images, in the same row, and as large as its distance makes it; and no
-// other.
+// Finds the centre of a coloured ball in one pair of raw images, for the registration of camera and arm. It
+// ignores earlier frames, and prefers no result to a wrong one. A spot of the ball's colour must be round in
+// both images, in one row, and as large as its distance requires. There must be no other such spot.
 #pragma once
 
 #include <array>
@@ -41,20 +40,20 @@ struct FoundBall {
   [[nodiscard]] bool found() const { return loss == BallLoss::none; }
 };
 
-// Virtual, because whoever registers has it from the module `vision`.
+// Virtual, because the registration gets it from the module `vision`.
 class BallFinder {
  public:
-  // Throws Error where the numbers are impossible.
+  // Throws Error if the numbers are impossible.
   BallFinder(const StereoRig& rig, const BallSpec& spec);
   virtual ~BallFinder();
   BallFinder(const BallFinder&) = delete;
   BallFinder& operator=(const BallFinder&) = delete;
 
-  // A frame of another size than the rig's has no ball.
+  // Finds no ball in a frame of another size than the rig's.
   virtual FoundBall find(const StereoFrame& frame);
 
  private:
-  // What is round in an image.
+  // A round spot in an image.
   struct Round {
     BallOutline outline;
     BallEdges edges;
@@ -62,7 +61,7 @@ class BallFinder {
   struct Rounds {
     std::array<Round, kMostBlobs> round;
     std::size_t count = 0;
-    BallLoss loss = BallLoss::no_ball;  // of the largest spot, where nothing is round
+    BallLoss loss = BallLoss::no_ball;  // reason of the largest spot, if no spot is round
   };
   void look(Side side, const ImageView& image, Rounds& rounds);
   [[nodiscard]] FoundBall placed(const Round& left, const Round& right) const;

@@ -1,4 +1,4 @@
-// What has the colour of a ball in an image, as connected spots.
+// Connected spots of a ball's colour in an image.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace enc {
 
 struct Blob {
   int pixels = 0;
-  double column = kUnset, row = kUnset;  // px, its middle
+  double column = kUnset, row = kUnset;  // px, middle of the spot
   Region box;
   Vec3 colour{0, 0, 0};  // mean, 0 to 255
-  double clipped = 0.0;  // share of its pixels of which a channel is at its end
+  double clipped = 0.0;  // share of its pixels with a saturated channel
 };
 inline constexpr std::size_t kMostBlobs = 8;
 struct Blobs {
@@ -28,15 +28,16 @@ struct Blobs {
 class BlobFinder {
  public:
   explicit BlobFinder(const BallSpec& spec);
-  // The largest spots of at least so many pixels, the largest first.
+  // The largest spots of at least `least` pixels, largest first.
   Blobs largest(const ImageView& image, int least);
 
  private:
   void colour(const ImageView& image);
   Blob flood(const ImageView& image, int at);
 
-  int hue_, within_, saturation_;  // of kHues; of 256
-  Mask mask_;                      // 255: of the colour; 1: of a spot that was counted
+  int hue_, within_, saturation_;  // hues in steps of kHues; saturation out of 256
+  // 255: pixel of the colour; 1: pixel of a counted spot.
+  Mask mask_;
   std::vector<int> waiting_;
 };
 

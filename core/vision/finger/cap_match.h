@@ -1,7 +1,7 @@
-// How far a fingertip is: the disparity of the middle of its cap. A block of pixels sees the front of a
-// sphere, not its middle, and a cap's outline is that of its middle: so the pixels of the cap and of the
-// finger next to it are compared with those of the other image as half a sphere and a cylinder would show
-// them [Lucas and Kanade]. How the finger slopes is found with it.
+// Distance of a fingertip: the disparity of the middle of its cap. A block of pixels measures the front of a
+// sphere, not its middle, while a cap's outline belongs to its middle. So the fit models the cap as half a
+// sphere and the adjacent finger as a cylinder, and compares their pixels with the other image [Lucas and
+// Kanade]. The fit also gives the finger's slope.
 #pragma once
 
 #include <span>
@@ -13,20 +13,21 @@ namespace enc {
 
 struct CapDisparity {
   bool good = false;
-  double disparity = kUnset;  // px, of the cap's middle
-  double variance = kUnset;   // px^2: from what is left over and how much detail there is
-  double slope = kUnset;      // rad, from the tip to the knuckle away from the camera
-  double left_over = kUnset;  // grey levels^2 of a pixel
+  double disparity = kUnset;  // px, at the cap's middle
+  double variance = kUnset;   // px^2: from the residual and the amount of detail
+  // Rad, away from the camera, from the tip to the knuckle.
+  double slope = kUnset;
+  double left_over = kUnset;  // grey levels^2 of a pixel, residual
 };
 
 // `surfaces` are disparities of the finger's front near the cap; some may be wrong.
 [[nodiscard]] CapDisparity match_cap(const Grey& left, const Grey& right, const Mask& skin,
                                      const Fingertip& tip, const RectifiedPair& pair,
                                      std::span<const float> surfaces);
-// The same were the middle's disparity known to be this one: only the slope is sought.
+// As match_cap(), with a known disparity of the middle: only the slope is fitted.
 [[nodiscard]] CapDisparity match_cap_at(const Grey& left, const Grey& right, const Mask& skin,
                                         const Fingertip& tip, const RectifiedPair& pair, double disparity);
-// The disparity of the middle of a cap whose front has that one.
+// Disparity of the middle of a cap from that of its front, and the inverse.
 [[nodiscard]] double middle_of(double surface, double outline, double focal);
 [[nodiscard]] double front_of(double middle, double outline, double focal);
 

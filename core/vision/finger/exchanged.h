@@ -1,5 +1,5 @@
-// Whether the left image is the right camera's: then what both show would lie behind the cameras, where
-// nothing is seen.
+// Detects exchanged images: the left image is from the right camera. Everything in both images would then lie
+// behind the cameras, where no camera can see.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@ namespace enc {
 
 class Exchanged {
  public:
-  static constexpr int kRows = 5, kColumns = 8;  // so many places are looked at in a frame
-  static constexpr int kLeast = 6;               // matched ones, that tell something
-  static constexpr double kClear = 4.0;          // times as many as of the other way round
+  static constexpr int kRows = 5, kColumns = 8;  // places examined in a frame
+  static constexpr int kLeast = 6;               // fewest matched places for a decision
+  static constexpr double kClear = 4.0;          // factor over the matches of the other order
 
   Exchanged(const RectifiedPair& pair, int width, int height);
 
-  // Rows of both images that see() reads, `row` of kRows.
+  // Rows of both images that see() reads; `row` is below kRows.
   [[nodiscard]] Region strip(int row) const;
-  // Of grey images that are up to date in all strips: is the left one the right camera's? Where a frame shows
-  // too little that can be matched, as the one before.
+  // True if the left image is the right camera's. The grey images must be up to date in all strips. If a
+  // frame has too few matches, the last answer stays.
   bool see(const Grey& left, const Grey& right);
 
  private:

@@ -1,4 +1,4 @@
-// The fingertip of one frame, as vision tells it [VisHap 2.1.2].
+// The fingertip of one frame, as vision measures it [VisHap 2.1.2].
 #pragma once
 
 #include <array>
@@ -10,10 +10,11 @@
 namespace enc {
 
 enum class FingerState : std::uint8_t {
-  learning,  // the background, at every start
+  learning,  // learning the background, at every start
   away,      // no finger in view
   seen,
-  predicted,  // not in this frame, but lately: what is told is the filter's
+  // Not detected in this frame, but shortly before: the filter's prediction.
+  predicted,
 };
 
 struct Finger {
@@ -21,8 +22,8 @@ struct Finger {
   Time exposed{};
   Point<'C'> tip;                            // centre of the fingertip's cap, m
   Vec<'C'> velocity;                         // m/s
-  Mat3 covariance = Mat3::Constant(kUnset);  // of the tip, m^2
-  // The same as this frame alone shows it, before the filter. Unset unless it is seen.
+  Mat3 covariance = Mat3::Constant(kUnset);  // covariance of the tip, m^2
+  // The tip from this frame alone, before the filter. Unset unless the state is seen.
   Point<'C'> shown;
   Mat3 shown_covariance = Mat3::Constant(kUnset);
   double column = kUnset, row = kUnset, disparity = kUnset;  // px, in the rectified left image

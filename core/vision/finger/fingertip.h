@@ -1,5 +1,5 @@
-// Where in a mask of skin a fingertip is: steps 1 to 10 of the published pseudo-code, then the cap's circle
-// fitted to the mask's edge [VisHap 2.1.2].
+// Finds a fingertip in a mask of skin: steps 1 to 10 of the published pseudo-code, then a fit of the cap's
+// circle to the mask's edge [VisHap 2.1.2].
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace enc {
 
-// Pixels that a step has dismissed; those that reach step 10 are candidates.
+// Pixels dismissed by each step; those that reach step 10 are candidates.
 struct StepCounts {
   std::int64_t visited = 0, no_skin = 0, no_depth = 0, too_small = 0, circle = 0, square = 0, pairs = 0;
   std::int64_t candidates = 0;
@@ -22,11 +22,11 @@ struct StepCounts {
 
 struct Fingertip {
   bool found = false;
-  int x = -1, y = -1;                    // px, of the candidate that was taken
+  int x = -1, y = -1;                    // px, the chosen candidate
   double column = kUnset, row = kUnset;  // px, the tip's centre
-  double radius = kUnset;                // px, r of step 3 there
-  // As a camera sees it that looks straight at the tip, core/vision/finger/tangent.h:
-  double outline = kUnset;              // px, radius of the circle that was fitted
+  double radius = kUnset;                // px, r of step 3 at the candidate
+  // Seen by a virtual camera that looks straight at the tip, core/vision/finger/tangent.h:
+  double outline = kUnset;              // px, radius of the fitted circle
   double along_x = 0.0, along_y = 0.0;  // unit vector, from the tip to the knuckle
   double score = kUnset;                // share of skin in the circle
   bool fitted = false;
@@ -34,19 +34,19 @@ struct Fingertip {
 
 class FingertipFinder {
  public:
-  // `r_most`, px: of the nearest depth. K / f B = R / B is px of radius for a pixel of disparity.
+  // `r_most`, px: radius at the nearest depth. K / f B = R / B is px of radius for a pixel of disparity.
   FingertipFinder(const FingertipSpec& spec, const RectifiedPair& pair, double r_most, int width, int height);
 
-  // Candidates are sought within `search`. The mask and the disparity count as far as reach(r) beyond, and
-  // outside of the image nothing is skin; a pixel whose square S leaves it is dismissed. Of the best scores
-  // the first pixel in reading order is taken, and the middle of those within r of it is where the fit
-  // begins.
+  // Candidates are searched within `search`. The mask and the disparity count as far as reach(r) beyond it;
+  // outside of the image there is no skin. A pixel whose square S leaves the image is dismissed. The first
+  // pixel in reading order among the best scores is chosen; the fit starts in the middle of the best ones
+  // within r of it.
   //
-  // `expected`: where the finger is foreseen that is followed. Of several fingertips that are about as good
-  // the one nearest to that is taken.
+  // `expected`: predicted position of the tracked finger. If several fingertips are about equally good, the
+  // one nearest to it is chosen.
   Fingertip find(const Mask& skin, const DisparityMap& disparity, const Region& search,
                  const Triplet& expected = {});
-  // How many the last find() had to choose from, and each of them: other fingers, in the order of preference.
+  // Number of fingertips in the last find(), and each of them: other fingers, in order of preference.
   static constexpr std::size_t kMost = 8;
   [[nodiscard]] std::size_t count() const { return top_count_; }
   [[nodiscard]] Fingertip tip(const Mask& skin, std::size_t index) const;
@@ -54,16 +54,17 @@ class FingertipFinder {
   struct Candidate {
     int x, y;
     float score, radius;
-    bool straight;  // a finger as long as stretch_radii
+    bool straight;  // the finger is as long as stretch_radii
   };
   [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
-  // How far from a pixel with that disparity steps 4 to 10 look, px.
+  // Distance around a pixel with that disparity that steps 4 to 10 read, px.
   [[nodiscard]] int reach(double disparity) const;
   [[nodiscard]] double radius_of(double disparity) const { return per_disparity_ * disparity; }
 
  private:
   struct Disc {
-    std::vector<std::int16_t> half;  // of each row, from the middle row down; px
+    // Half width of each row, from the middle row down; px.
+    std::vector<std::int16_t> half;
     std::int32_t area = 0;
   };
   void sum(const Mask& skin, const Region& part);
@@ -82,9 +83,9 @@ class FingertipFinder {
   RectifiedPair pair_;
   double per_disparity_ = 0.0, r_most_ = 0.0;
   int width_ = 0, height_ = 0;
-  std::vector<Disc> discs_;  // of radii in steps of 1/4 px
+  std::vector<Disc> discs_;  // radii in steps of 1/4 px
   std::vector<std::uint16_t> rows_, columns_;
-  Region part_;  // of which rows_ and columns_ hold
+  Region part_;  // region of rows_ and columns_
   StepCounts counts_;
   std::vector<Candidate> candidates_;
   std::array<Candidate, kMost> tops_{};

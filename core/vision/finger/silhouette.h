@@ -1,6 +1,7 @@
-// Where a fingertip may be in the right image, by its shape alone: the skin round the tip of the left image
-// is laid over what has the hue of skin in the right one. It needs no detail within the finger, which is
-// like itself where it lies along the rows, and knows nothing where the background has the hue of skin.
+// Possible positions of a fingertip in the right image, by its shape alone: the skin around the tip of the
+// left image is shifted over the pixels with the hue of skin in the right one. This needs no detail within
+// the finger, which looks the same along its length if it lies along the rows. It fails if the background has
+// the hue of skin.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +17,9 @@ struct ShiftRange {
   int least = 0, most = 0;
 };
 
-// What of the right image is looked at.
+// Region of the right image that is compared.
 [[nodiscard]] Region opposite(const Fingertip& tip, const ShiftRange& range, const Region& image);
-// The shifts at which the two agree best, up to as many as there is room for; how many. Best first.
+// Writes the best-fitting shifts, best first, at most as many as `shifts` holds; returns their number.
 std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const ShiftRange& range,
                          std::span<float> shifts);
 

@@ -1,5 +1,5 @@
-// The image as a camera would have taken it that looks straight at a place: there a sphere's outline is a
-// circle round its middle. In the image itself it is an ellipse, and its middle is not the sphere's.
+// The image that a camera would take if it looked straight at a point: there a sphere's outline is a circle
+// around its middle. In the image itself the outline is an ellipse, and its middle is not the sphere's.
 #pragma once
 
 #include "core/vision/stereo/rectify.h"
@@ -8,13 +8,13 @@ namespace enc {
 
 class Tangent {
  public:
-  // `at`, px of the rectified left image, is where the camera is turned to. Upright it stays as it was.
+  // `at`, px of the rectified left image, is the point to look at. The camera's up direction stays.
   Tangent(const RectifiedPair& pair, const Pixel& at)
       : focal_(pair.focal), centre_x_(pair.centre_x), centre_y_(pair.centre_y), view_(ray(at).normalized()) {
     right_ = Vec3(1.0 - view_.x() * view_.x(), -view_.x() * view_.y(), -view_.x() * view_.z()).normalized();
     down_ = view_.cross(right_);
   }
-  // px from `at`, to the right and down, of a pixel that is in front; and back.
+  // Converts a pixel in front of the camera to px from `at`, right and down; image() converts back.
   [[nodiscard]] Pixel of(const Pixel& image) const {
     const Vec3 v = ray(image);
     const double scale = focal_ / v.dot(view_);
@@ -24,7 +24,7 @@ class Tangent {
     const Vec3 v = focal_ * view_ + plane.column * right_ + plane.row * down_;
     return {centre_x_ + focal_ * v.x() / v.z(), centre_y_ + focal_ * v.y() / v.z()};
   }
-  // Whose depth is 1; of the rectified axes.
+  // Ray with depth 1, in the rectified axes.
   [[nodiscard]] Vec3 ray(const Pixel& image) const {
     return {(image.column - centre_x_) / focal_, (image.row - centre_y_) / focal_, 1.0};
   }

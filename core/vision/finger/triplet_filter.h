@@ -1,5 +1,5 @@
-// A Kalman filter of constant velocity on (column, row, disparity): there noise is the same wherever the
-// finger is, in metres it grows with the square of the depth [VisHap 2.1.2; Bar-Shalom 6.2].
+// A constant-velocity Kalman filter on (column, row, disparity). Noise there is independent of the finger's
+// position; in metres it grows with the square of the depth [VisHap 2.1.2; Bar-Shalom 6.2].
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ class TripletFilter {
   [[nodiscard]] Time t() const { return t_; }
 
   void begin(const TrackSpec& spec, Time t, const Triplet& at, const Vec3& variance);
-  // To a later time.
+  // Predicts to a later time.
   void predict(const TrackSpec& spec, Time t);
-  // Squared distance of a find from what is foreseen, in sigmas; of three numbers.
+  // Squared distance of a detection from the prediction, in sigmas; of three numbers.
   [[nodiscard]] double surprise(const Triplet& at, const Vec3& variance) const;
   void correct(const Triplet& at, const Vec3& variance);
 

@@ -1,5 +1,5 @@
-// One look at a pair of images: what is skin in a window of them, how far it is, and where the fingertip is.
-// Knows nothing of the frames before but the background.
+// One look at a pair of images: the skin in a window, its distance, and the fingertip. It uses no earlier
+// frame except the background.
 #pragma once
 
 #include <array>
@@ -22,29 +22,30 @@ class HandScene {
   HandScene(const StereoRig& rig, const SegmentationSpec& segmentation, const FingertipSpec& fingertip,
             const MatchSpec& match);
 
-  // Whether left and right are exchanged. To be asked of each frame, before all else.
+  // True if left and right are exchanged. Call it for each frame, before everything else.
   bool exchanged(const StereoFrame& frame);
-  // A frame of the background.
+  // Takes a frame of the background.
   void learn(const StereoFrame& frame);
   [[nodiscard]] bool learned() const { return segmenter_.learned(); }
   [[nodiscard]] bool finger_in_background() const { return finger_in_background_; }
 
   struct Seen {
     Fingertip tip;
-    double disparity = kUnset, variance = kUnset;  // px, px^2, of the middle of the cap
+    double disparity = kUnset, variance = kUnset;  // px, px^2, cap's middle
     FingerEvidence evidence;
-    Doubt doubt = Doubt::no;  // why the tip is not believed; then another one is not, either
-    bool followed = false;    // it goes on with the finger that is followed, and was not recognised anew
-    std::int64_t pixels = 0;  // segmented
+    // Reason to doubt the tip; then no other tip is accepted either.
+    Doubt doubt = Doubt::no;
+    bool followed = false;    // continues the tracked finger, without a new recognition
+    std::int64_t pixels = 0;  // pixels segmented
   };
-  // A finger that was seen in the frames before.
+  // A finger seen in earlier frames.
   struct Followed {
-    Triplet at;           // where it is foreseen, or NaN
-    double cap = kUnset;  // m, its width when it was recognised; NaN where it must be recognised anew
+    Triplet at;           // predicted position, or NaN
+    double cap = kUnset;  // m, its width when recognised; NaN: it must be recognised anew
   };
-  // Candidates are sought within `window`. Where a followed finger is foreseen says which of several fingers
-  // is meant, and its disparity how much is segmented at first. Where none is followed the one is taken that
-  // is most surely a finger that points.
+  // Candidates are searched within `window`. The predicted position of a tracked finger selects among several
+  // fingers, and its disparity decides how much is segmented at first. Without a tracked finger, the most
+  // certain pointing finger is chosen.
   Seen look(const StereoFrame& frame, const Region& window, const Followed& followed);
 
   [[nodiscard]] Region frame() const { return {0, 0, rectifier_.width(), rectifier_.height()}; }
@@ -52,7 +53,7 @@ class HandScene {
   [[nodiscard]] const Mask& skin() const { return skin_; }
   [[nodiscard]] const DisparityMap& disparity() const { return disparity_; }
   [[nodiscard]] const FingertipFinder& finder() const { return finder_; }
-  // Of the same images, with other factors.
+  // A finder for the same images, with other factors.
   [[nodiscard]] FingertipFinder finder_with(const FingertipSpec& fingertip) const;
 
  private:
@@ -60,7 +61,7 @@ class HandScene {
   ImageView rectified(Side side, const ImageView& raw, const Region& part);
   [[nodiscard]] Region read_for(const Segmenter& segmenter, const Region& wanted) const;
   Region segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted);
-  // Of the hue of skin in the right image, in right_skin_. Returns that image.
+  // Segments the right image by the hue of skin into right_skin_. Returns the rectified image.
   ImageView segment_right(const StereoFrame& frame, const Region& wanted);
   void match(const StereoFrame& frame, const Region& window, const Region& around);
   [[nodiscard]] int farthest_reach(const Region& window) const;
@@ -70,7 +71,7 @@ class HandScene {
   void sharpen(Fingertip& tip) const;
   [[nodiscard]] double outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity);
   void confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap);
-  // From a disparity of the cap's middle.
+  // Starts from a disparity of the cap's middle.
   [[nodiscard]] CapDisparity match_from(const Fingertip& tip, double middle) const;
   void measure(Seen& seen, const StereoFrame& frame, double expected);
 
@@ -93,17 +94,17 @@ class HandScene {
   Rectifier rectifier_;
   SegmentationSpec segmentation_;
   Segmenter segmenter_;
-  std::unique_ptr<Segmenter> hue_alone_;  // from the first frame of the background on
+  std::unique_ptr<Segmenter> hue_alone_;  // fed from the first frame of the background on
   Matcher matcher_;
   Exchanged exchanged_;
   FingertipFinder finder_;
   PalmFinder palm_;
-  bool palm_measured_ = false;  // of this frame
-  Region segmented_;            // of this frame's left image
+  bool palm_measured_ = false;  // measured in this frame
+  Region segmented_;            // part of this frame's left image
   FingerLimits limits_;
   Image left_, right_;
   Grey grey_left_, grey_right_;
-  Mask skin_, right_skin_;  // the latter by hue alone, where a tip may be
+  Mask skin_, right_skin_;  // right_skin_: by hue alone, where a tip may be
   DisparityMap disparity_;
   bool finger_in_background_ = false;
 };

@@ -9,7 +9,7 @@
 
 namespace enc {
 
-// The upper one of an even number; NaN of none. Reorders the values.
+// The upper median for an even number; NaN for an empty span. Reorders the values.
 [[nodiscard]] inline double upper_median(std::span<double> values) {
   if (values.empty()) return kUnset;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

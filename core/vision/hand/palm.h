@@ -1,4 +1,4 @@
-// The thickest place of the skin near a fingertip: the palm of its hand, on a coarse grid.
+// The thickest place of the skin near a fingertip, on a coarse grid: the palm of its hand.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,10 @@ class PalmFinder {
   static constexpr int kGrid = 4;  // px
   PalmFinder(int width, int height);
 
-  // How far it is from each place of the grid to the next without skin, or to the image's border.
+  // Measures the distance from each grid point to the next one without skin, or to the image's border.
   void measure(const Mask& skin);
-  // The nearest of the places within `far` px of the tip that are about as thick as the thickest of them.
-  // NaN where there is no skin.
+  // Among the places within `far` px of the tip that are about as thick as the thickest, the nearest one. NaN
+  // without skin.
   [[nodiscard]] Pixel near(const Pixel& tip, double far) const;
 
  private:

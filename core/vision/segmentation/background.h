@@ -1,4 +1,4 @@
-// The background as its first frames show it: mean in RGB [VisHap 3], and how much it varies.
+// The background from its first frames: mean in RGB [VisHap 3], and its variation.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ class Background {
   void add(const ImageView& frame);
   [[nodiscard]] int frames() const { return frames_; }
   [[nodiscard]] Image mean() const;  // rounded to the nearest
-  // Standard deviation of a channel in each tile, of 255; at least kLeastNoise, which is what rounding and a
-  // lamp's flicker leave of a sensor without noise. Row by row.
+  // Standard deviation of a channel in each tile, out of 255, row by row. The minimum is kLeastNoise, which
+  // rounding and a lamp's flicker leave even in a sensor without noise.
   [[nodiscard]] std::vector<double> noise() const;
 
   static constexpr double kLeastNoise = 0.7;
@@ -28,7 +28,7 @@ class Background {
   std::vector<std::uint32_t> squares_;
 };
 
-// Share of the tiles that vary more than four times as much as the middle one: something moved there while
+// Share of the tiles that vary more than four times as much as the median tile: something moved there while
 // the background was learned.
 [[nodiscard]] double unrest(std::vector<double> noise);
 

@@ -1,18 +1,23 @@
-// A second method, ours: a pixel is foreground where neither the background nor a change of light explains
-// it.
+// A second method, ours: a pixel is foreground if neither the background nor a change of light explains it.
 //
-// Better than tiles of hue: each pixel is judged by itself, so that nothing ends at a tile's edge; what is as
-// bright and as coloured as the background times the light's gain is background, whatever its hue, so that a
-// hand shows before wood by its brightness; limits are the sensor's noise and what the light leaves
-// unexplained in this very frame, so that they are narrow while the light is steady; and skin is judged in
-// the background's light, so that a lamp of another colour does not move its hue. A pixel of the hue of skin
-// that most of its surroundings surely are is skin as well (hysteresis): it fills what looks like the
-// background. A changed pixel too dim for a hue is judged with those around it (hueless.h).
+// Advantages over tiles of hue:
+// - Each pixel is judged by itself, so no result ends at a tile's edge.
+// - A pixel as bright and as coloured as the background times the light's gain is background, whatever its
+// hue, so a hand in front of wood shows by its brightness.
+// - The limits are the sensor's noise and the light's residual in this very frame, so they are narrow while
+// the light is steady.
+// - Skin is judged in the background's light, so a lamp of another colour does not shift its hue.
+// - A pixel with the hue of skin is also skin if most of its surroundings surely are (hysteresis), which
+// fills areas that look like the background.
+// - A changed pixel too dim for a hue is judged together with its neighbours (hueless.h).
 //
-// It fails where a hand covers more than half of the frame (its colour is then taken for the light's), where
-// light changes in patches with edges (a shadow of the hand on a skin-hued surface; elsewhere the hue of the
-// surface saves it), where background and frame are clipped, where skin looks like what is behind it in
-// brightness and colour over more than half of kSurroundings, and on whatever else of the hue of skin came.
+// It fails in these cases:
+// - A hand covers more than half of the frame: its colour then counts as the light's.
+// - The light changes in patches with edges, such as a shadow of the hand on a skin-hued surface. Elsewhere
+// the surface's hue prevents the error.
+// - Background and frame are clipped.
+// - Skin has the brightness and colour of its background over more than half of kSurroundings.
+// - Any other new thing has the hue of skin.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +37,7 @@ class Change {
  public:
   static constexpr int kSurroundings = 9;  // px
   Change(const Kernels& kernels, const Grid& grid, const Image& mean, const std::vector<double>& noise);
-  // Of any region, of pixels around it, too.
+  // Works on any region; also reads the pixels around it.
   void candidates(const ImageView& frame, const Region& region, double change, const Cut& cut, Mask& out);
 
  private:

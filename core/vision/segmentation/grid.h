@@ -14,7 +14,7 @@ struct Grid {
   [[nodiscard]] Region tile_at(int column, int row) const {
     return Region{column * tile, row * tile, (column + 1) * tile, (row + 1) * tile}.cut(whole());
   }
-  // The tiles that `wanted`, `margin` px wider on each side, touches.
+  // The tiles that touch `wanted`, widened by `margin` px on each side.
   [[nodiscard]] Region touched(const Region& wanted, int margin = 0) const {
     Region r = wanted.cut(whole());
     if (r.empty()) return {};

@@ -1,12 +1,12 @@
-// Changed pixels too dim for a hue of their own: judged by the sum of those within 2 px that are like them.
+// Changed pixels too dim for their own hue: each is judged by the sum of similar pixels within 2 px.
 //
-// A sum of n pixels has sqrt(n) times the noise of one, where their noise is independent. So it has a hue
-// where its chroma is sqrt(n) times what HueRule asks of one pixel: with 25 of them a mean chroma a fifth as
-// large. Noise without a mean is what averages out: the colour of a sensor's black does not, so that the mean
-// brightness keeps a floor of its own, half of what HueRule asks of one pixel.
+// A sum of n pixels has sqrt(n) times the noise of one, if their noise is independent. So it has a hue if its
+// chroma is sqrt(n) times the HueRule of one pixel: with 25 pixels, a mean chroma a fifth as large. Only
+// noise with zero mean averages out; the colour of a sensor's black does not. So the mean brightness keeps
+// its own floor, half of the HueRule of one pixel.
 //
-// A shadow is dim, too. So what is found is more saturated than a bright grey wall in a shadow, and where the
-// background itself has the hue of skin, nothing is found: its shadow would look the same.
+// A shadow is dim too. So a pixel found here must be more saturated than a bright grey wall in a shadow. If
+// the background itself has the hue of skin, no pixel is found: its shadow would look the same.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace enc::segmentation {
 
-// The mean of the background's frames, a plane for each channel.
+// The mean of the background's frames, one plane for each channel.
 struct Planes {
   std::vector<std::uint8_t> red, green, blue;
 };
@@ -28,8 +28,8 @@ class Hueless {
   static constexpr int kAround = 2;  // px to each side
   explicit Hueless(int width) : columns_(static_cast<std::size_t>(width)) {}
 
-  // Turns `skin` on for those of the pixels `hueless` within `region` that have the hue of skin. `hueless` is
-  // valid up to kAround px beyond it. `white` as in Explained.
+  // Sets `skin` for the `hueless` pixels within `region` that have the hue of skin. `hueless` is valid up to
+  // kAround px beyond it. `white` as in Explained.
   void find(const ImageView& frame, const Planes& background, const Mask& hueless, const Region& region,
             const std::uint16_t (&white)[3], const Cut& cut, Mask& skin);
 
@@ -41,7 +41,8 @@ class Hueless {
   void add_row(const ImageView& frame, const Mask& hueless, int y, int sign, int x0, int x1);
   static bool is_skin(const Sum& sum, const std::uint16_t (&white)[3], const Cut& cut);
 
-  std::vector<Sum> columns_;  // of the rows up to kAround px above and below
+  // Column sums of the rows up to kAround px above and below.
+  std::vector<Sum> columns_;
 };
 
 }  // namespace enc::segmentation

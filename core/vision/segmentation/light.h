@@ -1,5 +1,5 @@
-// The light of a frame against that of the background's frames, from samples all over the frame, so that a
-// region of interest does not change it.
+// The light of a frame relative to that of the background's frames. It uses samples all over the frame, so
+// that a region of interest does not change it.
 #pragma once
 
 #include <array>
@@ -13,18 +13,20 @@
 
 namespace enc::segmentation {
 
-// A gain for each channel; beside that the brightness runs across the image as a plane, where a lamp moved.
+// A gain for each channel, and a brightness that varies across the image as a plane, for a lamp that moved.
 struct Light {
   std::array<double, 3> gain{1.0, 1.0, 1.0};
-  double middle = 1.0, across = 0.0, down = 0.0;  // at the image's middle; from one edge to the other
+  // Brightness at the image's middle; change from edge to edge.
+  double middle = 1.0, across = 0.0, down = 0.0;
   double colour = 0.0,
-         bright = 0.0;  // what this leaves unexplained of the background, as shares of R + G + B
+         // Residual of this model on the background, as shares of R + G + B.
+      bright = 0.0;
 };
 
-// Half of a frame's samples may be a hand: gains are medians (those of red and blue are of their ratio to
-// green), the plane is fitted to what lies near it, and what is left is the median of the remainders, as a
-// Gaussian's standard deviation. Where that is an eighth of the brightness the light is not known, and said
-// to be what it was.
+// Half of a frame's samples may be a hand. So gains are medians (for red and blue, of their ratio to green),
+// and the plane is fitted to the samples near it. The residual is the median of the remainders, as a
+// Gaussian's standard deviation. If the residual is an eighth of the brightness, the light is unknown, and
+// the meter reports the last one.
 class LightMeter {
  public:
   LightMeter(const Image& background, const Grid& grid);
@@ -34,17 +36,17 @@ class LightMeter {
   struct Sample {
     int x = 0, y = 0;  // px, the first of a row of grid_.tile pixels
     std::array<std::uint32_t, 3> was{}, seen{};
-    std::array<double, 3> inverse{};   // of was
+    std::array<double, 3> inverse{};   // 1 / was
     double at_x = 0.0, at_y = 0.0;     // -0.5 to 0.5
-    double ratio = 1.0;                // brightness seen over expected
+    double ratio = 1.0;                // measured over expected brightness
     bool clear = false;                // not clipped
-    std::size_t right = 0, below = 0;  // the sample an eighth of the image away; 0 for none
+    std::size_t right = 0, below = 0;  // the sample an eighth of the image away; 0: no sample
   };
   void look(const ImageView& frame);
   void pair_up();
+  // Median over the clear samples; `of` returns 0 to `most`, or a negative value to skip a sample.
   template <class F>
-  double median(double most,
-                const F& of);  // of the clear samples; `of` gives 0 to `most`, below 0 what does not count
+  double median(double most, const F& of);
   void first_plane(Light& light);
   void fit_plane(Light& light);
 

@@ -11,25 +11,25 @@
 
 namespace enc {
 
-// Takes in images one by one, as many as there are.
+// Takes any number of images, one by one.
 class SkinLearner {
  public:
   explicit SkinLearner(const segmentation::HueRule& rule = {}) : rule_(rule) {}
-  // The pixels that `hand` has. Throws Error where the two differ in size.
+  // Adds the pixels of the mask `hand`. Throws Error if the sizes differ.
   void add(const ImageView& image, const Mask& hand);
-  [[nodiscard]] std::int64_t pixels() const { return pixels_; }  // with a hue
-  // Mean on the circle; spread about it, each difference taken the short way round. Throws Error with fewer
-  // than two pixels of a hue, and where all directions are alike.
+  [[nodiscard]] std::int64_t pixels() const { return pixels_; }  // pixels with a hue
+  // Mean on the circle; the spread takes each difference the short way around. Throws Error with fewer than
+  // two pixels of a hue, or if the hues are uniform around the circle.
   [[nodiscard]] SkinModel model() const;
 
  private:
   segmentation::HueRule rule_;
   std::array<std::int64_t, segmentation::kHues> count_{};
-  std::array<double, segmentation::kHues> sum_{};  // of the exact hues within, rad
+  std::array<double, segmentation::kHues> sum_{};  // sums of the exact hues in each bin, rad
   std::int64_t pixels_ = 0;
 };
 
-// Of all images at once, one mask each.
+// Learns from all images at once, one mask each.
 [[nodiscard]] SkinModel learn_skin(std::span<const ImageView> images, std::span<const Mask> hands,
                                    const segmentation::HueRule& rule = {});
 

@@ -1,5 +1,5 @@
-// Disparity of the pixels of a mask: matched at the middles of small cells of one grid, so that a window has
-// what the whole frame has there.
+// Disparity of the pixels of a mask. It is matched at the middles of small cells of one grid, so that a
+// window gives the same result as the whole frame.
 #pragma once
 
 #include <cmath>
@@ -12,21 +12,22 @@ namespace enc {
 
 class DisparityMap {
  public:
-  static constexpr int kCell = 4;  // px, side; 1 px of the image is 0.8 mm at 600 mm
-  // px: a pixel's value depends on the mask that far off, half of the widest block with it.
+  // Px, side; 1 px of the image is 0.8 mm at 600 mm.
+  static constexpr int kCell = 4;
+  // px: a pixel's value depends on the mask up to this distance, including half of the widest block.
   static constexpr int kReach = 2 * kCell + 8;
 
   DisparityMap(int width, int height);
 
-  // Matches the cells that touch `wanted` or lie beside these, where their middle is in the mask.
+  // Matches the cells that touch `wanted` or are next to those, if their middle is in the mask.
   void match(Matcher& matcher, const Grey& left, const Grey& right, const Mask& mask, const Region& wanted);
-  // The same disparity everywhere.
+  // Sets one disparity everywhere.
   void fill(float disparity);
-  // Median of what the nine cells round the pixel have; NaN where none of them has any.
+  // Median of the nine cells around the pixel; NaN if no cell has a value.
   [[nodiscard]] float at(int x, int y) const {
     return smooth_[static_cast<std::size_t>(y / kCell) * columns_ + static_cast<std::size_t>(x / kCell)];
   }
-  // Cells sought and found by the last match().
+  // Cells searched and matched by the last match().
   [[nodiscard]] std::int64_t sought() const { return sought_; }
   [[nodiscard]] std::int64_t found() const { return found_; }
 

@@ -5,7 +5,7 @@
 
 namespace enc {
 
-// Rows from the top. Behind each row and behind the last there is room that kernels may read.
+// Rows from the top. Kernels may read the room behind each row and behind the last.
 struct Grey {
   static constexpr int kRoom = 64;
   int width = 0, height = 0;

@@ -1,5 +1,5 @@
-// A lens: from a ray to the pixel that it meets, and back. OpenCV's convention: k1, k2, p1, p2, k3
-// [calib3d, "Detailed Description"].
+// A lens: from a ray to its pixel, and back. OpenCV's convention: k1, k2, p1, p2, k3 [calib3d, "Detailed
+// Description"].
 #pragma once
 
 #include "core/spec/vision/stereo_rig.h"
@@ -10,13 +10,13 @@ struct Pixel {
   double column = kUnset, row = kUnset;  // px
 };
 
-// A ray from the camera's centre, by where it meets the plane z = 1 of the camera's frame.
+// A ray from the camera's centre, given by its intersection with the plane z = 1 of the camera's frame.
 struct Ray {
   double x = kUnset, y = kUnset;
 };
 
 [[nodiscard]] Pixel project(const Lens& lens, const Ray& ray);
-// NaN where no ray meets that pixel: far outside of the image a strong distortion folds back.
+// NaN if no ray meets that pixel: far outside of the image, a strong distortion folds back.
 [[nodiscard]] Ray ray_of(const Lens& lens, const Pixel& pixel);
 
 }  // namespace enc

@@ -1,5 +1,5 @@
-// By how much less the column is at which a point of the left image is in the right one: sum of absolute
-// differences of a block of grey, the least of all places that the depths allow.
+// Disparity: the column in the left image minus that of the same point in the right one. Minimises the sum of
+// absolute differences of a grey block over all positions that the depths allow.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace enc {
 
-// What became of a pixel.
+// Result for a pixel.
 enum class Matched : std::uint8_t { yes, outside, at_limit, not_unique, not_mutual };
 
 struct Disparity {
@@ -22,22 +22,22 @@ struct Disparity {
 
 class Matcher {
  public:
-  // Throws Error where the block or the depths are impossible, or the depths take more than 512 places.
+  // Throws Error if the block or the depths are impossible, or the depths need more than 512 positions.
   Matcher(const MatchSpec& spec, const RectifiedPair& pair,
           const match_kernel::Kernel& kernel = match_kernel::best());
 
-  // The same for a pixel whatever else is asked. Reads `left` and `right` within left_of() and
-  // right_of() of it. With a mask the block's pixels within it alone are compared: what is behind a thin
+  // The result for a pixel does not depend on other requests. Reads `left` and `right` within left_of() and
+  // right_of() of it. With a mask, only the block's pixels within it are compared: the background of a thin
   // finger is elsewhere in the other image.
   [[nodiscard]] Disparity at(const Grey& left, const Grey& right, int x, int y, const Mask* mask = nullptr);
-  // Pixels of the left and of the right image that at() reads for those of `wanted`.
+  // Pixels of the left and right image that at() reads for those of `wanted`.
   [[nodiscard]] Region left_of(const Region& wanted) const;
   [[nodiscard]] Region right_of(const Region& wanted) const;
   [[nodiscard]] int least() const { return least_; }  // px
   [[nodiscard]] int most() const { return most_; }
 
  private:
-  // A block, and the part of it that counts; null: all of it.
+  // A block, and the part of it that counts; null: the whole block.
   struct Block {
     const std::uint8_t* level;
     std::size_t stride;

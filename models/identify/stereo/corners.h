@@ -1,4 +1,4 @@
-// A chessboard as calibration sees it: its inner corners, found to a fraction of a pixel.
+// A chessboard for calibration: its inner corners, located to a fraction of a pixel.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,27 @@ struct Board {
 // px, row by row of the board; the centre of the first pixel is (0, 0).
 using Corners = std::vector<Eigen::Vector2d>;
 
-// Quick: a tenth of a second for an image without the board. Thorough: up to two seconds, for small and
-// blurred boards, too.
+// Quick: a tenth of a second for an image without the board. Thorough: up to two seconds, also for small and
+// blurred boards.
 enum class Search : std::uint8_t { quick, thorough };
 
-// Nothing where the whole board is not seen, or where it has more corners, so that these would be any part.
+// Empty if the whole board is not visible, or if it has more corners, because the found ones could then be
+// any part.
 [[nodiscard]] std::optional<Corners> find_corners(const ImageView& image, const Board& board,
                                                   Search search = Search::thorough);
 
-// The board that an image shows, where it has up to two columns and rows more or fewer than `near`, or is
-// plainly seen. Nothing where no whole board is found.
+// The board in an image: up to two columns and rows more or fewer than `near`, or clearly visible. Empty if
+// no whole board is found.
 [[nodiscard]] std::optional<Board> board_in(const ImageView& image, const Board& near);
 
-// One board in both images, in the same order.
+// One board in both images, in one order.
 struct PairCorners {
   Corners left, right;
 };
 
-// A finder may begin at either end of a board, and at any corner of a square one: turns the right corners
-// round until they run as the left ones do. Two cameras of a head are never rolled by more than 90 deg
-// against each other (45 deg for a square board).
+// A finder may begin at either end of a board, and at any corner of a square one. This function rotates the
+// right corners until their order is that of the left ones. Two cameras of a head are never rolled by more
+// than 90 deg against each other (45 deg for a square board).
 [[nodiscard]] PairCorners in_one_order(Corners left, Corners right, const Board& board);
 
 }  // namespace enc

@@ -1,4 +1,4 @@
-// A grid of corners in an image that may be part of a larger chessboard. For sources of this folder only.
+// A grid of corners in an image that may be part of a larger chessboard. Only for sources of this folder.
 #pragma once
 
 #include <vector>
@@ -17,17 +17,17 @@ struct Grid {
   [[nodiscard]] cv::Size size() const { return {columns, rows}; }
 };
 
-// Corners moved to where the image has them, to a fraction of a pixel.
+// Moves the corners to their exact positions in the image, to a fraction of a pixel.
 void refine(const cv::Mat& grey, Grid& grid);
 
-// Whether the squares between the corners are black and white by turns.
+// True if the squares between the corners alternate between black and white.
 [[nodiscard]] bool alternates(const cv::Mat& grey, const Grid& grid);
 
-// The board goes on beyond a side where the squares there alternate; it ends where margin or background
-// begins; it is open where the image ends before.
+// Beyond a side, the board goes on if the squares alternate there; it ends if margin or background begins;
+// the answer is open if the image ends before.
 enum class Beyond : std::uint8_t { ends, goes_on, open };
-// Beyond the last column. The grid has three columns and rows at least.
+// Beyond the last column. The grid must have at least three columns and rows.
 [[nodiscard]] Beyond beyond(const cv::Mat& grey, const Grid& grid);
-// A quarter of a turn: the last column becomes the first row.
+// A quarter turn: the last column becomes the first row.
 [[nodiscard]] Grid turned(const Grid& grid);
 }  // namespace enc::calibration

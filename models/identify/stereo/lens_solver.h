@@ -1,5 +1,5 @@
-// The lenses of two cameras, each out of its own views of a board [Zhang 2000]. For sources of this folder
-// only.
+// The lenses of two cameras, each from its own views of a board [Zhang 2000]. Only for sources of this
+// folder.
 #pragma once
 
 #include <vector>
@@ -19,24 +19,24 @@ inline constexpr int kMostSteps = 100;
 
 struct Camera {
   cv::Mat matrix = cv::Mat::eye(3, 3, CV_64F), distortion = cv::Mat::zeros(1, 5, CV_64F);
-  double focal_deviation = kUnset;  // a share of the focal length
+  double focal_deviation = kUnset;  // share of the focal length
   double k3_in_deviations = 0.0;
   LensFit fit;
 
-  // A matrix of OpenCV shares its numbers with its copies.
+  // Deep copy: an OpenCV matrix shares its numbers with its copies.
   [[nodiscard]] Camera copy() const;
 };
 struct Cameras {
   Camera left, right;
   K3 k3 = K3::zero;
 
-  // OpenCV's flags: which numbers of the lenses stay as they are.
+  // OpenCV's flags: the lens parameters that stay fixed.
   [[nodiscard]] int model() const;
 };
-// m, in the order of its corners.
+// m, in the order of the board's corners.
 [[nodiscard]] std::vector<cv::Point3f> board_points(const Board& board);
 
-// Both lenses have a k3, or none.
+// Either both lenses have a k3 or neither.
 [[nodiscard]] Cameras each_camera(const Views& left, const Views& right, const Board& board,
                                   const cv::Size& size);
 

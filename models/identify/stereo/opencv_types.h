@@ -1,4 +1,4 @@
-// Between our types and OpenCV's. For sources of this folder only.
+// Conversions between our types and OpenCV's. Only for sources of this folder.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,5 +1,6 @@
-// What a calibration says of a pair: whether a corner lies on the epipolar line of its partner, whether both
-// are on one row once the images are rectified, and where it is in space. And the pictures that show it.
+// Quality of a calibration for a pair: the distance of a corner from the epipolar line of its partner, the
+// difference of their rows once the images are rectified, and the corner's position in space. It also draws
+// these pictures.
 #pragma once
 
 #include <string>
@@ -10,23 +11,23 @@
 
 namespace enc {
 
-// Where no ray of the lens meets a corner, because its distortion folds before, these are NaN.
+// All results are NaN if no ray of the lens meets a corner because the distortion folds before it.
 //
 // px rms, in images without distortion: distances of corners from their partners' epipolar lines, both ways.
 [[nodiscard]] double epipolar_error(const StereoRig& rig, const PairCorners& pair);
 
-// px rms: difference of the rows of a corner in the rectified images, whose focal length is the smaller one.
+// px rms: row difference of a corner between the rectified images, at the smaller of the two focal lengths.
 [[nodiscard]] double row_error(const StereoRig& rig, const PairCorners& pair);
 
-// By the middle between the two rays, m.
+// The midpoint between the two rays, m.
 [[nodiscard]] std::vector<Point<'C'>> triangulated(const StereoRig& rig, const PairCorners& pair);
 
-// A pair of images side by side as the rig rectifies them, with rows drawn through both, which are epipolar
-// lines, and the corners on them. Where corners are not on one row in both, the calibration is wrong.
+// A pair of images side by side, rectified by the rig, with the corners and with rows drawn through both
+// images. The rows are epipolar lines: if a corner is not on one row in both, the calibration is wrong.
 struct ShownPair {
   ImageView left, right;
   PairCorners corners;
-  std::string words;  // over the picture
+  std::string words;  // text above the picture
 };
 [[nodiscard]] Image rectified_picture(const StereoRig& rig, const std::vector<ShownPair>& pairs);
 

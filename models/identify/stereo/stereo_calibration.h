@@ -1,5 +1,5 @@
-// A stereo head out of pictures of a chessboard: each camera by itself [Zhang 2000], then both together, and
-// how well it is known: what is left over, and what a pair shows that the calibration has not seen.
+// A stereo head from pictures of a chessboard: each camera by itself [Zhang 2000], then both together, with
+// uncertainties: the residual, and the error of each pair in a calibration without it.
 #pragma once
 
 #include <cmath>
@@ -12,63 +12,68 @@
 namespace enc {
 
 struct PairResidual {
-  double left = kUnset, right = kUnset;  // px rms: corners against where the calibration puts them
-  // By a calibration without this pair:
-  double epipolar = kUnset;  // px rms: corners from the epipolar lines of their partners, both ways
-  double rows = kUnset;      // px rms: difference of the rows of a corner in the rectified images
-  double square = kUnset;    // m: side of the squares of the board that fits the triangulated corners best
-  double rms = kUnset;       // px: what is left over of all the others
+  double left = kUnset, right = kUnset;  // px rms: corners against the calibration's prediction
+  // Values from a calibration without this pair:
+  // px rms: corners to the epipolar lines of their partners, both ways.
+  double epipolar = kUnset;
+  // px rms: row difference of a corner between the rectified images.
+  double rows = kUnset;
+  double square = kUnset;  // m: best-fitting square size of the triangulated board
+  double rms = kUnset;     // px: residual of all the other pairs
 };
 
-// How a lens fits the corners of its images, both cameras apart.
+// Fit of a lens to the corners of its images, for each camera alone.
 struct LensFit {
-  double rms = kUnset;    // px
-  double reach = kUnset;  // how far out the corners lie, as a share of the way from the axis to the image's
-                          // farthest corner
-  // Of the eight rings of as many corners each the one where they lie farthest outwards (negative: inwards)
-  // from where the lens has them, in the mean:
+  double rms = kUnset;  // px
+  // Outermost corner, as a share of the way from the axis to the image's farthest corner.
+  double reach = kUnset;
+  // Eight rings hold equally many corners each. These values belong to the ring whose corners lie farthest
+  // outwards (negative: inwards) from the lens model, on average:
   double outwards = kUnset;            // px
   double outwards_deviation = kUnset;  // px, standard deviation of that mean
-  double ring = kUnset;                // its place, as reach
+  double ring = kUnset;                // position of the ring, in the unit of `reach`
 
-  // The lens is not of this model: a ring lies off by more than chance and a tenth of a pixel, or all corners
-  // by half a pixel, for which a bent board is a reason, too.
+  // True if the lens does not follow this model: a ring is off by more than chance and a tenth of a pixel, or
+  // all corners by half a pixel. A bent board can cause the latter too.
   [[nodiscard]] bool unlike() const {
     return rms > 0.5 || (std::abs(outwards) > 0.1 && std::abs(outwards) > 5.0 * outwards_deviation);
   }
 };
 
-// It bends the edge of an image alone, and often cannot be told.
+// k3 bends only the edge of an image, and often cannot be determined.
 enum class K3 : std::uint8_t {
-  zero,    // no more of it is seen than chance would show
-  fitted,  // that of one lens is more than three standard deviations from 0
-  folds,   // likewise, but with it a lens folds before the image's corner, so that both are 0
+  zero,  // not significant
+  // One lens differs from 0 by more than three standard deviations.
+  fitted,
+  // Significant, but a lens would fold before the image's corner, so both are 0.
+  folds,
 };
 
 struct StereoCalibration {
-  StereoRig rig;  // of width, height, lenses and X_CD; the rest as it was
+  StereoRig rig;  // new width, height, lenses and X_CD; the rest is unchanged
   LensFit left, right;
   K3 k3 = K3::zero;
-  double rms = kUnset;              // px, of all corners of both images
-  double focal_deviation = kUnset;  // standard deviation of the worse focal length, as a share of it
-  double tilt = kUnset;             // rad: largest angle between two boards
+  double rms = kUnset;  // px, all corners of both images
+  // Standard deviation of the worse focal length, as a share of it.
+  double focal_deviation = kUnset;
+  double tilt = kUnset;  // rad: largest angle between two boards
   std::vector<PairResidual> pairs;
-  // Over all pairs, by calibrations without each:
+  // Over all pairs, each by a calibration without it:
   double epipolar = kUnset, rows = kUnset;  // px rms
 };
 
-// With more left over no number is worth anything. Where each camera alone fits, the pairs do not go
-// together: one of them is of another head or moment, perhaps that without which the rms is least.
+// A larger residual makes every number worthless. If each camera alone fits, the pairs do not belong
+// together: one is from another head or moment, perhaps the one without which the rms is least.
 inline constexpr double kLargestRms = 2.0;       // px
-inline constexpr double kLoosestFocal = 0.05;    // share of a focal length that its deviation may be
+inline constexpr double kLoosestFocal = 0.05;    // largest standard deviation, as a share of the focal length
 inline constexpr std::size_t kFewestBoards = 4;  // three, and one that is left out
 
-// Throws Error (without a place): fewer than kFewestBoards; boards that are all parallel, which tell nothing
-// of the focal length; cameras that do not stand side by side, unless the lenses do not fit either.
+// Throws Error (without a place): fewer than kFewestBoards; boards that are all parallel, which do not
+// determine the focal length; cameras that are not side by side, unless the lenses do not fit either.
 [[nodiscard]] StereoCalibration calibrate_stereo(const std::vector<PairCorners>& pairs, const Board& board,
                                                  int width, int height);
 
-// How far corners are from what a rig says of a pair; left and right stay unset.
+// Distance of the corners from a rig's prediction for a pair; left and right stay unset.
 [[nodiscard]] PairResidual residual_of(const StereoRig& rig, const PairCorners& pair, const Board& board);
 
 }  // namespace enc

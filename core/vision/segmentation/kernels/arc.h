@@ -1,4 +1,4 @@
-// What of the circle of hue is skin.
+// The skin's part of the circle of hue.
 #pragma once
 
 #include "core/spec/vision/segmentation_spec.h"
@@ -13,11 +13,11 @@ struct Arc {
   [[nodiscard]] bool has(int hue) const { return hue != kNoHue && (hue - first + kHues) % kHues < count; }
 };
 
-// A probability above a threshold is a difference below one: at most `spreads` spreads from the mean.
+// A probability above a threshold is a distance below a limit: at most `spreads` spreads from the mean.
 [[nodiscard]] Arc skin_arc(const SkinModel& model, double spreads);
 
-// As the kernels take it.
+// The form that the kernels take.
 [[nodiscard]] Cut cut_of(const Arc& arc, const HueRule& rule);
-[[nodiscard]] bool in_cut(int hue, const Cut& cut);  // kNoHue never is
+[[nodiscard]] bool in_cut(int hue, const Cut& cut);  // false for kNoHue
 
 }  // namespace enc::segmentation

@@ -1,10 +1,11 @@
-// The hue of a pixel in integers, exact: 0 to 1535 once round the circle, 256 to each of its six sextants,
+// The hue of a pixel in exact integers: 0 to 1535 once around the circle, 256 to each of its six sextants,
 // with red at 0, yellow at 256, green at 512, blue at 1024. Within a sextant it is floor(256 d / chroma),
-// where chroma = most - least of R, G, B, and d is how far the middle one has come from one end to the other.
+// where chroma = most - least of R, G, B, and d is the distance of the middle one from the sextant's start.
 //
-// Where the chroma or the most is below HueRule the hue is that of the noise: the pixel has none. It is then
-// in no bin of hue, and by itself no skin (hueless.h). [VisHap 2.1.1] has no rule for it. The chroma decides
-// how good a hue is, however dark the pixel: skin of a brightest channel of 20 has a chroma of 12.
+// If the chroma or the brightest channel is below HueRule, the hue is that of the noise: the pixel has no
+// hue. It is then in no bin of hue, and not skin by itself (hueless.h). [VisHap 2.1.1] has no rule for it.
+// The chroma decides the accuracy of a hue, however dark the pixel: skin with a brightest channel of 20 has a
+// chroma of 12.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +41,7 @@ inline Position position_of(int r, int g, int b, int most, int least) {
   return most - least >= std::max<int>(1, rule.least_chroma) && most >= rule.least_value;
 }
 
-// Without HueRule, of any numbers, such as sums of pixels; they must not all be equal.
+// The hue without HueRule, for any numbers, such as sums of pixels; they must not all be equal.
 [[nodiscard]] inline int hue_of_any(int r, int g, int b, int most, int least) {
   const auto at = detail::position_of(r, g, b, most, least);
   return (kSextant * at.sextant + kSextant * at.d / at.chroma) % kHues;
@@ -52,13 +53,13 @@ inline Position position_of(int r, int g, int b, int most, int least) {
   return hue_of_any(r, g, b, most, least);
 }
 
-// The same before rounding down, rad, 0 to 2 pi; of a pixel that has a hue.
+// That hue before rounding down, rad, 0 to 2 pi; only for a pixel that has a hue.
 [[nodiscard]] inline double exact_hue(int r, int g, int b) {
   const auto at = detail::position_of(r, g, b, std::max(r, std::max(g, b)), std::min(r, std::min(g, b)));
   return (at.sextant + static_cast<double>(at.d) / at.chroma) * (std::numbers::pi / 3.0);
 }
 
-// The middle of what `hue` stands for, rad, 0 to 2 pi.
+// The centre of the interval of `hue`, rad, 0 to 2 pi.
 [[nodiscard]] inline double angle_of(int hue) { return (hue + 0.5) * (2.0 * std::numbers::pi / kHues); }
 
 }  // namespace enc::segmentation

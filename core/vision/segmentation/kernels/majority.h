@@ -1,5 +1,4 @@
-// The median of a mask: what more than half of a square window has. Beyond the image's edge stands the
-// pixel at the edge.
+// The median of a mask: the majority in a square window. Beyond the image's edge, the edge pixel continues.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +13,13 @@ class Majority {
  public:
   Majority(const Kernels& kernels, int side, int width);
   [[nodiscard]] int margin() const { return side_ / 2; }
-  // Within `region`; of `in` what lies up to margin() outside of it is read, too.
+  // Filters within `region`; also reads `in` up to margin() outside of it.
   void filter(const Mask& in, const Region& region, Mask& out);
 
  private:
   const Kernels& kernels_;
   int side_;
-  std::vector<std::uint8_t> sums_;  // of the window's rows, a column each
+  std::vector<std::uint8_t> sums_;  // sums over the window's rows, one for each column
 };
 
 }  // namespace enc::segmentation
