@@ -27,8 +27,8 @@ inline Shift<T> sinking(const DentField<T>& f, T x, T y, T z) noexcept {
   return {part * t, slope * cx, slope * cy, slope * cz};
 }
 
-// Which ball of the edge is lowest at a place w beside n: the one whose surface has the edge's own slope.
-// Along the edge, m.
+// Finds the ball of the edge that is lowest at a place w beside n: its surface has the edge's own slope.
+// Returns its place along the edge, m.
 template <class T>
 inline T lowest_on_edge(const DentField<T>& f, T wx, T wy, T wz) noexcept {
   const T r2 = f.radius * f.radius;
@@ -43,7 +43,7 @@ inline T lowest_on_edge(const DentField<T>& f, T wx, T wy, T wz) noexcept {
   return above < f.to ? above : f.to;
 }
 
-// No branch that a compiler could not turn into a selection: the loop over arrays is vectorised.
+// Every branch can become a selection, so the compiler vectorises the loop over arrays.
 template <bool kEdge, class T>
 inline Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
   const T px = x - f.origin[0];
