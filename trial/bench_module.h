@@ -1,5 +1,4 @@
-// What the program asks of the module of benchmarks. It is built and loaded when `bench` or `questionnaire`
-// is called: nothing else needs it.
+// The interface to the module of benchmarks. It is built and loaded only for `bench` or `questionnaire`.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +16,10 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::int64_t repeats = 0;  // 0: the benchmark's own
   bool quick = false, full = false, list = false, force = false;
-  std::string rig;                          // over whose devices it is measured; empty: in the twin
-  bool armed = false, lockstep = false;     // of them, as for a run
-  bool yes = false, not_real_time = false;  // likewise
-  bool fakes = false;                       // `encounter fake` stands in for them
+  std::string rig;                          // rig whose devices are measured; empty: the twin
+  bool armed = false, lockstep = false;     // arguments as for a run over those devices
+  bool yes = false, not_real_time = false;  // arguments as for a run over those devices
+  bool fakes = false;                       // `encounter fake` replaces those devices
 };
 struct QuestionnaireOptions {
   std::string form = "vhmr_2020";
@@ -28,10 +27,10 @@ struct QuestionnaireOptions {
   bool date = false, json = false, force = false;
 };
 
-// A module of the program by its name; null where it was not built.
+// A module of the program by its name; null if it was not built.
 using ModuleFinder = std::function<const ModuleInfo*(const std::string&)>;
 
-// Each is a subcommand: prints what it has to say, gives the exit code, throws Error.
+// Each is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct BenchModule {
   int (*bench)(const BenchOptions& options, const ModuleFinder& modules) = nullptr;
   int (*questionnaire)(const QuestionnaireOptions& options) = nullptr;

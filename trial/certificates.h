@@ -1,5 +1,5 @@
-// Which objects of a scene the machine renders stably: a certificate for each, known before anything moves
-// (docs/reference/stability.md). In simulation what is beyond is said and runs; a real machine that is armed
+// Certificates of a scene's objects: whether the machine renders each one stably, known before anything moves
+// (docs/reference/stability.md). A simulation reports an unstable object and runs; an armed real machine
 // refuses it (sources/choices 15).
 #pragma once
 
@@ -13,41 +13,41 @@
 namespace enc::trial {
 
 struct Certified {
-  std::string object;  // empty: the tip of an arm that nobody touches
-  double asked =
-      kUnset;  // N/m, along the normal: of an arm the stiffest that it renders there, else the softest
+  std::string object;  // empty: the free tip of an arm
+  // N/m, along the normal. Arm: the highest stiffness that it renders there; other machines: the lowest.
+  double asked = kUnset;
   certificate::Certificate certificate;
-  // Of a machine that measures force: pushed so deep within so long it swings so far, peak to peak, m, s, m;
-  // 0: it stands still.
+  // Force-measuring machine only: a push to this depth (m) with this ramp (s) causes this oscillation, peak
+  // to peak (m); 0: stable.
   double depth = 0.0, ramp = kUnset, swing = 0.0;
 
-  // Of an arm: the place that it is of, the worst of a few (arm_certificates.cpp).
+  // Arm only: the place of the certificate, the worst of a few (arm_certificates.cpp).
   Point<'W'> place{};
-  bool pressed = false;  // the user's plan presses it there and nowhere else
-  // The object whose bounds these are: as stiff, of the same class, and nearer to them. Empty: its own.
+  bool pressed = false;  // the user's plan presses only there
+  // The object that supplies these bounds: as stiff, of the same class, and nearer to them. Empty: its own.
   std::string like{};
 
-  // Of an arm. It has no hand on it.
+  // Arm only: the tip without a hand.
   [[nodiscard]] bool free_tip() const { return object.empty(); }
-  // Not stable under the hand that the rig expects.
+  // True if not stable with the rig's operator model.
   [[nodiscard]] bool beyond() const;
   [[nodiscard]] bool unknown() const { return certificate.verdict == certificate::Class::unknown; }
 };
 
-// `whole`: with the rows that take longer than the class, the bounds of a machine that measures force.
+// `whole`: includes the rows that take longer than the class, the bounds of a force-measuring machine.
 [[nodiscard]] std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene,
                                                      bool whole = false);
 
-// Of an arm; certificates_of() takes them.
+// The certificates of an arm; certificates_of() includes them.
 [[nodiscard]] std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene);
 
-// "object 'wall'", or what else it is of.
+// "object 'wall'", or the other thing that the certificate is for.
 [[nodiscard]] std::string name_of(const Certified& certified);
-// The class and what it is of, in one line without an end.
+// The class and its subject, in one line without a full stop.
 [[nodiscard]] std::string class_text(const Certified& certified);
-// What is wrong and what to do, likewise; empty: it is stable.
+// The problem and the remedy, in one line without a full stop; empty: stable.
 [[nodiscard]] std::string refusal_text(const models::Setup& setup, const Certified& certified);
-// The key of the setup that it hangs on.
+// The key of the set-up that decides it.
 [[nodiscard]] std::string key_of(const Certified& certified);
 
 }  // namespace enc::trial

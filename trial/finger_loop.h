@@ -1,4 +1,4 @@
-// The core alone under a finger that goes where it is told: no physics, no noise, an arm that stays at home.
+// The core alone under a finger at given positions: no physics, no noise, an arm that stays at home.
 #pragma once
 
 #include "core/control/scene/scene.h"
@@ -14,7 +14,7 @@ class FingerLoop {
     tick_.dt = from_seconds(scene.dt);
     tick_.index = -1;
     tick_.t = Time(-tick_.dt);
-    in.withheld = true;  // it is told nothing
+    in.withheld = true;  // no commands are sent to it
   }
 
   // One tick with the finger at p.
@@ -22,7 +22,7 @@ class FingerLoop {
     put(p);
     return go();
   }
-  // One tick with a new picture of a finger that was at p `age` ago; and one with none.
+  // One tick with a new picture of a finger that was at p `age` ago; and one without a picture.
   const Outputs& see(const Point<'W'>& p, Duration age) {
     put(p);
     in.tool.t -= age;
@@ -32,7 +32,7 @@ class FingerLoop {
     go_on();
     return go();
   }
-  // tick(p) in two parts, for whoever times the second: the finger is put there, and step() is called.
+  // The two parts of tick(p), for code that times the second one: place the finger, then call step().
   void put(const Point<'W'>& p) {
     go_on();
     const Vec3 origin = p.e() - scene.tools[0].tip.centre.e();

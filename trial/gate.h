@@ -1,7 +1,7 @@
-// Between the core and what moves. A real device that is not armed is read and told nothing. A link that was
-// lost stays lost until somebody resumes: the core sees a fault and holds, the device itself is told nothing,
-// and the others only what the core says in hold. Whoever stops the run by hand takes all that moves from it
-// in the same way.
+// The gate between the core and the moving devices. It reads a real device that is not armed, but sends it no
+// command. A lost link stays lost until the operator resumes: the core sees a fault and holds, the gate sends
+// the lost device nothing, and the other devices only the core's commands in hold. A stop by hand treats all
+// moving devices in this way.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace enc::trial {
 
-// What a person wants of a run: that all which moves stands, or goes on.
+// The operator's request: stop all motion, or go on.
 enum class Hand : std::uint8_t { none, halt, resume };
 
 struct LostLink {
@@ -28,20 +28,21 @@ class Gate {
   // Dry: a rig of drivers that is not armed.
   Gate(const models::Setup& setup, bool dry);
 
-  // Around the reading of the devices. What a lost device said is marked as a fault, for that tick: one that
-  // has no news afterwards leaves in `in` what it said before.
+  // Call these around the reading of the devices. mark() marks the data of a lost device as a fault, for that
+  // tick. A device without new data leaves its last data in `in`, so unmark() removes the mark before the
+  // next reading.
   void unmark(Inputs& in) noexcept;
   void mark(const Rig& rig, Time now, Inputs& in) noexcept;
   void write(Rig& rig, const Outputs& out) noexcept;
-  // At the end of a run, of all that was not dry.
+  // Called at the end of a run; stops every device that was not dry.
   void stop(Rig& rig) noexcept;
-  // By hand: what moves is stopped and told nothing until resume().
+  // Stops the moving devices by hand, and sends them nothing until resume().
   void halt(Rig& rig, Time now) noexcept;
-  // Ends the hold of every link that is there again. A machine then begins where it says that it is.
+  // Ends the hold of every link that is back. A machine then starts at its reported position.
   void resume() noexcept;
 
   [[nodiscard]] bool lost() const noexcept { return lost_ != std::array<bool, kRoles>{}; }
-  // The link of this role's device, and not only by hand.
+  // True if this role's device lost its link, other than by a stop by hand.
   [[nodiscard]] bool link_lost(RoleId id) const noexcept {
     return lost_[static_cast<std::size_t>(id)] && !by_hand_[static_cast<std::size_t>(id)];
   }
@@ -52,15 +53,15 @@ class Gate {
  private:
   void lose(RoleId id, const char* role, Time now, bool by_hand) noexcept;
   [[nodiscard]] bool open(RoleId id, const Outputs& out) const noexcept;
-  [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts what is not
+  [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts the commands not sent
 
   std::array<bool, kRoles> dry_{}, lost_{}, by_hand_{}, marked_{};
-  std::array<Health, kRoles> said_{};  // what is marked
-  bool resumed_ = false;               // a machine, since the last tick
+  std::array<Health, kRoles> said_{};  // health before the mark
+  bool resumed_ = false;               // a machine resumed since the last tick
   bool halted_ = false;
   std::int64_t withheld_ = 0;
   std::vector<LostLink> links_;
-  bool stopped_ = true;  // nothing was told since
+  bool stopped_ = true;  // no command was sent since
 };
 
 }  // namespace enc::trial

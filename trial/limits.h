@@ -1,5 +1,5 @@
-// What a machine can do at the objects of a scene, against what the scene asks of it: known before anything
-// moves. In simulation it is said and runs; a real machine that is armed refuses it (sources/choices 15).
+// The abilities of a machine at a scene's objects, against the demands of the scene; known before anything
+// moves. A simulation reports an excess and runs; an armed real machine refuses it (sources/choices 15).
 #pragma once
 
 #include <string>
@@ -10,33 +10,32 @@
 
 namespace enc::trial {
 
-// Where an object is touched: where the user presses it, or nearest to home. Of an arm: its joints there and
-// the outward normal in R.
+// Place at which an object is touched: the user's press, or the point nearest to home. Arm only: its joints
+// there and the outward normal in R.
 struct TouchedPlace {
   PressPoint at;
   PerJoint joints{};
   Vec<'R'> way;
-  bool pressed = false;  // the user's plan says so
+  bool pressed = false;  // the place is from the user's plan
 };
 [[nodiscard]] TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t object);
-// N/m: the most that an object asks of an arm.
+// N/m: highest stiffness that an object asks of an arm.
 [[nodiscard]] double stiffest_asked(const Impedance& law, const Object& object);
 
-// What an arm can do at an object, where the user presses it or nearest to home, and what the scene asks of
-// it.
+// Strength of an arm at an object, at the user's press or nearest to home, and the scene's demand.
 struct ArmStrength {
   std::string object;
-  double peak = 0.0, lasting = 0.0;  // N, along the normal: for a moment and for hours, as the rig believes
-  double asked = kUnset;             // N, of the user's press; unset: nobody presses it to a depth
-  double asked_for = 0.0;            // s
-  double holds_for = 0.0;            // s, of that force, until cold motors give less; infinite: for hours
-  std::int64_t presses = 1;          // of the user
-  std::int64_t gives_way_in = 0;     // the press in which warm motors give less; 0: none
+  double peak = 0.0, lasting = 0.0;  // N, along the normal: brief and continuous, by the rig's model
+  double asked = kUnset;             // N, user's press; unset: no press to a depth
+  double asked_for = 0.0;            // s, requested duration
+  double holds_for = 0.0;            // s, for that force, until cold motors give less; infinite: for hours
+  std::int64_t presses = 1;          // number of the user's presses
+  std::int64_t gives_way_in = 0;     // the press in which warm motors give less; 0: no press
 };
-// What of it is beyond a limit; empty: nothing.
+// The part of the demand beyond a limit; empty: within limits.
 [[nodiscard]] std::string beyond_text(const ArmStrength& at);
 
-// Of each object; of a machine that is no arm: none.
+// One entry for each object; empty for a machine that is not an arm.
 [[nodiscard]] std::vector<ArmStrength> strengths_of(const models::Setup& setup, const Scene& scene);
 
 }  // namespace enc::trial

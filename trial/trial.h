@@ -1,4 +1,5 @@
-// One run of a scene: the loop of the product, with what every run counts. All that runs scenes shares it.
+// One run of a scene: the loop of the product, with the counts that every run needs. All code that runs
+// scenes uses it.
 //
 //   clock -> devices -> (disturb) -> step() -> devices -> count, record, watch
 #pragma once
@@ -29,32 +30,32 @@ namespace enc::trial {
 
 class Trial {
  public:
-  // Throws Error for all that can be refused: nothing moves before a tick() is asked for.
+  // Throws Error for everything that can be refused; nothing moves before the first tick().
   Trial(models::Setup setup, TrialOptions options);
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;
-  ~Trial();  // whatever moves is stopped, as at the end of run()
+  ~Trial();  // stops every moving device, as at the end of run()
 
-  void record_to(RecordWriter* record) { record_ = record; }  // null: nowhere
+  void record_to(RecordWriter* record) { record_ = record; }  // null: no record
   TrialResult run();
-  // One tick; false when the run is over. run() is this in a loop.
+  // One tick; false when the run is over. run() calls this in a loop.
   bool tick();
-  // From the next tick on devices are believed and told again; a link that is still lost is lost again.
+  // The devices are used again from the next tick on; a link that is still lost is lost again.
   void resume() noexcept { gate_.resume(); }
   [[nodiscard]] const Gate& gate() const { return gate_; }
   [[nodiscard]] const TrialResult& result() const { return result_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   [[nodiscard]] const std::vector<Certified>& certificates() const { return certificates_; }
-  [[nodiscard]] const Tick& now() const { return now_; }  // of the last tick
+  [[nodiscard]] const Tick& now() const { return now_; }  // the last tick
   [[nodiscard]] Rig& rig() { return rig_; }
   [[nodiscard]] Inputs& inputs() { return in_; }
   [[nodiscard]] const Inputs& inputs() const { return in_; }
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] Outputs& outputs() { return out_; }
   [[nodiscard]] const Outputs& outputs() const { return out_; }
-  [[nodiscard]] std::vector<std::string> said() const;                // by the devices so far, a line each
-  [[nodiscard]] bool has_world() const { return world_ != nullptr; }  // the twin, if a slot is simulated
+  [[nodiscard]] std::vector<std::string> said() const;  // the devices' messages so far, a line each
+  [[nodiscard]] bool has_world() const { return world_ != nullptr; }  // true if a slot is simulated
   [[nodiscard]] sim::World& world() { return *world_; }
   [[nodiscard]] const sim::World& world() const { return *world_; }
   [[nodiscard]] const sim::Truth& truth() const { return world_ ? world_->truth() : unknown_; }
@@ -70,12 +71,13 @@ class Trial {
 
   models::Setup setup_;
   TrialOptions options_;
-  std::unique_ptr<RealTime> real_time_;  // before the devices, whose threads are as this one
+  std::unique_ptr<RealTime> real_time_;  // made before the devices, whose threads inherit its priority
   Scene scene_;
   std::unique_ptr<sim::World> world_;
   sim::Truth unknown_;
   DeviceLog log_;
-  Rig rig_;  // after world and log, so that it goes first
+  // Made after world and log, so that it is destroyed first.
+  Rig rig_;
   Gate gate_;
   Tick now_;
   Inputs in_;
@@ -83,12 +85,12 @@ class Trial {
   Outputs out_;
   State state_;
   StateHash hash_;
-  std::chrono::nanoseconds before_{};  // of the wall clock, when the last step() began
+  std::chrono::nanoseconds before_{};  // wall clock at the start of the last step()
   TrialResult result_;
   std::int64_t last_tick_ = 0;
   RecordWriter* record_ = nullptr;
-  bool simulated_ = true;  // every slot
-  bool leads_ = false;     // the twin's machine follows one that is not simulated
+  bool simulated_ = true;  // every slot is simulated
+  bool leads_ = false;     // the twin's machine follows a real one
   std::vector<Certified> certificates_;
 };
 

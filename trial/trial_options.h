@@ -1,4 +1,4 @@
-// What a run is told, and what it shows to those that look on.
+// The options of a run, and the data that it shows to observers.
 #pragma once
 
 #include <cstdint>
@@ -16,48 +16,50 @@
 
 namespace enc::trial {
 
-// What a tick was, for measures that look on. Truth is for them alone; the core does not see it.
+// One tick for observing measures. The truth is only for them; the core does not see it.
 struct Glance {
   const Scene& scene;
   const Tick& tick;
-  const sim::Truth& truth;  // nothing in it is set where no slot is simulated
+  const sim::Truth& truth;  // unset if no slot is simulated
   const Inputs& in;
   const Outputs& out;
-  bool simulated = true;         // every slot: the truth knows what is touched
-  const State* state = nullptr;  // of the core, after the tick, where it is at hand
-  const Gate* gate = nullptr;    // between core and devices, likewise
-  // ns of the wall clock, from the step() before to this one; 0: this is the first
+  bool simulated = true;         // every slot is simulated, so the truth knows all touches
+  const State* state = nullptr;  // core's state after the tick, if available
+  const Gate* gate = nullptr;    // gate between core and devices, if available
+  // ns of the wall clock from the last step() to this one; 0: this is the first.
   std::uint32_t period_ns = 0;
 };
 
-// Another law in place of step(), such as guide(), which moves an arm without a finger.
+// A law that replaces step(), such as guide(), which moves an arm without a finger.
 using Law = std::function<void(const Scene&, const Tick&, const Inputs&, State&, Outputs&)>;
 
 struct TrialOptions {
   std::uint64_t seed = 1;
-  double seconds = kUnset;  // unset: until the user or the probe of the scene is done; infinite: for ever
-  double pace = 0.0;        // experiment seconds for each wall second; 0: as fast as it goes
-  bool draw_all = false;    // build what is only looked at, too
-  DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
-  std::string frames{};     // folder in which the frames of its camera are kept; empty: nowhere
-  bool work = false;        // the twin counts its work, as a LedgerMeasure asks; nothing else differs
-  bool armed = false;       // commands are sent to real devices; else they are only computed
-  bool real_time = false;   // a run that keeps the wall clock comes before other work (real_time.h)
-  bool needs_real_time = false;  // a machine that is no fake is not armed where that is refused
-  bool lockstep = false;         // what answers is a fake whose time goes on with this loop's; needs `armed`
-  bool calibrates = false;       // a real machine is armed, though nobody has measured its rig of late
-  bool certify = false;          // computes certificates(), whether or not a machine is armed
-  std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
-  std::function<Hand()> hand{};  // asked before each tick
-  // Likewise, with the tick's index: what somebody asks for who steers the twin's hand; nothing: no news.
+  // Unset: until the scene's user or probe is done; infinite: for ever.
+  double seconds = kUnset;
+  double pace = 0.0;             // experiment seconds for each wall second; 0: as fast as possible
+  bool draw_all = false;         // also build parts that are only drawn
+  DriverSource drivers{};        // empty: every slot is simulated, whatever the rig names
+  std::string frames{};          // folder for the frames of the rig's camera; empty: not saved
+  bool work = false;             // the twin computes its work for a LedgerMeasure; no other effect
+  bool armed = false;            // sends commands to real devices; otherwise they are only computed
+  bool real_time = false;        // gives a wall-clock run real-time priority (real_time.h)
+  bool needs_real_time = false;  // refuses to arm a real machine without that priority
+  bool lockstep = false;         // the peer is a fake whose time advances with this loop; needs `armed`
+  bool calibrates = false;       // arms a real machine even if its rig's calibration is old or missing
+  bool certify = false;          // computes certificates() even if no machine is armed
+  std::function<bool()> stop{};  // called before each tick, and while the clock waits: true ends the run
+  std::function<Hand()> hand{};  // called before each tick
+  // Called before each tick with its index: the request of the person who steers the twin's hand; empty: no
+  // news.
   std::function<std::optional<HandWord>(std::int64_t)> steer{};
-  // Called once, when all that can be computed beforehand is: before a device is connected or a file is made.
+  // Called once, after all computations beforehand, and before a device is connected or a file is made.
   std::function<void()> begins{};
-  // Hooks, in the order of a tick; an empty one is not called.
-  std::function<void(Rig&)> fit_out{};  // once: puts other devices in place of those of the rig
+  // Hooks, in the order of a tick; an empty hook is not called.
+  std::function<void(Rig&)> fit_out{};                      // once: replaces devices of the rig
   std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
   std::function<void(Inputs&)> disturb{};                   // after reading
-  Law law{};                                                // in place of step()
+  Law law{};                                                // replaces step()
   std::function<void(const Glance&)> watch{};               // after the tick
   std::function<void(double)> progress{};                   // share done, about ten times a second
 };

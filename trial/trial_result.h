@@ -1,4 +1,4 @@
-// What a run counts by itself.
+// The counts of a run.
 #pragma once
 
 #include <array>
@@ -22,29 +22,29 @@ struct TrialResult {
   std::int32_t contacts = 0;
   std::int64_t mode_changes = 0;
   static constexpr std::int64_t kMostHolds = 16;
-  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first of them
-  std::int64_t times_held = 0;                        // all of them
-  std::pair<Time, std::uint32_t> last_hold{};         // its last tick, and why; where there was any
+  std::vector<std::pair<Time, std::uint32_t>> holds;  // start and reasons of the first holds
+  std::int64_t times_held = 0;                        // number of all holds
+  std::pair<Time, std::uint32_t> last_hold{};         // last tick of the last hold, and its reasons
   Mode last_mode = Mode::away;
   std::uint32_t last_why = 0;
   std::uint64_t hash = 0;
-  // Of hours nobody keeps all: these are of the first ticks, some 17 minutes.
+  // A run of hours keeps only its first ticks, some 17 minutes.
   static constexpr std::int64_t kMostTimed = 1 << 20;
-  std::vector<std::uint32_t> step_ns;    // of each step(), as the wall clock saw it
-  std::vector<std::uint32_t> period_ns;  // where a pace is kept: from one step() to the next, likewise
-  FrameTimes vision;                     // where the scene has a camera
+  std::vector<std::uint32_t> step_ns;    // each step(), in wall time
+  std::vector<std::uint32_t> period_ns;  // paced runs: from one step() to the next, in wall time
+  FrameTimes vision;                     // scene with a camera only
   std::int64_t diverged_at = -1;
   std::string divergence;
-  bool stopped = false;              // record could not be written
-  bool interrupted = false;          // options.stop said so
+  bool stopped = false;              // the record could not be written
+  bool interrupted = false;          // ended by options.stop
   std::int64_t withheld = 0;         // commands to real devices that were not armed
-  std::int64_t missed = 0;           // cycles that were lost to the wall clock
+  std::int64_t missed = 0;           // cycles lost against the wall clock
   Lateness lateness;                 // against the wall clock
-  std::vector<DeviceWords> devices;  // real ones, as they describe themselves
-  std::string real_time;             // how the loop comes before other work; empty: not asked for
-  bool keeps_wall_time = false;      // nobody may make it wait
-  std::vector<LostLink> links;       // the first 16 that were lost
-  std::vector<std::string> log;      // what drivers said
+  std::vector<DeviceWords> devices;  // real devices' own descriptions
+  std::string real_time;             // real-time priority of the loop; empty: not requested
+  bool keeps_wall_time = false;      // the run may not be made to wait
+  std::vector<LostLink> links;       // the first 16 lost links
+  std::vector<std::string> log;      // the drivers' messages
 };
 
 }  // namespace enc::trial

@@ -1,4 +1,4 @@
-// One device of a driver's module, made or refused in one clear line.
+// Makes one device from a driver's module, or refuses it with one clear line.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,14 @@
 
 namespace enc::trial {
 
-// What is wrong with a device of a role, "force", behind the place in the rig file that names its driver.
+// An error of a device, with its role ("force") behind the place in the rig file that names its driver.
 [[nodiscard]] inline Error of_role(const models::Setup& setup, const char* table, const Error& e) {
   const std::string place = models::place_of(setup, fmt::format("rig.{}.driver", table));
   return Error(fmt::format("{}: {}: {}", place, table, e.what()), {}, e.kind());
 }
 
-// `make` is the module's member for such a device, `name` is for messages: "force sensor", `keeping`
-// is Offer's. Throws Error (kind device; input where the module has none of them).
+// `make` is the module's member for such a device, `name` is its name in messages ("force sensor"), `keeping`
+// sets the timing of Offer. Throws Error (kind device; input if the module has no such device).
 template <class Device>
 std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> DriverModule::*make,
                                       const char* name, const models::Setup& setup,

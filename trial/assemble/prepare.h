@@ -1,4 +1,4 @@
-// What step() needs of a set-up: all that a command asks for that moves nothing.
+// Prepares a set-up for step(): enough for every command that moves nothing.
 #pragma once
 
 #include "core/control/scene/scene.h"
@@ -6,7 +6,7 @@
 
 namespace enc::trial {
 
-// prepare(), with the place in the file put before what is wrong.
+// prepare(); an error names its place in the file.
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 
 }  // namespace enc::trial

@@ -1,4 +1,4 @@
-// The tracker of a scene that names [camera]: vision through the stereo camera of the rig, or of the twin.
+// The tracker of a scene with [camera]: vision with the stereo camera of the rig or of the twin.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,29 @@
 
 namespace enc::trial {
 
-// The true camera of the twin, and what it looks at; by seed.
+// The twin's true camera and its surroundings, by seed.
 [[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
 
-// Is shown each pair of images that comes, before the tracker.
+// Receives each new pair of images before the tracker does.
 using Look = std::function<void(const Stamped<StereoFrame>&)>;
 
 struct VisionOffer {
-  const sim::World* world = nullptr;  // of the twin's camera, which sees its hand; outlives the tracker
+  const sim::World* world = nullptr;  // the twin, whose hand its camera sees; outlives the tracker
   std::uint64_t seed = 0;
   Log& log;
-  bool waits = false;     // as in Offer
-  bool threaded = false;  // in a thread of its own: not through the twin's camera, whose world is the loop's
-  Look look{};            // as in TrialOptions; may be empty
-  // Folders (kept_frames.h): its frames are kept there; the rig's camera plays that one. Empty: none.
+  bool waits = false;  // as in Offer
+  // Runs in its own thread; not with the twin's camera, whose world belongs to the loop.
+  bool threaded = false;
+  Look look{};  // as in TrialOptions; may be empty
+  // Folders (kept_frames.h): `keep` receives the frames; the rig's camera plays `kept`. Empty: unused.
   std::string keep{}, kept{};
 };
 
-// What the twin's cameras are drawn with: the true head.
+// The true head, with which the twin's cameras draw.
 [[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
 
-// Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not
-// there, with its place where a number of a file is impossible.
+// Loads the needed modules. Throws Error (kind device) if a module or a device is missing, or Error with its
+// place if a number of a file is impossible.
 [[nodiscard]] std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup,
                                                        const DriverSource& modules, const VisionOffer& offer);
 

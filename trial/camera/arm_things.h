@@ -1,4 +1,4 @@
-// An arm's parts as the twin's camera is shown them: grey and blue metal, nothing of the hue of skin.
+// An arm's parts for the twin's camera: grey and blue metal, far from the hue of skin.
 #pragma once
 
 #include "core/machine/arm_shape.h"

@@ -1,5 +1,6 @@
 // The frames of a stereo camera as a folder of images, each named by the nanosecond of its exposure:
-// left/50000000.png and right/50000000.png. Kept while a run goes on, shown again at the same times.
+// left/50000000.png and right/50000000.png. A run can save them, and a later run replays them at the same
+// times.
 #pragma once
 
 #include <memory>
@@ -14,12 +15,12 @@
 
 namespace enc::trial {
 
-// Passes on what a camera gives, and writes it down.
+// Passes on a camera's frames and saves them.
 class KeepingCamera final : public StereoCamera {
  public:
-  // Throws Error where the folder cannot be made or holds frames already.
+  // Throws Error if it cannot create the folder, or if the folder already holds frames.
   KeepingCamera(std::unique_ptr<StereoCamera> camera, const std::string& folder, const FrameFiles& files);
-  ~KeepingCamera() override;  // without a frame the folders are taken away again, where they are empty
+  ~KeepingCamera() override;  // without a frame, removes the folders if they are empty
   KeepingCamera(const KeepingCamera&) = delete;
   KeepingCamera& operator=(const KeepingCamera&) = delete;
 
@@ -27,25 +28,25 @@ class KeepingCamera final : public StereoCamera {
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
   [[nodiscard]] ImageSize size() const override { return camera_->size(); }
   [[nodiscard]] std::string describe() const override { return camera_->describe(); }
-  // Those of the camera, and why no more frames were kept.
+  // The camera's remarks, and the reason why saving stopped.
   [[nodiscard]] std::vector<std::string> remarks() const override;
 
  private:
   std::unique_ptr<StereoCamera> camera_;
   std::string path_;
-  bool made_;  // by this run
+  bool made_;  // this run created the folder
   models::OutFolder folder_, left_, right_;
   const FrameFiles& files_;
   std::string failure_;
 };
 
-// When the frames of such a folder were exposed, in order. Throws Error where it holds none, or others.
+// Exposure times of a folder's frames, in order. Throws Error if the folder has no frames, or other files.
 [[nodiscard]] std::vector<Time> exposures_in(const std::string& folder);
 
-// A camera that plays such a folder frame by frame, at the times of their exposures.
+// A camera that replays such a folder frame by frame, at the times of exposure.
 class KeptCamera final : public StereoCamera {
  public:
-  static constexpr double kRate = 20.0;  // Hz, at which `camera` plays: its own time is not asked
+  static constexpr double kRate = 20.0;  // Hz, playback rate of `camera`, whose own time is unused
 
   // `camera` plays the folder's pairs in order.
   KeptCamera(std::unique_ptr<StereoCamera> camera, std::vector<Time> exposed)

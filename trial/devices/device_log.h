@@ -1,4 +1,4 @@
-// What drivers have to tell, kept until the run is over: a few lines, from any thread.
+// The drivers' messages, kept until the run is over: a few lines, from any thread.
 #pragma once
 
 #include <mutex>
@@ -13,7 +13,7 @@ namespace enc::trial {
 class DeviceLog final : public Log {
  public:
   void say(const std::string& line) override {
-    const std::lock_guard lock(mutex_);  // what a wire said may hold anything
+    const std::lock_guard lock(mutex_);  // text from a device may hold any byte
     if (lines_.size() < kMost) lines_.push_back(models::printable(line));
   }
   [[nodiscard]] std::vector<std::string> lines() const {
@@ -22,7 +22,7 @@ class DeviceLog final : public Log {
   }
 
  private:
-  static constexpr std::size_t kMost = 100;  // a driver that says the same for ever fills nothing
+  static constexpr std::size_t kMost = 100;  // limits a driver that repeats one message for ever
   mutable std::mutex mutex_;
   std::vector<std::string> lines_;
 };

@@ -1,13 +1,14 @@
-// The law of an arm as its ideal, and as the core does it: force on the tip, N in W [VisHap eq. 2, 7].
+// The law of an arm, in its ideal form and as the core executes it: force on the tip, N in W
+// [VisHap eq. 2, 7].
 //
-//   ideal     Lambda (K e + K_v de/dt) at the true state of this very moment, Lambda and what a button sinks
-//   by
-//             the true depth
-//   held      the same at a tick, until the next one
-//   late      through the velocity window, the filters of eq. 3, and a gain that needs its time
-//   counted   the same of what the encoders say: what the core asks for
+//   ideal     Lambda (K e + K_v de/dt) at the true state of this very moment; Lambda and a button's sink
+//   depth
+//             follow the true depth
+//   held      the ideal force of a tick, kept until the next one
+//   late      with the velocity window, the filters of eq. 3, and the delay of the gain
+//   counted   the late force from encoder counts: the force that the core asks for
 //
-// The target, the normal and how firm a ball is are given: they are what is rendered, right or wrong.
+// The target, the normal and a ball's firmness are inputs: they define the rendered object, right or wrong.
 #pragma once
 
 #include <array>
@@ -18,39 +19,40 @@
 
 namespace enc::trial {
 
-// What the law is at a tick.
+// The law at a tick.
 struct LawAt {
-  bool live = false;        // it pushes
-  bool felt = false;        // by the curve of an object that is touched; else as a free tip
-  bool real = false;        // sideways as along the normal
-  bool hit = false;         // a ball pushes along the normal, and nothing else
-  bool on_its_way = false;  // to a target that leapt
+  bool live = false;  // it pushes
+  // true: by the curve of a touched object; false: as a free tip.
+  bool felt = false;
+  bool real = false;        // a real object: sideways as along the normal
+  bool hit = false;         // a ball: it pushes only along the normal
+  bool on_its_way = false;  // moves to a target that jumped
   const Object* object = nullptr;
   Vec3 normal = Vec3::UnitZ(), target = Vec3::Zero(), target_velocity = Vec3::Zero();
-  Vec3 ball = Vec3::Zero();  // where the surface of one that is hit is
+  Vec3 ball = Vec3::Zero();  // surface point of a struck ball
   double firmness = 1.0;
-  double gain = 1.0, sunk = 0.0;          // as the core has them
+  double gain = 1.0, sunk = 0.0;          // the core's values
   double stiffness = 0.0, damping = 0.0;  // K, K_v
-  Vec3 along = Vec3::Zero();              // N, to go along with a target that is accelerated
+  Vec3 along = Vec3::Zero();              // N, feed-forward for an accelerated target
 };
 
-// The tip, by the machine that is believed.
+// The tip, by the machine's model.
 struct TipAt {
   Vec3 at = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
-// All but its damping.
+// The law without its damping.
 [[nodiscard]] LawAt law_at(const Glance& glance, const Impedance& law);
 [[nodiscard]] Vec3 ideal_force(const LawAt& law, const TipAt& tip);
-// W, taken by the damper.
+// Power taken by the damper, W.
 [[nodiscard]] double damped(const LawAt& law, const TipAt& tip);
-// J, in its spring; by Simpson's rule in so many parts.
+// Energy in the spring, J; Simpson's rule with `parts` parts.
 [[nodiscard]] double stored(const LawAt& law, const TipAt& tip, int parts = 400);
-// By an error and a rate behind their filters; `depth`: of a ball that is hit.
+// Force for an error and a rate behind their filters; `depth`: in a struck ball.
 [[nodiscard]] Vec3 asked_force(const LawAt& law, const Vec3& error, const Vec3& rate, double depth);
-// m, of the tip in a ball that is hit.
+// Depth of the tip in a struck ball, m.
 [[nodiscard]] double ball_depth(const LawAt& law, const Vec3& tip);
-// Between two ticks; where the law is another one then, that of the second.
+// The law between two ticks; if it changes there, the law of the second tick.
 [[nodiscard]] LawAt between(const LawAt& a, const LawAt& b);
 
 }  // namespace enc::trial

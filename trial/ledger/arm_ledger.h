@@ -1,4 +1,4 @@
-// The ledger of an arm, which takes a force and gives way (arm_law.h).
+// The energy balance of an arm, which takes a force and gives way (arm_law.h).
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ namespace enc::trial {
 
 class ArmLedger {
  public:
-  // All that the period from a tick on is counted with.
+  // All values needed for the period that begins at a tick.
   struct Known {
     LawAt law;
-    TipAt tip;                         // true
+    TipAt tip;                         // ground truth
     Vec3 held, late, counted, given;   // N
     Mat3 jacobian;                     // m/rad, in W
-    PerJoint weight{}, compensated{};  // N m: what the motors must do, and do
-    PerJoint joints{}, rates{};        // true
+    PerJoint weight{}, compensated{};  // N m: required and actual gravity compensation of the motors
+    PerJoint joints{}, rates{};        // ground truth
   };
 
   explicit ArmLedger(const models::Setup& setup);
-  // As Book asks.
+  // The interface that Book needs.
   [[nodiscard]] bool tick(const Glance& glance);
   void rest(const Glance& glance);
   [[nodiscard]] Known know(const Glance& glance, const std::optional<Known>& was);
@@ -34,7 +34,7 @@ class ArmLedger {
   [[nodiscard]] ContactLedger so_far(const Known& last) const;
 
  private:
-  // Of the law where its encoders say that the arm is: they stand for some ticks.
+  // Values of the law at the encoders' joint angles, which stay constant for some ticks.
   struct Posture {
     PerJoint joints{kUnset, kUnset, kUnset}, compensated{};
     Mat3 jacobian;
@@ -46,21 +46,23 @@ class ArmLedger {
   void count_ideal(const Known& was, const Known& now, const Vec3& led);
   void filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was, Known& now);
 
-  Arm machine_;  // true
+  Arm machine_;  // ground truth
   double prop_mass_;
   double dt_ = kUnset;   // s
-  std::int64_t window_;  // ticks, of the device's velocity
+  std::int64_t window_;  // ticks, window of the device's velocity
   static constexpr std::size_t kRing = 64;
   std::array<PerJoint, kRing> read_{};
   std::int64_t reads_ = 0;
-  Vec3 error_ = Vec3::Zero(), rate_ = Vec3::Zero();  // filtered, of the true state
-  Aim aim_;                                          // of the last tick
+  Vec3 error_ = Vec3::Zero(), rate_ = Vec3::Zero();  // filtered, from the true state
+  Aim aim_;                                          // state of the last tick
   Posture posture_;
   ContactLedger sum_;
   double ideal_ = 0.0, work_held_ = 0.0, work_late_ = 0.0, work_counted_ = 0.0, work_given_ = 0.0;  // J
-  double led_ideal_ = 0.0, led_held_ = 0.0, led_late_ = 0.0, led_counted_ = 0.0;  // J, on the target's way
-  double spring_ = 0.0;  // J, stored at the last tick
-  double left_ = 0.0;    // J, that was put in and that the spring still holds; below 0: more came out
+  // J, along the target's motion.
+  double led_ideal_ = 0.0, led_held_ = 0.0, led_late_ = 0.0, led_counted_ = 0.0;
+  double spring_ = 0.0;  // J, spring energy at the last tick
+  // J, energy put in and still in the spring; below 0: deficit.
+  double left_ = 0.0;
   Known first_;
 };
 

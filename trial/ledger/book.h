@@ -1,14 +1,14 @@
-// The contacts of a run, as a machine's ledger weighs them: when one begins, when it ends, and when it has
-// become another one. The ledger is that of an arm or of a hexapod, and says
+// The contacts of a run for an energy balance: each contact's begin and end, and its change into another
+// contact. `Ledger` is that of an arm or of a hexapod, and provides
 //
-//   Known                  all that the period from a tick on is counted with
-//   tick(glance)           each tick; false where the scene has nothing that it weighs
-//   rest(glance)           one at which nothing is touched
-//   know(glance, was)      one at which something may be; `was`: at the last tick, if it was known
-//   believed(mode)         the core takes it for a contact
-//   rendered(now)          not of a real thing, which only its prop stands for
-//   open(from)             a contact begins with what was known
-//   count(was, now, work)  a period of it is over
+//   Known                  all values needed for the period that begins at a tick
+//   tick(glance)           called each tick; false if the scene has no balance of this kind
+//   rest(glance)           called at a tick without a touch
+//   know(glance, was)      values at a tick that may have a touch; `was`: those of the last tick, if known
+//   believed(mode)         true if the core takes it for a contact
+//   rendered(now)          false for a real object, for which only its prop stands
+//   open(from)             starts a contact with the known values
+//   count(was, now, work)  adds a period of it
 //   so_far(last)           its terms
 #pragma once
 
@@ -26,8 +26,8 @@ template <class Ledger>
 class Book {
  public:
   explicit Book(Ledger ledger) : ledger_(std::move(ledger)) {}
-  void see(const Glance& glance);  // each tick of a run that is simulated
-  // Of one that lasts when the run ends, what it is by then.
+  void see(const Glance& glance);  // call at each tick of a simulated run
+  // A contact that lasts at the end of the run has its terms up to then.
   [[nodiscard]] std::vector<ContactLedger> contacts() const {
     std::vector<ContactLedger> all = closed_;
     if (on_ && mark_.contact != 0) all.push_back(so_far(last_t_));
@@ -42,7 +42,7 @@ class Book {
     mark_.began = t;
     ledger_.open(from);
   }
-  // What was touched on the way to a contact is none.
+  // A touch on the way to a contact does not count as a contact.
   void close(double t) {
     on_ = false;
     if (mark_.contact != 0) closed_.push_back(so_far(t));
@@ -58,9 +58,9 @@ class Book {
   }
 
   Ledger ledger_;
-  std::optional<Known> before_;  // at the last tick
+  std::optional<Known> before_;  // values of the last tick
   bool on_ = false;
-  ContactLedger mark_;   // which contact it is
+  ContactLedger mark_;   // identifies the present contact
   double last_t_ = 0.0;  // s
   std::vector<ContactLedger> closed_ = with_room<ContactLedger>();
 };

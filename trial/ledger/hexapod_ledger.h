@@ -1,17 +1,17 @@
-// The ledger of a machine that takes positions and measures force. It cannot be driven back: what the hand
-// does on its tip is taken by the servo, which gives it back where the law says so.
+// The energy balance of a machine that takes positions and measures force. It cannot be driven back: the
+// servo takes the hand's work on the tip, and returns it as the law requires.
 //
-// The ideal: the object's response at the true depth of the tip, along its true way; behind a threshold the
-// hand presses with that much more. From there the force that acts comes in parts, each the difference of two
-// of these:
+// The ideal is the object's response at the true depth of the tip, along its true path. Below the force
+// threshold the hand presses with that much more. The differences between the ideal and the acting force are
+// split as follows:
 //
-//   true          by the sensor as it is without any error
+//   true          from a sensor without any error
 //   held          the true force of the tick                    true - held:       sampling
 //   measured      counts, noise, zero                           held - measured:   quantisation
 //   filtered      behind the low-pass                           measured - filtered: delay
-//   wanted        of the object, where the law wants it         filtered - wanted: limits, or its damper
-//   commanded     of the object, where the machine is sent      wanted - commanded: limits
-//   ideal         of the object, where the tip is               commanded - ideal: delay
+//   wanted        object's force at the law's position          filtered - wanted: limits, or its damper
+//   commanded     object's force at the commanded position      wanted - commanded: limits
+//   ideal         object's force at the tip                     commanded - ideal: delay
 #pragma once
 
 #include <optional>
@@ -23,18 +23,18 @@ namespace enc::trial {
 
 class HexapodLedger {
  public:
-  // N, outwards along the normal, at a tick and until the next.
+  // N, outwards along the normal, from a tick until the next.
   struct Forces {
     double held = 0.0, measured = 0.0, filtered = 0.0, wanted = 0.0, commanded = 0.0, ideal = 0.0;
   };
   struct Known {
-    Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true, N
+    Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true force, N
     Forces force;
-    double depth = 0.0;    // m, of the tip in the object
+    double depth = 0.0;    // m, tip in the object
     bool engaged = false;  // the object is rendered
   };
 
-  // As Book asks.
+  // The interface that Book needs.
   [[nodiscard]] bool tick(const Glance& glance);
   void rest(const Glance& /*glance*/) {}
   [[nodiscard]] Known know(const Glance& glance, const std::optional<Known>& was);
@@ -47,14 +47,16 @@ class HexapodLedger {
  private:
   ContactLedger sum_;
   bool damped_ = false;
-  double sensed_ = 0.0, across_ = 0.0;  // J, by the sensor; and of that, sideways
+  double sensed_ = 0.0, across_ = 0.0;  // J, by the sensor; and its sideways part
   double held_ = 0.0, measured_ = 0.0, filtered_ = 0.0, wanted_ = 0.0, commanded_ = 0.0, ideal_ = 0.0;  // J
-  double led_ = 0.0;  // J, of the ideal, on the way of a surface that moves
+  double led_ = 0.0;  // J, ideal, along the motion of a moving surface
   ResponseState at_command_, at_tip_;
   const Object* object_ = nullptr;
   double depth_ = 0.0, threshold_ = 0.0;  // m, N
-  double loaded_ = 0.0;                   // J: what the object would have given back at the begin
-  double left_ = 0.0;  // J, that was put in and that the object still holds; below 0: more came out
+  // J: energy that the object would have returned at the begin.
+  double loaded_ = 0.0;
+  // J, energy put in and still in the object; below 0: deficit.
+  double left_ = 0.0;
 };
 
 }  // namespace enc::trial

@@ -1,4 +1,4 @@
-// The energy ledger of every contact of a run, of whichever machine.
+// The energy balance of every contact of a run, for any machine.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace enc::trial {
 
 class LedgerMeasure {
  public:
-  // Of a run with these options, which it tells that the twin's work is asked for.
+  // Measures a run with these options, and requests the twin's work.
   LedgerMeasure(const models::Setup& setup, TrialOptions& options) {
     options.work = true;
     if (setup.scene.arm) arm_.emplace(ArmLedger(setup));
@@ -21,7 +21,7 @@ class LedgerMeasure {
     if (!glance.simulated) return;
     arm_ ? arm_->see(glance) : hexapod_.see(glance);
   }
-  // While the trial lives whose objects they touch.
+  // Call this while the trial that owns the objects is alive.
   [[nodiscard]] std::vector<ContactLedger> contacts() const {
     return arm_ ? arm_->contacts() : hexapod_.contacts();
   }

@@ -1,4 +1,4 @@
-// Lists that grow while the loop runs have their room beforehand: a tick asks the heap for nothing.
+// Lists that grow while the loop runs reserve their memory beforehand, so that a tick never asks the heap.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,11 @@
 
 namespace enc::trial {
 
-// Of what a run lists for each contact or press: more than twenty minutes of them. A list of hours takes
-// twice its room each time that it is full, as ever.
+// Capacity of a list of contacts or presses: more than twenty minutes of them. A longer list doubles each
+// time that it is full, as usual.
 inline constexpr std::size_t kRoom = 256;
 
-// Empty. All of its room has been written to: memory that nobody has touched is not there before a page
-// fault.
+// Returns an empty list whose memory has been written once: untouched memory would cause a page fault.
 template <class T>
 [[nodiscard]] std::vector<T> with_room(std::size_t n = kRoom) {
   std::vector<T> list(n);

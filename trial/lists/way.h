@@ -1,4 +1,4 @@
-// Where the prop has been in the last ticks.
+// Positions of the prop in the last ticks.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace enc::trial {
 
 class Way {
  public:
-  static constexpr std::size_t kMost = 1 << 14;  // ticks: 16 s at 1 kHz; what was before is forgotten
+  static constexpr std::size_t kMost = 1 << 14;  // ticks: 16 s at 1 kHz; older ones are forgotten
 
-  // Once, before a tick adds to it.
+  // Call once, before a tick adds to it.
   void make_room() {
     if (ring_.empty()) ring_.resize(kMost);
   }
@@ -24,8 +24,7 @@ class Way {
     next_ = (next_ + 1) % kMost;
     size_ = std::min(size_ + 1, kMost);
   }
-  // How many of the last ticks it has been within `within` of a place without a break, m; 0 where the last is
-  // not.
+  // Number of consecutive last ticks within `within` (m) of a place; 0 if the last tick is not.
   [[nodiscard]] std::size_t there(const Point<'W'>& place, double within) const {
     std::size_t n = 0;
     while (n < size_ && (ring_[(next_ + kMost - 1 - n) % kMost] - place).norm() <= within) ++n;

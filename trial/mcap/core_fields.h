@@ -1,5 +1,4 @@
-// What the haptic core said in a tick, and what gripper and display said, as record_fields.h has it of the
-// rest.
+// Fields of the haptic core, the gripper and the display for a tick; record_fields.h has the others.
 #pragma once
 
 #include <string>
@@ -13,7 +12,7 @@ namespace enc::trial {
 [[nodiscard]] inline std::string_view mode_word(Mode mode) {
   return static_cast<int>(mode) < kModes ? mode_name(mode) : "unknown";
 }
-// Of a device that the scene has.
+// Empty for a device that the scene lacks.
 [[nodiscard]] inline std::optional<std::string_view> health_if(bool has, Health health) {
   if (!has) return {};
   return word_if_any(health);

@@ -1,7 +1,6 @@
-// The fields of a message, named once: one visitor writes them as JSON, another (json_schema.h) the JSON
-// Schema of them, as core/base/fields.h does it for a record. A number that is not known is left out. It is
-// not null, because a schema could allow that only with a list of types, and viewers such as Foxglove refuse
-// those.
+// The fields of a message, named once: one visitor writes them as JSON, another one (json_schema.h) their
+// JSON Schema, as core/base/fields.h does for a record. An unknown number is left out. It is not null: a
+// schema could allow null only with a list of types, which viewers such as Foxglove refuse.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@ namespace enc::trial {
 template <class T>
 concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
-// "text", as JSON writes it.
+// The text in quotes, as in JSON.
 void add_quoted(std::string& out, std::string_view text);
 
 class JsonMessage {
@@ -78,7 +77,7 @@ class JsonMessage {
     out_ += name;
     out_ += "\":";
   }
-  // The shortest that reads back to the same number, whatever the locale.
+  // The shortest text that reads back to the same number, whatever the locale.
   template <class T>
   void digits(T x) {
     std::array<char, 32> text{};

@@ -1,4 +1,4 @@
-// The JSON Schema of a message, from the calls that write it: what they give is not looked at.
+// The JSON Schema of a message, from the calls that write it; their values are ignored.
 #pragma once
 
 #include <optional>
@@ -54,7 +54,7 @@ class JsonSchema {
 
  private:
   void add(std::string_view name, std::string_view about, std::string_view type, bool required);
-  [[nodiscard]] std::string rest() const;  // what stands in the braces of an object
+  [[nodiscard]] std::string rest() const;  // the inside of an object's braces
   std::string properties_, required_;
 };
 

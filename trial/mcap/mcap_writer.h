@@ -1,5 +1,5 @@
-// An MCAP file (https://mcap.dev/spec), written from front to back: the container, and nothing of what is in
-// it. Chunks are not compressed; only the chunk that is being filled is in memory.
+// Writes an MCAP file (https://mcap.dev/spec) from front to back: only the container, independent of its
+// content. Chunks are not compressed, and only the chunk being filled is in memory.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace enc::trial {
 
-// CRC-32 as zip has it, of bytes that follow those of which `before` is.
+// CRC-32 as in zip, continued from `before`, the CRC of the preceding bytes.
 [[nodiscard]] std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 class McapWriter {
  public:
-  using Sink = std::function<void(std::string_view)>;  // takes the bytes of the file, in order
+  using Sink = std::function<void(std::string_view)>;  // receives the bytes of the file, in order
 
   static constexpr std::size_t kChunk = std::size_t{1} << 20U;
-  // library: who writes it, "encounter 0.1.0". A chunk is closed once it has so many bytes.
+  // library: the writing program, "encounter 0.1.0". A chunk is closed at `chunk` bytes.
   McapWriter(Sink sink, std::string_view library, std::size_t chunk = kChunk);
 
-  // Numbers of schema and channel, which others name them by.
+  // Adds a schema or a channel; returns the number by which others refer to it.
   [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view encoding,
                                          std::string_view data);
   [[nodiscard]] std::uint16_t add_channel(std::string_view topic, std::uint16_t schema,
@@ -33,17 +33,18 @@ class McapWriter {
                std::string_view data);
   void attach(std::string_view name, std::string_view media_type, std::string_view data);
   void metadata(std::string_view name, const std::map<std::string, std::string>& texts);
-  void close();  // the rest and the summary; without it the file is none
+  // Writes the rest and the summary, without which the file is invalid.
+  void close();
 
  private:
   struct Entry {
-    std::uint64_t time = 0, offset = 0;  // of a message, in the chunk before it is compressed
+    std::uint64_t time = 0, offset = 0;  // position of a message in the uncompressed chunk
   };
   struct Channel {
-    std::vector<Entry> entries;  // of the chunk that is being filled
+    std::vector<Entry> entries;  // chunk being filled
     std::uint64_t messages = 0;  // since the start
   };
-  struct Times {  // of messages; 0 and 0 of none
+  struct Times {  // range of message times; 0 and 0 without messages
     bool any = false;
     std::uint64_t first = 0, last = 0;
     void add(std::uint64_t time);
@@ -58,14 +59,14 @@ class McapWriter {
   Sink sink_;
   std::size_t chunk_size_;
   std::uint64_t at_ = 0;   // bytes so far
-  std::uint32_t crc_ = 0;  // of them
+  std::uint32_t crc_ = 0;  // their CRC
   std::string chunk_;      // records
   Times chunk_times_, times_;
   std::vector<Channel> channels_;
   std::uint64_t messages_ = 0;
   std::uint16_t schemas_ = 0;
   std::uint32_t chunks_ = 0, attachments_ = 0, metadatas_ = 0;
-  // What the summary says again, or where it stands: records.
+  // Records repeated in the summary, and their positions.
   std::string schema_records_, channel_records_, chunk_indexes_, attachment_indexes_, metadata_indexes_;
 };
 

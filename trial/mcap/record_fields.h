@@ -1,4 +1,4 @@
-// What is said of a tick on each channel: fields with unit and meaning, for JsonMessage and JsonSchema.
+// The fields of a tick on each channel, with unit and meaning, for JsonMessage and JsonSchema.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +15,19 @@
 
 namespace enc::trial {
 
-// Nothing for an index that means none, or that nothing has.
+// Empty for an index of -1 or out of range.
 [[nodiscard]] inline std::optional<std::string_view> name_at(const std::vector<std::string>& names,
                                                              std::int32_t i) {
   if (i < 0 || static_cast<std::size_t>(i) >= names.size()) return {};
   return names[static_cast<std::size_t>(i)];
 }
-// A record is read from a file: a number that is no value of the enum has no word.
+// A record comes from a file, so a number may be no value of the enum; it has no word.
 template <class Enum>
 [[nodiscard]] std::string_view word_if_any(Enum value) {
   return static_cast<std::size_t>(value) < kWords<Enum>.size() ? word_of(value) : "unknown";
 }
 
-// As an MCAP file counts time: it knows none before the experiment began.
+// Time as in an MCAP file, which has no times before the start of the experiment.
 [[nodiscard]] inline std::uint64_t nanoseconds(Time t) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(t.time_since_epoch().count(), 0));
 }
@@ -37,7 +37,7 @@ void moment_fields(F& f, Time t) {
   f.integer("sec", "", nanoseconds(t) / kSecond);
   f.integer("nsec", "", nanoseconds(t) % kSecond);
 }
-// A device that has said nothing yet has none.
+// A device without a sample has no stamp.
 template <class F, class T>
 void stamp_field(F& f, const Stamped<T>& said) {
   const bool none = said.health == Health::absent;
@@ -49,7 +49,7 @@ void three_fields(F& f, const std::array<double, 3>& xyz) {
   f.number("y", "", xyz[1]);
   f.number("z", "", xyz[2]);
 }
-// Left out where none of the three is known.
+// Left out if all three numbers are unknown.
 template <class F>
 void vector_field(F& f, std::string_view name, std::string_view about, const detail::Triple& v) {
   const bool any = std::any_of(v.xyz.begin(), v.xyz.end(), [](double x) { return std::isfinite(x); });
@@ -61,7 +61,7 @@ void turn_fields(F& f, const std::array<double, 4>& xyzw) {
   f.number("w", "", xyzw[3]);
 }
 
-// foxglove.PoseInFrame: the names are those that viewers know.
+// foxglove.PoseInFrame: viewers know these names.
 template <class F, char A, char B>
 void pose_fields(F& f, Time t, const Pose<A, B>& X) {
   static constexpr char kFrame = A;

@@ -1,4 +1,4 @@
-// A record as an MCAP file: which channels it has and what is said on each (docs/reference/mcap.md).
+// A record as an MCAP file: its channels and their content (docs/reference/mcap.md).
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace enc::trial {
 
 class RecordMcap {
  public:
-  // Attaches the scene and what else the record says of itself. Setup, scene and file outlive this.
+  // Attaches the scene and the record's other texts. Setup, scene and file must outlive this.
   RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene, const RecordTexts& texts);
 
   void add(const RecordedTick& frame);  // in order
-  // What is known at the end, and `state`, whether the record is whole: "whole", or what is wrong with it.
-  // Closes the file.
+  // Adds the texts of the end and `state`, the condition of the record: "whole", or its damage. Closes the
+  // file.
   void end(const RecordTexts& end_texts, std::string_view state);
 
  private:

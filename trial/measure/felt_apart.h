@@ -1,5 +1,5 @@
-// How far apart two runs of one scene are in what is felt along the surface's normal, tick by tick and over a
-// frame of vision: what a disturbance such as jitter changes.
+// Difference of two runs of one scene in the force along the surface's normal, tick by tick and over a frame
+// of vision: the effect of a disturbance such as jitter.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace enc::trial {
 
-// What was felt in each tick, N; unset where that was no contact.
+// Force in each tick, N; unset without a contact.
 class FeltWay {
  public:
   void see(const Glance& glance) {
@@ -21,11 +21,12 @@ class FeltWay {
 };
 
 struct FeltApart {
-  std::size_t ticks = 0;  // in which both were in contact
-  // Greatest of one tick, N. The encoders' steps are in it: a contact that is 1 ms later has them in other
-  // ticks.
+  std::size_t ticks = 0;  // ticks in which both were in contact
+  // Largest difference in one tick, N. It includes the encoders' steps: a contact 1 ms later has them in
+  // other ticks.
   double tick = 0.0;
-  double frame = 0.0;  // greatest of the means over a frame, in all of which both were in contact, N
+  // Largest difference of the means over a frame in which both were in contact throughout, N.
+  double frame = 0.0;
 };
 // `frame`: ticks.
 [[nodiscard]] FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);

@@ -1,5 +1,5 @@
-// What a bare finger met at an arm, judged by the truth: was the prop there, and what force was felt at which
-// depth [VisHap 3].
+// Evaluates the touches of a bare finger on an arm by ground truth: whether the prop was in place, and the
+// force at each depth [VisHap 3].
 #pragma once
 
 #include <limits>
@@ -15,30 +15,31 @@ namespace enc::trial {
 struct LineFit {
   void add(double depth, double force);
   [[nodiscard]] double slope() const;  // N/m
-  [[nodiscard]] double r2() const;     // share of the variance that the line explains
+  [[nodiscard]] double r2() const;     // share of the variance explained by the line
   std::int64_t n = 0;
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
-// From the core's "prepare" to the end of the contact.
+// One approach, from the core's "prepare" to the end of the contact.
 struct Meeting {
   std::int32_t object = -1;
   double prepared = kUnset;        // s of experiment: away became follow
-  double arrived = kUnset;         // s: since then the prop has been within 2 mm of where they meet (Way)
+  double arrived = kUnset;         // s: from then on the prop is within 2 mm of the meeting point (Way)
   double touched = kUnset;         // s: first true contact with the prop
   double approach_speed = kUnset;  // m/s, planned
-  double miss = kUnset;     // m: prop's middle to the finger's lowest point, along the surface, at the touch
-  double peak_force = 0.0;  // N, along the normal
-  double peak_depth = kUnset;  // m, true; unset: never touched, or a thing that has moved
-  double greatest_step = 0.0;  // N: of the force along the normal from one tick to the next, while touched
+  // Distance from the prop's middle to the finger's lowest point, along the surface, at the touch, m.
+  double miss = kUnset;
+  double peak_force = 0.0;     // N, along the normal
+  double peak_depth = kUnset;  // m, true; unset: no touch, or the object has moved
+  double greatest_step = 0.0;  // N: largest change of the normal force in one tick, during the touch
   std::int32_t breaks = 0;     // ticks without contact between first and last
 };
 
-// How still the arm stands while the finger is far, and when it begins to prepare.
+// Measures the arm's motion while the finger is far, and detects when the arm begins to prepare.
 class FarWatch {
  public:
   bool see(const Glance& glance);  // true in the tick in which away becomes follow
-  // Of the tip, at most, from a second after away began, m/s.
+  // Largest speed of the tip from a second after the mode became away, m/s.
   [[nodiscard]] double speed() const { return speed_; }
 
  private:
@@ -51,33 +52,34 @@ class FingerMeasure {
   void see(const Glance& glance);
 
   [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
-  [[nodiscard]] const LineFit& fit() const { return fit_; }            // over the true depth of 2 to 10 mm
-  [[nodiscard]] const LineFit& believed() const { return believed_; }  // the same over what the core believed
+  [[nodiscard]] const LineFit& fit() const { return fit_; }  // over the true depth of 2 to 10 mm
+  // Over the depth as the core estimated it.
+  [[nodiscard]] const LineFit& believed() const { return believed_; }
   [[nodiscard]] double far_speed() const { return far_.speed(); }
-  [[nodiscard]] double tangential_share() const;  // of the normal force, while more than 1 N is felt
+  [[nodiscard]] double tangential_share() const;  // share of the normal force, while that is above 1 N
 
  private:
   void watch_meeting(const Glance& glance, double now);
   void watch_force(const Glance& glance);
 
   std::vector<Meeting> meetings_ = with_room<Meeting>();
-  Way way_;  // of the prop since the last "prepare"
+  Way way_;  // path of the prop since the last "prepare"
   LineFit fit_, believed_;
   FarWatch far_;
   double last_force_ = kUnset;
   double tangential_ = 0.0, normal_ = 0.0;
 };
 
-// Where the prop should be when a finger is at `tip`, and the surface normal there. Of the truth.
+// Ideal position of the prop for a finger at `tip`, and the surface normal there, by ground truth.
 struct Wanted {
   Point<'W'> point;
   Vec<'W'> normal;
-  double distance = kUnset;  // of the tip's centre from the surface, m
+  double distance = kUnset;  // distance of the tip's centre to the surface, m
 };
 [[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
 
-// Depth of a finger's nearest point under the surface of the object that the core has chosen, m; and its
-// outward normal. Of the truth.
+// Depth of a finger's nearest point below the surface of the core's chosen object, m, and that object's
+// outward normal; by ground truth.
 struct TrueDepth {
   double depth = kUnset;
   Vec<'W'> normal;

@@ -1,6 +1,6 @@
-// What a new picture changes of what is felt along the normal. Beside the core runs a second one from the
-// same state, which is not told of that picture: it goes on with the one before until the next, on the same
-// readings of all else.
+// Effect of a new picture on the force along the normal. A second core runs beside the first one from the
+// same state but without that picture: until the next picture it continues with the previous one, on
+// otherwise equal readings.
 #pragma once
 
 #include <vector>
@@ -11,26 +11,26 @@ namespace enc::trial {
 
 class FrameForce {
  public:
-  // In place of step(): its results are those of step().
+  // Call this in place of step(); it returns the results of step().
   void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out);
 
-  // Of each picture of a finger that is near: the greatest change of the force along the normal until the
-  // next, N. A tick counts in which either core is in contact.
+  // Effect of each picture of a near finger: the largest change of the normal force until the next picture,
+  // N. A tick counts if either core is in contact.
   struct Change {
-    bool touched = false;  // before it came
-    double most = 0.0;     // unset: something was no number
+    bool touched = false;  // a contact before the picture came
+    double most = 0.0;     // unset: a value was not finite
   };
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
 
  private:
-  Stamped<TrackedTool> newest_, untold_;  // what the core and what the second one goes on with
+  Stamped<TrackedTool> newest_, untold_;  // newest pose of the core, and of the second core
   State beside_;
-  bool runs_ = false;  // the second one
+  bool runs_ = false;  // the second core runs
   std::vector<Change> changes_;
 };
 
-// The greatest of those that came in a contact, or of those before one; unset where there is none, or where
-// one of them is.
+// Largest change among the pictures during a contact, or among those before one; unset if there is no such
+// picture, or one of them is unset.
 [[nodiscard]] double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched);
 
 }  // namespace enc::trial

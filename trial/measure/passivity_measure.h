@@ -1,4 +1,4 @@
-// What the passivity controller saw and did, of each contact (core/control/safety/passivity).
+// Results of the passivity controller for each contact (core/control/safety/passivity).
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,16 @@
 namespace enc::trial {
 
 struct PassivityFigures {
-  double began = kUnset;     // s
-  double given = 0.0;        // J, that had come out more than was put in, at most; observed
-  double dissipated = 0.0;   // J, that the law would have given out more; NaN where no force is held back
-  double most = 0.0;         // N, the largest push that it took away; NaN likewise
-  double acted = 0.0;        // s
-  std::int32_t contact = 0;  // to the core
+  double began = kUnset;  // s
+  double given = 0.0;     // J, largest observed energy given out beyond the energy put in
+  // Extra energy that the unreduced law would have given out, J; NaN without a reduction of force.
+  double dissipated = 0.0;
+  double most = 0.0;         // N, largest reduction of the push; NaN without a reduction of force
+  double acted = 0.0;        // s, in which it acted
+  std::int32_t contact = 0;  // the core's number
 };
 
-// Whether the rig wants it.
+// True if the rig asks for a passivity controller.
 [[nodiscard]] inline bool controlled(const Scene& scene) {
   if (const Impedance* law = scene.impedance()) return law->rig.passivity != PassivityForm::none;
   const Render* render = scene.render();
@@ -29,9 +30,9 @@ struct PassivityFigures {
 class PassivityMeasure {
  public:
   void see(const Glance& glance);
-  // Until the last tick of each contact. Where nothing is controlled there are none.
+  // Figures up to the last tick of each contact. Empty without a passivity controller.
   [[nodiscard]] const std::vector<PassivityFigures>& contacts() const { return contacts_; }
-  [[nodiscard]] PassivityFigures worst() const;  // the largest of each; `dissipated` and `acted` of all
+  [[nodiscard]] PassivityFigures worst() const;  // largest of each; `dissipated` and `acted` are totals
 
  private:
   std::vector<PassivityFigures> contacts_ = with_room<PassivityFigures>();

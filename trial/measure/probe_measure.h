@@ -1,5 +1,5 @@
-// What the pushes of a test rig were: peak force, loss, how well repeats agree, how true the measured force
-// is.
+// Evaluates the pushes of an indentation test: peak force, loss, agreement of repeats, accuracy of the
+// measured force.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace enc::trial {
 struct PushFigures {
   double peak_force = 0.0;               // N
   double peak_deflection = 0.0;          // m
-  double work_in = 0.0, work_out = 0.0;  // J, while going in and coming back
+  double work_in = 0.0, work_out = 0.0;  // J, going in and coming back
   [[nodiscard]] double loss() const { return work_in > 0.0 ? 1.0 - work_out / work_in : kUnset; }
 };
 
@@ -23,7 +23,8 @@ class ProbeMeasure {
   void see(const Glance& glance);
 
   [[nodiscard]] const std::vector<PushFigures>& pushes() const { return pushes_; }
-  // Largest difference of force between pushes at equal deflection and direction, N; unset below two pushes.
+  // Largest difference of force between pushes at equal deflection and direction, N; unset for fewer than two
+  // pushes.
   [[nodiscard]] double spread() const;
   // Largest difference of measured and true force along the axis in a push, N.
   [[nodiscard]] double force_error() const { return force_error_; }
@@ -34,7 +35,7 @@ class ProbeMeasure {
     int pushes = 0;
     void add(double force);
   };
-  static constexpr double kLevel = 0.1e-3;  // m: deflections at which pushes are compared
+  static constexpr double kLevel = 0.1e-3;  // m: step of the deflections at which pushes are compared
   void compare(double deflection, double force);
 
   std::vector<PushFigures> pushes_ = with_room<PushFigures>();

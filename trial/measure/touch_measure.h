@@ -1,9 +1,9 @@
-// What was wrong with a touch: nothing was touched in it; or machine and hand swung. Judged by the truth
-// where every slot is simulated, else by what the core itself knows, so that it sees real machines, too.
+// Finds faulty touches: a contact without a touch, or an oscillation of machine and hand. It uses ground
+// truth if every slot is simulated, otherwise the core's own data, so it works with real machines too.
 //
-// Whether machine and hand swing against each other while they touch: a limit cycle of the loop, not what the
-// hand does. Where the tip moves by itself force and depth change in opposite ways; where it gives in to a
-// push they change alike (core/control/task/render/damping.h).
+// An oscillation of machine and hand against each other during a touch is a limit cycle of the loop, not the
+// hand's own motion. If the tip moves by itself, force and depth change in opposite directions; if it gives
+// way to a push, they change in one direction (core/control/task/render/damping.h).
 #pragma once
 
 #include <vector>
@@ -24,23 +24,24 @@ struct SwingFigures {
 
 class TouchMeasure {
  public:
-  static constexpr double kWay = Steadiness::kStill;  // m, peak to peak: less is no swing
-  static constexpr double kTime = 1.0;                // s, for which it goes on, or until the contact is over
-  static constexpr double kLong = 4.0;       // s: who dies out sooner, in contact, was no limit cycle
-  static constexpr std::int64_t kTurns = 4;  // fewer are no swing
-  // N, of an arm's law along the normal, mean of a contact: dry friction of 0.01 N m in two joints, 0.14 m
-  // from the tip, hides less. Derived.
+  static constexpr double kWay = Steadiness::kStill;  // m, peak to peak: smaller is not an oscillation
+  static constexpr double kTime = 1.0;                // s, shortest duration, unless the contact ends before
+  static constexpr double kLong =
+      4.0;  // s: an oscillation that dies out sooner, in contact, is not a limit cycle
+  static constexpr std::int64_t kTurns = 4;  // fewer turns are not an oscillation
+  // N, force of an arm's law along the normal, mean over a contact. Dry friction of 0.01 N m in two joints,
+  // 0.14 m from the tip, hides a smaller force. Derived.
   static constexpr double kHidden = 0.15;
 
   void see(const Glance& glance);
   [[nodiscard]] const std::vector<SwingFigures>& swings() const { return swings_; }
-  // When a limit of an arm's motors first acted for 20 ms, and for how long in all, s; unset: never.
+  // Time at which a limit of an arm's motors first acted for 20 ms, and the total time, s; unset: never.
   struct Acted {
     double first = kUnset, total = 0.0, now = 0.0;
   };
   [[nodiscard]] const Acted& peak() const { return peak_; }
   [[nodiscard]] const Acted& heat() const { return heat_; }
-  // When each contact began in which nothing was touched, s.
+  // Begin of each contact in which nothing was touched, s.
   [[nodiscard]] const std::vector<double>& empty() const { return empty_; }
   [[nodiscard]] const PlanMeasure& plan() const { return plan_; }
 
@@ -57,16 +58,17 @@ class TouchMeasure {
   std::vector<double> empty_ = with_room<double>();
   Acted peak_, heat_;
   PlanMeasure plan_;
-  // A contact, by the core.
+  // A contact, as the core recognised it.
   struct Contact {
-    std::int32_t number = 0;                           // to the core
-    double began = kUnset, lasted = 0.0;               // s, without what was a hold
-    double pushed = 0.0;                               // N s, along the normal
-    bool touched = false, felt = false, told = false;  // truly; by the force; the machine was told
+    std::int32_t number = 0;              // the core's number
+    double began = kUnset, lasted = 0.0;  // s, without holds
+    double pushed = 0.0;                  // N s, along the normal
+    // True touch; touch by the force; the machine received commands.
+    bool touched = false, felt = false, told = false;
   };
   Contact contact_;
   SwingFigures now_;
-  bool touching_ = false, pressed_ = false;  // in contact; felt while it swings
+  bool touching_ = false, pressed_ = false;  // contact; pressed during the oscillation
   double away_ = kTime;                      // s
   Swing swing_;
   double last_move_ = 0.0;  // m

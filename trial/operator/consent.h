@@ -1,4 +1,4 @@
-// What is asked and refused before an armed machine moves for the first time.
+// Questions and refusals before an armed machine moves for the first time.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace enc::trial {
 
-// A device that is not simulated will move once it is armed.
+// True if a real device will move once it is armed.
 [[nodiscard]] bool moves_device(const models::Setup& setup);
-// A line for each device that will move, and one for how far, how fast or how hard. `devices`: as they
-// describe themselves.
+// One line for each device that will move, and one with its reach, speed or force. `devices`: their own
+// descriptions.
 [[nodiscard]] std::string motion_text(const models::Setup& setup, const Scene& scene,
                                       const std::vector<DeviceWords>& devices);
-// That, and what to do before Enter.
+// That text, and the steps before Enter.
 [[nodiscard]] std::string motion_question(const models::Setup& setup, const Scene& scene,
                                           const std::vector<DeviceWords>& devices);
 
-// Throws Error (kind input) where there is no terminal on which the question could be asked.
+// Throws Error (kind input) if there is no terminal for the question.
 void refuse_unasked();
-// Prints the question and waits for Enter, or until `stopped`. Any other line, or the end of the input, is a
-// no, and what was typed before the question is no answer.
+// Prints the question and waits for Enter, or until `stopped`. Any other line, or the end of the input, means
+// no. Keys typed before the question do not count.
 enum class Answer : std::uint8_t { yes, no, stopped };
 [[nodiscard]] Answer ask(const std::string& question, const std::function<bool()>& stopped);
 

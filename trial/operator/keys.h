@@ -1,6 +1,5 @@
-// The keys of the terminal at standard input, one by one. A thread of its own looks at the terminal: on a
-// busy machine the kernel lets even a read that is asked not to wait wait for seconds, and the loop has no
-// time.
+// Reads the keys of the terminal at standard input, one by one. A separate thread watches the terminal: on a
+// busy machine the kernel can block even a non-blocking read for seconds, and the loop has no time for that.
 #pragma once
 
 #include <atomic>
@@ -17,19 +16,19 @@ namespace enc::trial {
 class Keys {
  public:
   Keys();
-  ~Keys();  // the terminal has the settings that it had
+  ~Keys();  // restores the terminal's settings
   Keys(const Keys&) = delete;
   Keys& operator=(const Keys&) = delete;
 
-  // Reads the keys of the terminal from here on, while this process is in its foreground. The thread takes
-  // the terminal anew where a shell has changed its settings or has brought this process to the foreground.
+  // Reads keys from here on, while this process is in the terminal's foreground. The thread takes the
+  // terminal again after a shell has changed its settings or has brought this process to the foreground.
   void begin();
-  // The keys that were pressed since the last call, at most as many as fit. For the loop: it never waits.
+  // The keys pressed since the last call, at most as many as fit. Safe in the loop: never waits.
   [[nodiscard]] std::size_t read(std::span<char> into) noexcept;
-  void renew() noexcept { renew_ = true; }  // the thread looks soon whether it is in the foreground
-  // Not for the loop while something moves: both may wait.
+  void renew() noexcept { renew_ = true; }  // asks the thread to check the foreground soon
+  // Do not call these from the loop while something moves: both may wait.
   void release();  // gives the terminal back, until take()
-  void take();     // if this process is in the foreground
+  void take();     // takes it, if this process is in the foreground
   [[nodiscard]] bool reading() const noexcept { return taken_; }
   [[nodiscard]] bool lost() const noexcept { return lost_; }  // the terminal was closed
 
@@ -38,8 +37,8 @@ class Keys {
   void look(const std::stop_token& stop);
   void take_now() noexcept;
 
-  std::mutex mutex_;                    // for the terminal's settings
-  std::unique_ptr<Terminal> terminal_;  // none: standard input is no terminal
+  std::mutex mutex_;                    // guards the terminal's settings
+  std::unique_ptr<Terminal> terminal_;  // null: standard input is not a terminal
   bool active_ = false;                 // between take() and release()
   std::atomic<bool> taken_ = false, lost_ = false, renew_ = false;
   Queue<char, 64> pressed_;

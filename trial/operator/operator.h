@@ -1,6 +1,6 @@
-// The person at a run. On a terminal space stops what moves, r resumes, q ends the run; elsewhere SIGUSR1
-// stops and SIGUSR2 resumes. A signal that ends a process ends the run, and so does a terminal that is
-// closed; a suspension pauses it.
+// The operator of a run. On a terminal, space stops the motion, r resumes, q ends the run; without one,
+// SIGUSR1 stops and SIGUSR2 resumes. A terminating signal or a closed terminal ends the run; a suspension
+// pauses it.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,34 @@ namespace enc::trial {
 
 class Operator {
  public:
-  // A suspension pauses the run, which goes on afterwards. After this call it stops first what moves, which
-  // then stands until somebody resumes.
+  // A suspension pauses the run, which then continues. After this call, a suspension first stops everything
+  // that moves, and it stays stopped until the operator resumes.
   void stops_when_suspended() noexcept { stops_ = true; }
 
-  // In this order: a signal only ends the run; the keys of the terminal are read.
+  // Call these in order: begin() makes signals only end the run; listen() reads the keys of the terminal.
   void begin() noexcept {
     signals_.begin();
     signals_.take_suspensions();
   }
-  // Between the two: asks (consent.h), until a signal comes.
+  // Between begin() and listen(): asks (consent.h), until a signal comes.
   [[nodiscard]] Answer confirm(const std::string& question);
   void listen() {
     listens_ = true;
     keys_.begin();
   }
-  void end_listening() { keys_.release(); }  // what is typed from here on is for the shell
+  void end_listening() { keys_.release(); }  // later keys belong to the shell
   [[nodiscard]] bool reads_keys() const noexcept { return keys_.reading(); }
 
-  // As TrialOptions wants them.
+  // The functions for TrialOptions.
   [[nodiscard]] bool stop() noexcept;
   [[nodiscard]] Hand next() noexcept;  // a stop comes before a resume
 
-  // What ended it: a signal, 0: none did.
+  // The signal that ended the run; 0: no signal.
   [[nodiscard]] int signal() const noexcept;
   [[nodiscard]] bool quits() const noexcept { return quits_; }
 
-  // Called where the person stopped, resumed or suspended the run; and before the process is suspended.
+  // Called after the operator has stopped, resumed or suspended the run; `pauses` before the process is
+  // suspended.
   std::function<void(Hand, bool suspended)> acts{};
   std::function<void()> pauses{};
 

@@ -1,4 +1,4 @@
-// A queue of a fixed size between one thread that writes and one that reads, without a lock.
+// A lock-free queue of fixed size between one writing and one reading thread.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ class Queue {
   static_assert(std::is_trivially_copyable_v<V>);
 
  public:
-  // False where it is full: then the value is dropped and counted.
+  // Returns false if the queue is full; the value is then dropped and counted.
   bool push(const V& value) noexcept {
     const std::size_t at = pushed_.load(std::memory_order_relaxed);
     if (at - popped_.load(std::memory_order_acquire) == kRoom) {

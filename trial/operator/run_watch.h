@@ -1,5 +1,5 @@
-// What a person at an armed run sees of it: the present status, and events as they happen. The loop's side of
-// it: it compares and copies, and neither allocates nor waits.
+// The data of an armed run for its operator: the present status, and events as they happen. On the loop's
+// side it only compares and copies; it neither allocates nor waits.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ struct RunStatus {
   Time t{};
   Mode mode = Mode::away;
   std::uint32_t why = 0;
-  bool halted = false;      // by hand
+  bool halted = false;      // stopped by hand
   double gap = kUnset;      // m
-  double force = kUnset;    // N, that presses along the surface's normal
-  std::int64_t missed = 0;  // cycles since the start
+  double force = kUnset;    // N, pressing force along the surface's normal
+  std::int64_t missed = 0;  // missed cycles since the start
   static constexpr std::size_t kPeriods = 1000;
-  std::array<std::uint32_t, kPeriods> periods_ns{};  // of the last ticks, in no order
-  std::size_t periods = 0;                           // how many of them there are
+  std::array<std::uint32_t, kPeriods> periods_ns{};  // last ticks, in any order
+  std::size_t periods = 0;                           // number of valid entries
 };
 
 struct RunEvent {
@@ -38,24 +38,24 @@ struct RunEvent {
   };
   Kind kind = Kind::hold;
   Time t{};
-  std::uint32_t why = 0;       // of a hold
-  Mode mode = Mode::away;      // that follows a hold
-  std::int32_t contact = 0;    // number of a contact,
-  std::int32_t object = -1;    // and its object
-  const char* role = nullptr;  // of a lost link
-  int signal = 0;              // that ends the run; 0: a key
+  std::uint32_t why = 0;       // reasons of a hold
+  Mode mode = Mode::away;      // mode after a hold
+  std::int32_t contact = 0;    // number of the contact
+  std::int32_t object = -1;    // object of the contact
+  const char* role = nullptr;  // role of a lost link
+  int signal = 0;              // signal that ended the run; 0: a key
 };
 
 class RunWatch {
  public:
   void see(const Glance& glance) noexcept;
-  // Something that the person did.
+  // Records an action of the operator.
   void note(RunEvent::Kind kind, int signal = 0) noexcept;
 
   [[nodiscard]] const RunStatus& status() const noexcept { return status_; }  // after the last tick
-  [[nodiscard]] bool halted() const noexcept { return status_.halted; }       // by hand, on the tick before
+  [[nodiscard]] bool halted() const noexcept { return status_.halted; }       // by hand, before the last tick
 
-  // The reader's side, of one other thread.
+  // The reader's side, for one other thread.
   bool newest(RunStatus& status) noexcept { return statuses_.read(status); }
   bool next(RunEvent& event) noexcept { return events_.pop(event); }
   [[nodiscard]] std::size_t take_dropped() noexcept { return events_.take_dropped(); }
@@ -64,7 +64,7 @@ class RunWatch {
   void push(RunEvent event) noexcept;
   void compare(const Glance& glance) noexcept;
 
-  static constexpr int kStatusEach = 50;  // ticks
+  static constexpr int kStatusEach = 50;  // ticks between two statuses
   RunStatus status_;
   Latest<RunStatus> statuses_;
   Queue<RunEvent, 128> events_;

@@ -1,6 +1,6 @@
-// Standard error that keeps nobody waiting: a terminal after Ctrl-S or at the end of a dead link, or a pipe
-// whose reader sleeps, takes what it has room for. Progress and status of a run that moves something are
-// written with it.
+// Standard error that never blocks its writer. A terminal after Ctrl-S or on a dead link, or a pipe whose
+// reader sleeps, gets as much as it has room for. A run that moves something writes its progress and status
+// here.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ class StandardError {
   StandardError(const StandardError&) = delete;
   StandardError& operator=(const StandardError&) = delete;
 
-  // How many bytes were taken without waiting. All of them where there is no reader any more.
+  // Number of bytes written without waiting; all of them if there is no reader any more.
   std::size_t write(std::string_view text) const noexcept;
   [[nodiscard]] bool terminal() const noexcept { return terminal_; }
 
  private:
-  int own_ = -1;  // a file description that does not block; the shell's own stays as it is
+  int own_ = -1;  // a separate non-blocking file description; the shell's own stays unchanged
   bool terminal_ = false;
 };
 

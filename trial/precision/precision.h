@@ -1,10 +1,9 @@
-// Error against run time of a scene: what each integrator and time step of its twin makes of it, judged by a
-// converged run of the same scene, the same seed and so the same hand.
+// Error against computing time of a scene: the result of each integrator and time step of its twin, compared
+// with a converged run of the same scene, seed and so hand.
 //
-// The error is the true force on what is held, N rms over the ticks at which it touches in either run. Two
-// converged runs do not agree to the last digit: a count of a sensor that falls the other way goes round the
-// loop. What those two differ by is about the floor: what errs by less does so by luck. In place of the force
-// other quantities of a run may be compared.
+// The error is the true force on the held body, N rms, over the ticks with a touch in either run. Two
+// converged runs differ slightly: a sensor count that falls the other way goes around the loop. This
+// difference is about the floor; a smaller error is luck. Other quantities of a run may replace the force.
 #pragma once
 
 #include <cmath>
@@ -21,26 +20,26 @@
 
 namespace enc::trial {
 
-// What may be off at most; unset: by anything.
+// Largest allowed errors; unset: no limit.
 struct Accuracy {
-  double force = kUnset;  // N rms, or as Quantities has it
+  double force = kUnset;  // N rms, or the unit of Quantities
   double way = kUnset;    // m rms, of the tip's path
 };
 
 struct PrecisionPoint {
   std::string integrator;
-  double step = 0.0;                                // s
-  double error = kUnset;                            // N rms, by the judge that says more; unset: it failed
-  double way = kUnset;                              // m rms, of the true tip over all ticks
-  double least_error = kUnset, least_way = kUnset;  // by the judge that says less
-  double cpu = kUnset;     // s for each second of experiment, the median of some runs
-  std::string failure{};   // why it has no error
-  double yards = kUnset;   // what a tick cost in yardsticks, the median of some runs
-  double spread = kUnset;  // greatest over least of these runs
-  bool shipped = false;    // what the scene does without being told
-  // What settings are compared by: both are of the same run.
+  double step = 0.0;      // s
+  double error = kUnset;  // N rms, by the judge with the larger value; unset: it failed
+  double way = kUnset;    // m rms, true tip over all ticks
+  double least_error = kUnset, least_way = kUnset;  // the smaller value of the two judges
+  double cpu = kUnset;                              // s for each second of experiment, median of some runs
+  std::string failure{};                            // reason for a missing error
+  double yards = kUnset;                            // cost of a tick in yardsticks, median of some runs
+  double spread = kUnset;                           // largest over smallest of these runs
+  bool shipped = false;                             // the scene's default setting
+  // Cost that compares settings; both costs come from the same run.
   [[nodiscard]] double cost() const { return std::isnan(yards) ? cpu : yards; }
-  // The error over what is allowed, the greater of the two; of what failed infinite.
+  // Error over the allowed error, the larger of the two; infinite for a failed point.
   [[nodiscard]] double share(const Accuracy& most) const;
   [[nodiscard]] bool meets(const Accuracy& most) const { return share(most) <= 1.0; }
 };
@@ -49,31 +48,31 @@ struct Spread {
   double least = kUnset, most = kUnset;
 };
 struct Precision {
-  std::string table;  // of the rig, where timestep_us and integrator stand: "truth.world"
+  std::string table;  // rig table with timestep_us and integrator: "truth.world"
   std::vector<PrecisionPoint> points;
-  PrecisionPoint converged;  // what all are judged by, and by the second: the greater error counts
-  PrecisionPoint second;     // the other converged run; its error and way are the floor
-  double seconds = 0.0;      // of experiment
+  PrecisionPoint converged;  // main judge of all points; the larger error of both judges counts
+  PrecisionPoint second;     // the other converged run; its error and path error are the floor
+  double seconds = 0.0;      // s of experiment
   double tick = 1e-3;        // s
-  std::int64_t touched = 0;  // ticks, in the converged run
-  [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // for --set
-  // Range of the error by a third converged run: it may differ from the two judges by the floor, as they do.
+  std::int64_t touched = 0;  // ticks with a touch, in the converged run
+  [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // arguments for --set
+  // Range of the error by a third converged run, which may differ from both judges by the floor, as they do.
   [[nodiscard]] Spread error_spread(const PrecisionPoint& point) const;  // N rms
   [[nodiscard]] Spread way_spread(const PrecisionPoint& point) const;    // m rms
 };
 
-// What costs less than so many times as much is as dear: times are not known better.
+// Costs within this factor count as equal, because times are not known more accurately.
 inline constexpr double kAsDear = 1.1;
 
 struct Grid {
   std::vector<std::string> integrators{"implicitfast", "euler", "rk4", "discrete"};
-  std::vector<int> parts{1, 2, 4, 8};  // of the haptic period: a step is one of them
+  std::vector<int> parts{1, 2, 4, 8};  // divisors of the haptic period that give the step
 };
 
-// The greatest difference over the greatest true value; unset where one is not finite, all true ones are 0,
-// or there are not as many.
+// Largest difference over the largest true value. Unset if a value is not finite, all true ones are 0, or the
+// numbers of values differ.
 [[nodiscard]] double apart(std::span<const double> some, std::span<const double> truth);
-// What a run comes to besides its force: numbers of one unit, that are apart() from those of a converged run.
+// Other results of a run than its force: numbers of one unit, compared by apart() with a converged run's.
 class Quantities {
  public:
   Quantities() = default;
@@ -81,39 +80,39 @@ class Quantities {
   Quantities(const Quantities&) = delete;
   Quantities& operator=(const Quantities&) = delete;
   virtual void see(const Glance& glance) = 0;
-  [[nodiscard]] virtual std::vector<double> all() const = 0;  // while the trial lives
+  [[nodiscard]] virtual std::vector<double> all() const = 0;  // valid while the trial is alive
 };
-// Of a run that will have these options, to which it may add, but for `watch`.
+// Makes the quantities of a run with these options; it may change them, except `watch`.
 using QuantitiesOf = std::function<std::unique_ptr<Quantities>(const models::Setup&, TrialOptions&)>;
 
 struct PrecisionOptions {
   std::uint64_t seed = 1;
-  double seconds = 12.0;        // at most; where nothing touches by then, all of the scene's programme
-  std::function<double()> cpu;  // s, that this thread or process has taken so far
-  int rounds = 3;               // each point is timed so often, all in turn
+  double seconds = 12.0;        // longest time; without a touch by then, the scene's whole programme
+  std::function<double()> cpu;  // s of computing time of this thread or process so far
+  int rounds = 3;               // number of timings of each point, all in turn
   Grid grid{};
-  bool shipped_too = true;  // what ships is a point, though the grid has it not
-  int converged = 50;  // parts of a period, of the run that judges (RK4); the other one has twice as many
-  bool twice = true;   // also judged by that other one: what errs more counts
-  // A fixed piece of work, timed now, s: costs are told in it, too. Empty: they are not.
+  bool shipped_too = true;  // adds the shipped setting, even if it is not in the grid
+  int converged = 50;       // parts of a period in the main judge (RK4); the other one has twice as many
+  bool twice = true;        // also judges by the other one; the larger error counts
+  // Times a fixed piece of work now, s; costs are also reported relative to it. Empty: no relative costs.
   std::function<double()> yardstick{};
-  QuantitiesOf quantities{};  // compared in place of the force; empty: the force
-  DriverSource drivers{};     // of a scene with a camera
+  QuantitiesOf quantities{};  // compared instead of the force; empty: the force
+  DriverSource drivers{};     // drivers, for a scene with a camera
   std::function<void(double)> progress{};
 };
 
-// The scene with these settings, later ones win.
+// The scene with these settings; later ones win.
 using SetupWith = std::function<models::Setup(const std::vector<std::string>& set)>;
 
-// Throws Error for a scene in which nothing can touch: without a simulated hand.
+// Throws Error for a scene that cannot touch, because it has no simulated hand.
 [[nodiscard]] Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options);
 
-// What the scene does without being told; null: not among them, as settings have put another in its place.
+// The scene's default setting; null: not among the points, because settings have replaced it.
 [[nodiscard]] const PrecisionPoint* shipped(const std::vector<PrecisionPoint>& points);
-// The cheapest that is so accurate; null: none. What costs the same within a tenth is as cheap: then
-// what the scene does anyway, else what errs least.
+// The cheapest point with this accuracy; null: no such point. Within a tenth of its cost, the default setting
+// wins, otherwise the smallest error.
 [[nodiscard]] const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, const Accuracy& most);
-// The dearest of those that are cheaper than this one; null: none.
+// The most expensive point that is cheaper than this one; null: no such point.
 [[nodiscard]] const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points,
                                                  const PrecisionPoint& than);
 

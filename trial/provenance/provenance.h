@@ -1,5 +1,4 @@
-// Which program made a result, on which machine and when, for whoever finds the result later. None of it is
-// part of a state hash.
+// Origin of a result, for later readers: program, machine and time. It is not part of any state hash.
 #pragma once
 
 #include <chrono>
@@ -8,8 +7,8 @@
 
 namespace enc::trial {
 
-// The commit that the program was built from: twelve digits, and "-dirty" where code was
-// changed since; the day of the commit. Both are "unknown" where there was no repository (cmake/commit.sh).
+// The commit of the program: twelve digits, plus "-dirty" if the code was changed since, and the commit's
+// day. Both are "unknown" without a repository (cmake/commit.sh).
 struct BuiltCommit {
   const char *name, *day;
 };
@@ -29,8 +28,8 @@ struct Machine {
 [[nodiscard]] Machine this_machine();
 [[nodiscard]] std::string words_of(const Machine& machine);  // on one line
 
-// The texts of a record about its origin: `version`, `commit`, `commit_date`, `date` and `machine`;
-// `started`, too, of a run that keeps the wall clock.
+// The texts of a record about its origin: `version`, `commit`, `commit_date`, `date` and `machine`; a run
+// that keeps the wall clock adds `started`.
 [[nodiscard]] std::map<std::string, std::string> provenance_texts(WallTime started, bool wall_clock);
 
 }  // namespace enc::trial

@@ -1,4 +1,4 @@
-// What `run` counts of each run, all at once.
+// All measures of `run`, together.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace enc::trial {
 
-// What the core itself knows of a press, for runs in which nobody knows the truth.
+// The core's own data of a press, for runs without ground truth.
 struct FeltMeasure {
-  bool truth = true;     // every device is simulated: others know better
+  bool truth = true;     // every device is simulated: other measures are more accurate
   double peak = 0.0;     // N, along the normal, in contact
-  double deepest = 0.0;  // m, as the machine was told
+  double deepest = 0.0;  // m, as commanded
 
   void see(const Glance& glance) {
     truth = glance.simulated;
@@ -29,7 +29,7 @@ struct FeltMeasure {
   }
 };
 
-// Outlives the trial with these options, whose `watch` it is.
+// Sets `watch` of these options, and must outlive the trial that uses them.
 struct RunMeasures {
   RunMeasures(const models::Setup& setup, TrialOptions& options) : presses(setup), ledger(setup, options) {
     options.watch = [this](const Glance& glance) { see(glance); };

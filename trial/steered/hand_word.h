@@ -1,4 +1,4 @@
-// What somebody who steers a run of the twin asks for at a tick.
+// Request at a tick from the person who steers the twin's hand.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 namespace enc::trial {
 
 struct HandWord {
-  std::optional<Point<'W'>> place{};  // wanted place of the tip of the tool; unset: no news
-  bool changes_tool = false;          // the hand lays its tool down and takes the other one
-  std::uint8_t faults = 0;            // bits of Fault (faults.h), from here on
+  std::optional<Point<'W'>> place{};  // requested place of the tool's tip; unset: no change
+  // The hand lays its tool down and takes the other one.
+  bool changes_tool = false;
+  std::uint8_t faults = 0;  // bits of Fault (faults.h), from here on
 };
 
 }  // namespace enc::trial

@@ -1,5 +1,5 @@
-// What was asked of a run by somebody who steered it, and the ticks from which it holds. A record keeps it,
-// and a later run plays it back (docs/reference/record.md, "hand").
+// The requests of a steered run, with the ticks from which they hold. A record keeps them, and a later run
+// plays them back (docs/reference/record.md, "hand").
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ class SteeringLog {
  public:
   void add(std::int64_t tick, const HandWord& word) { steps_.push_back({tick, word}); }
   [[nodiscard]] bool empty() const { return steps_.empty(); }
-  // All up to `tick` that is new since the last call, or unset, as TrialOptions::steer wants it. Ticks must
+  // All new requests since the last call up to `tick`, or unset, as TrialOptions::steer expects. Ticks must
   // ascend.
   [[nodiscard]] std::optional<HandWord> at(std::int64_t tick);
 
-  // CSV with one line per step: tick, whether there is a place, the place in W, m, whether the tool is
-  // changed, bits of the faults. Numbers are read back to the bit.
+  // CSV with one line for each step: tick, whether there is a place, the place in W, m, whether the tool is
+  // changed, bits of the faults. Numbers read back to the bit.
   [[nodiscard]] std::string text() const;
   // Reads the text of a record, which may be corrupt. Throws Error (kind input) with the line.
   static SteeringLog read(const std::string& text, const std::string& record);
@@ -34,10 +34,10 @@ class SteeringLog {
   std::size_t next_ = 0;
 };
 
-// The steering in a record, and how long that run took.
+// The steering in a record, and the duration of that run.
 struct SteeredRun {
   SteeringLog log;
-  double duration = 0.0, period = 0.0;  // s: of the run, and of its ticks
+  double duration = 0.0, period = 0.0;  // s: length of the run, and of its ticks
   std::string seed;
 };
 // Throws Error (kind input) for a file that is not a record, or a record without steering.

@@ -1,4 +1,4 @@
-// Threads beside a loop that keeps time.
+// Threads beside a real-time loop.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace enc::trial {
 
-// A thread that takes no signal, because a signal ends the loop's sleep, and that runs behind the loop, at
-// whatever priority the caller runs.
+// Starts a thread that takes no signal, because a signal would end the loop's sleep. It has a lower priority
+// than the loop, whatever the caller's priority.
 [[nodiscard]] std::jthread beside_loop(std::function<void(const std::stop_token&)> work);
 
 }  // namespace enc::trial

@@ -1,4 +1,4 @@
-// Puts a record into its file beside a run that keeps to the wall clock, so that no tick waits for a disk.
+// Writes a record to its file beside a wall-clock run, so that no tick waits for a disk.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,9 @@ namespace enc::trial {
 
 class RecordThread {
  public:
-  static constexpr std::chrono::milliseconds kLook{10};  // up to 6 kHz less than a chunk comes meanwhile
-  // `writer` stays until this is gone, and is closed after that.
+  // Shorter than the time of a chunk up to 6 kHz.
+  static constexpr std::chrono::milliseconds kLook{10};
+  // `writer` must outlive this object, and is closed afterwards.
   explicit RecordThread(RecordWriter& writer);
   RecordThread(const RecordThread&) = delete;
   RecordThread& operator=(const RecordThread&) = delete;

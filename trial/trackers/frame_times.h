@@ -1,5 +1,5 @@
-// When the haptic loop heard of the frames of vision: its rate, its jitter and how old its results are. In
-// the experiment's time, of which a tick is the least.
+// Arrival of vision's frames at the haptic loop: rate, jitter and age of the results, in the experiment's
+// time, with a resolution of one tick.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,19 @@
 namespace enc::trial {
 
 struct FrameTimes {
-  bool threaded = false;  // vision is in a thread of its own, not within the loop
+  bool threaded = false;  // vision runs in its own thread, not within the loop
   std::int64_t frames = 0;
-  std::vector<double> intervals, ages;  // s: from one hand-over to the next, and of each since the exposure
+  std::vector<double> intervals, ages;  // s: between two hand-overs, and from exposure to hand-over
   Time first{}, last{};                 // hand-over
 
-  // Beforehand: nothing is allocated within the loop, and what is beyond the first million is only counted.
+  // Reserves memory beforehand: the loop allocates nothing, and frames beyond the first million are only
+  // counted.
   void reserve(double expected) {
     const auto most = static_cast<std::size_t>(std::min(2.0 * expected + 16.0, 1e6));
     intervals = with_room<double>(most);
     ages = with_room<double>(most);
   }
-  // After each reading of the tracker. What is told again, as stale, is no frame.
+  // Call this after each reading of the tracker. A repeated result, such as a stale one, is not a frame.
   void see(Time now, const Stamped<TrackedTool>& newest) noexcept {
     if (newest.health == Health::absent || (frames > 0 && newest.t == exposed_)) return;
     if (frames == 0) first = now;

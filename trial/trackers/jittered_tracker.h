@@ -1,5 +1,5 @@
-// A tracker whose results come at irregular times, as from a thread: the same results with the same stamps,
-// each at a random time around the one at which it was due. For virtual time, where it is repeatable.
+// A tracker whose results arrive at irregular times, as from a thread. Results and stamps are unchanged, but
+// each arrives at a random time around its due time. It is for virtual time, where it is repeatable.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace enc::trial {
 class JitteredTracker final : public PoseTracker {
  public:
   struct Spec {
-    Duration latency{};  // from a stamp to when it is due
-    Duration jitter{};   // earlier or later than that by at most so much
+    Duration latency{};  // time from the stamp to the due time
+    Duration jitter{};   // largest deviation from the due time, either way
     std::uint64_t seed = 1;
   };
-  // `tracker` tells at the exposure, or soon after (its own latency 0): so a result can come before it is
-  // due. None comes before the tracker has it, and none before an older one, as a thread works on one after
-  // the other.
+  // `tracker` must return its results at the exposure or soon after (its own latency 0), so that a result can
+  // arrive before its due time. A result never arrives before the tracker has it, nor before an older one,
+  // because a thread works on one after the other.
   JitteredTracker(std::unique_ptr<PoseTracker> tracker, const Spec& spec)
       : tracker_(std::move(tracker)), spec_(spec), draw_(spec.seed, "jitter") {}
 

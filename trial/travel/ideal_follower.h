@@ -1,6 +1,6 @@
-// What a machine of given speed and acceleration can do at best to stay under a hand. It sees the surface
-// point under the tool late, as it was then or carried on evenly, and goes straight there, no faster than it
-// can stop. How far it is behind is what rig and hand allow of a miss (docs/notes/encounter.md).
+// The best that a machine of given speed and acceleration can do to stay under a hand. It sees the surface
+// point under the tool late, either held or extrapolated at constant velocity. It moves straight there, no
+// faster than it can stop. Its lag is the miss that rig and hand allow (docs/notes/encounter.md).
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class IdealFollower {
  public:
   enum class Sees : std::uint8_t { held, carried_on };
 
-  // `age`: s, how old what it sees is; m/s and m/s^2; dt: s, a tick.
+  // `age`: s, age of the seen point; speed and acceleration: m/s and m/s^2; dt: s, a tick.
   IdealFollower(Sees sees, double age, double speed, double acceleration, double dt)
       : sees_(sees),
         age_(age),
@@ -26,7 +26,7 @@ class IdealFollower {
         acceleration_(acceleration),
         dt_(dt) {}
 
-  // A tick: where the followed point is, m. It begins there, at rest.
+  // One tick: position of the followed point, m. The follower starts there, at rest.
   void see(const Vec3& point) {
     Vec3& oldest = late_[next_];
     next_ = (next_ + 1) % late_.size();
@@ -46,7 +46,7 @@ class IdealFollower {
     at_ += velocity_ * dt_;
   }
 
-  // m, from where it is.
+  // Distance of `point` from the follower, m.
   [[nodiscard]] double behind(const Vec3& point) const {
     return at_.allFinite() ? (point - at_).norm() : 0.0;
   }

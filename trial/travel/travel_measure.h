@@ -1,6 +1,6 @@
-// What the tracker says of a tool that the machine carries [VHMR 4.1, Table 1]: the tracked tip, through the
-// believed calibration, less where the machine says it is, whenever a new packet has come. All of it is what
-// the core is told: no truth is asked.
+// Tracking error of a tool that the machine carries [VHMR 4.1, Table 1]: the tracked tip through the rig's
+// calibration, minus the machine's reported tip, for each new packet. It uses only the core's inputs, no
+// ground truth.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@ struct Errors {
   double rmse = 0.0, mae = 0.0, bias = 0.0;  // m; sources/choices 10
 };
 
-// One packet: time, place along the axis, error along it, and how it counts.
+// One packet: time, position along the axis, error along it, and the direction of motion.
 enum class Moving : std::int8_t { back = -1, stopped = 0, forward = 1 };
 struct PacketError {
   double t = 0.0, position = 0.0, error = 0.0;  // s, m, m
   Moving moving = Moving::stopped;
-  std::int32_t axis = 0;  // of W
+  std::int32_t axis = 0;  // axis of W
 };
 
-// Sums of what counts, in the words of sources/choices 10.
+// Sums over the packets that count, in the terms of sources/choices 10.
 class ErrorSum {
  public:
   void add(double error);
   void add(const ErrorSum& other);
-  [[nodiscard]] Errors errors() const;  // unset where nothing was added
+  [[nodiscard]] Errors errors() const;  // unset if nothing was added
   [[nodiscard]] std::int64_t size() const { return n_; }
 
  private:
@@ -40,9 +40,9 @@ class ErrorSum {
 };
 
 struct TravelSums {
-  std::array<ErrorSum, 3> stopped, forward, back;  // of each axis of W, along it
-  double largest = 0.0;                            // m, length of the whole error, any time
-  std::vector<PacketError> packets;                // where they are kept
+  std::array<ErrorSum, 3> stopped, forward, back;  // each axis of W, along that axis
+  double largest = 0.0;                            // m, length of the whole error, at any time
+  std::vector<PacketError> packets;                // if they are kept
   void add(const TravelSums& other);
   [[nodiscard]] std::int64_t size() const;  // packets that count
 };
@@ -60,7 +60,7 @@ class TravelMeasure {
   bool keeps_;
   TravelSums sums_;
   Time stamp_{};
-  double moved_ = 0.0;  // s, when last
+  double moved_ = 0.0;  // s, time of the last motion
 };
 
 }  // namespace enc::trial
