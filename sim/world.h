@@ -1,4 +1,4 @@
-// The twin: one MuJoCo world with the plants of a scene's devices. It owns time; the roles are views on it.
+// The twin: one MuJoCo world with the plants of a scene's devices. It owns time; the roles are views of it.
 #pragma once
 
 #include <cstddef>
@@ -39,32 +39,32 @@ class World {
   Tick advance();
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
-  void steer(const Point<'W'>& place);  // see User; ignored without a hand, as is a change of tools
+  void steer(const Point<'W'>& place);  // see User; ignored without a hand, as is change_tool()
   void change_tool();
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
-  // s, of what the user, the probe, the pusher or the travel does; 10 where nobody does anything.
+  // s, programme of the user, the probe, the pusher or the travel; 10 without one.
   [[nodiscard]] double programme_time() const { return programme_time_; }
-  // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
+  // Tick after which the physics is unreliable, -1 while it is sound; and MuJoCo's own message.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
   [[nodiscard]] std::string divergence() const { return fatal_.empty() ? physics_.warning_text() : fatal_; }
   [[nodiscard]] Physics& physics() { return physics_; }
   [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
-  [[nodiscard]] const Quat& q_WT() const { return q_WT_; }  // of the held tool, true
-  [[nodiscard]] Vec<'W'> pointing() const;  // unit, of the hand's finger or tool; down without a user
-  // All that moves: physics, plants, queues, random streams.
+  [[nodiscard]] const Quat& q_WT() const { return q_WT_; }  // held tool, true
+  [[nodiscard]] Vec<'W'> pointing() const;  // unit, hand's finger or tool; down without a user
+  // All moving state: physics, plants, queues, random streams.
   [[nodiscard]] std::vector<std::byte> save() const;
   void restore(const std::vector<std::byte>& saved);
-  void ask_for_work() { step_work_.emplace(); }  // from the next step on, in the truth
+  void ask_for_work() { step_work_.emplace(); }  // truth includes work from the next step on
 
-  std::optional<HexapodPlant> machine;  // there if the scene has no arm
+  std::optional<HexapodPlant> machine;  // set if the scene has no arm
   std::optional<ArmPlant> arm;
   std::optional<ForcePlant> force;
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
-  std::optional<BallContact> ball;  // there if the scene presses one with a probe
+  std::optional<BallContact> ball;  // set if the scene presses one with a probe
   std::optional<Pusher> pusher;
   std::optional<GripperPlant> gripper;
-  std::optional<Legs> legs;  // in the structural form
+  std::optional<Legs> legs;  // structural form only
 
  private:
   void physics_step(double t);
@@ -72,8 +72,8 @@ class World {
   void hold_tools(double t, double h);
   void set_up_hexapod(const WorldSpec& spec);  // world_hexapod.cpp
   void move_machine(double t, double h);
-  void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
-  [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
+  void place_machine(const Pose<'R', 'H'>& from);  // keeps the pose; the state has its motion
+  [[nodiscard]] LegMotion leg_motion() const;      // target of the servo
   void observe_machine();
   [[nodiscard]] Pose<'W', 'H'> true_tip() const;
   void measure_force(Time t);
@@ -87,28 +87,28 @@ class World {
   void observe_arm(), observe(Time t);
   [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
   void sense(Time t);
-  [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's
+  [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // without MuJoCo's contact
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
-  void count_work(const Point<'W'>& from, double h);  // of a step
+  void count_work(const Point<'W'>& from, double h);  // of one step
   [[nodiscard]] Scale scale() const;
   [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // without weight and errors
 
   TwinSpec twin_;
   const Scene& prepared_;
   double dt_;
-  double mass_behind_ = 0.0;  // the sensor, kg
+  double mass_behind_ = 0.0;  // behind the sensor, kg
   int steps_per_tick_;
   std::int32_t clamped_ = -1;  // tool in the gripper
   Pose<'W', 'R'> X_WR_;        // true
   Pose<'H', 'F'> X_HF_;
   Quat q_WT_ = Quat::Identity();
-  Pose<'H', 'T'> X_HT_;  // how the clamped tool stands
+  Pose<'H', 'T'> X_HT_;  // pose of the clamped tool
   std::optional<User> user_;
   Physics physics_;
   std::optional<ArmBody> arm_body_;
-  std::optional<StepWork> step_work_;  // there if somebody asked; it looks on
-  std::vector<HeldTool> tools_;        // the one that it begins with, and the one that it changes to
-  const HeldTool* in_hand_ = nullptr;  // of these; none: the hand is empty
+  std::optional<StepWork> step_work_;  // set if work was requested; only observes
+  std::vector<HeldTool> tools_;        // the first tool, and the one to change to
+  const HeldTool* in_hand_ = nullptr;  // one of these; null: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
   Tick next_;

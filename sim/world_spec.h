@@ -1,4 +1,4 @@
-// What a twin is built from, and where its machine really stands.
+// The inputs of a twin, and the true pose of its machine.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct WorldSpec {
   bool draw_all = false;
 };
 
-// Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
-// nothing there.
+// The base for which H would be W at the machine's zero, with its error: rotated about W, so that a rotation
+// alone moves nothing there.
 [[nodiscard]] Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth);
 [[nodiscard]] Pose<'W', 'R'> arm_base(const ArmTruth& truth);
 

@@ -1,5 +1,6 @@
-// A real ball under the probe of the test rig [VHMR Fig 7]: two spheres; the ball's own law along the common
-// normal, felt friction across it. The law is ours: MuJoCo only carries the force to the sensor.
+// A real ball under the probe of the indentation rig [VHMR Fig 7]: two spheres, with the ball's own law along
+// the common normal and felt friction across it. The law is ours; MuJoCo only carries the force to the
+// sensor.
 #pragma once
 
 #include "sim/bodies/ball_plant.h"
@@ -7,26 +8,26 @@
 
 namespace enc::sim {
 
-// What the ball is: its set, with what is given apart put over it. `radius`: of the object in the scene, m.
+// Parameters of the ball: its set, overridden by single values. `radius`: of the object in the scene, m.
 [[nodiscard]] BallParameters ball_of(const BallTruth& truth, double radius);
 
 class BallContact {
  public:
   struct State {
     BallPlantState ball;
-    Vec<'W'> stretch = Vec<'W'>::zero();  // of felt and core along the surface; 1 where it slides
-    Point<'W'> probe;                     // centre, one step ago; not set: was free
-    double penetration = 0.0;             // m, along the normal; negative: the gap
-    Vec<'W'> force = Vec<'W'>::zero();    // on the probe, N
-    Point<'W'> touched;                   // where that force acts
+    Vec<'W'> stretch = Vec<'W'>::zero();  // felt and core along the surface; 1: sliding
+    Point<'W'> probe;                     // centre, one step ago; unset: was free
+    double penetration = 0.0;             // m, along the normal; negative: gap
+    Vec<'W'> force = Vec<'W'>::zero();    // force on the probe, N
+    Point<'W'> touched;                   // point of action of that force
   };
-  // Confined: the ball's centre stays where it is. Throws Error for a probe that the ball's law does not hold
-  // for.
+  // Confined: the ball's centre stays in place. Throws Error for a probe outside the validity of the ball's
+  // law.
   BallContact(const BallTruth& truth, const Point<'W'>& centre, double radius, double probe_radius);
 
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
-  // The probe's centre goes straight to `probe` in dt, s.
+  // Moves the probe's centre straight to `probe` in dt, s.
   void move(const Point<'W'>& probe, double dt);
 
  private:

@@ -1,5 +1,5 @@
-// The physical tennis ball under a spherical probe: what the twin's rig presses and what the response file is
-// computed from until a real ball has been measured. Formula and values: sources/ball 4 (fits a
+// The physical tennis ball under a spherical probe: the twin's rig presses it, and the response file is
+// computed from it until a real ball has been measured. Formula and values: sources/ball 4 (fits a
 // finite-strain solver to 1.1 % rms).
 #pragma once
 
@@ -14,7 +14,7 @@ namespace enc::sim {
 // (sources/ball 3). Confidence: R = reported in reviews or data sheets, S = fitted to the solver, A =
 // assumed.
 struct BallParameters {
-  double outer_radius = 33.0e-3;    // [S] m; ITF 65.4-68.6 mm diameter, middle less 0.5 mm
+  double outer_radius = 33.0e-3;    // [S] m; ITF 65.4-68.6 mm diameter, middle minus 0.5 mm
   double probe_radius = 10.0e-3;    // [R] m; VHMR 4.2, the formula holds for this radius only
   double wall = 3.5e-3;             // [R] m; rubber core, 3.3-3.7
   double felt = 3.0e-3;             // [R] m; uncompressed, 2.5-3.3
@@ -32,22 +32,22 @@ struct BallParameters {
 
 struct BallPlantState {
   double deflection = 0.0;           // m
-  std::array<double, 3> relaxing{};  // N, the rubber branches
-  double friction = 0.0;             // -1 ... 1, of its full value; sign of the last long travel
+  std::array<double, 3> relaxing{};  // N, force of each rubber branch
+  double friction = 0.0;             // -1 ... 1, as a share of its full value; sign of the last long travel
 };
 
 class BallPlant {
  public:
   explicit BallPlant(const BallParameters& parameters = {});
-  // The same elastic ball with the friction and relaxation of `loss`; its other numbers are not read. Saves
-  // the table.
+  // The same elastic ball with the friction and relaxation of `loss`, whose other numbers are ignored. Avoids
+  // computing the table again.
   [[nodiscard]] BallPlant with_loss(const BallParameters& loss) const;
 
-  // Elastic force at rest, N; 0 below zero. Tabulated to 8 mm, straight on beyond (the formula is meant to 6
+  // Elastic force at rest, N; 0 below zero. Tabulated to 8 mm, and linear beyond (the formula is valid to 6
   // mm).
   [[nodiscard]] double elastic(double deflection) const;
-  // Moves the ball from state.deflection to `deflection` (m, negative: no touch) in dt (s) at a steady rate;
-  // gives the force, N.
+  // Moves the ball from state.deflection to `deflection` (m, negative: no touch) in dt (s) at a constant
+  // rate; returns the force, N.
   double step(BallPlantState& state, double deflection, double dt) const;
 
  private:

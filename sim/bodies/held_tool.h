@@ -1,4 +1,4 @@
-// A tool of the user's: its body, and what of it the tracker and the truth need.
+// A tool of the user: its body, and the data that tracker and truth need.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace enc::sim {
 
 struct HeldTool {
-  std::int32_t index = -1;  // in the scene
+  std::int32_t index = -1;  // index in the scene
   int body = -1, qpos = 0, qvel = 0;
   Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
   double radius = kUnset;

@@ -22,25 +22,25 @@ using SpecPtr = std::unique_ptr<mjSpec, MjDelete>;
 using ModelPtr = std::unique_ptr<mjModel, MjDelete>;
 using DataPtr = std::unique_ptr<mjData, MjDelete>;
 
-// A compiled model with its data. Autoreset is off: a divergence stays visible instead of turning into a
-// silent restart.
+// A compiled model with its data. Autoreset is off: a divergence stays visible instead of causing a silent
+// restart.
 class Physics {
  public:
-  // Throws Error with MuJoCo's own words where the spec does not compile.
+  // Throws Error with MuJoCo's own message if the spec does not compile.
   explicit Physics(SpecPtr spec);
 
   [[nodiscard]] mjModel* model() const { return model_.get(); }
   [[nodiscard]] mjData* data() const { return data_.get(); }
-  // One step. False from the first step after which the state is not to be trusted: a warning was counted or
-  // a number is not finite.
+  // One step. Returns false from the first step whose state is unreliable: MuJoCo counted a warning, or a
+  // number is not finite.
   bool step() {
     mj_step(model_.get(), data_.get());
     ++steps_;
     unsolved_ += solved() ? 0 : 1;
     return !warned();
   }
-  // Steps, and those of them whose contacts were not found to the tolerance within the solver's iterations.
-  // Of a step with several stages (RK4) the last one counts.
+  // Number of steps, and of steps whose contacts did not reach the tolerance within the solver's iterations.
+  // For a step with several stages (RK4) the last one counts.
   [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
   [[nodiscard]] std::int64_t unsolved() const noexcept { return unsolved_; }
   [[nodiscard]] bool warned() const noexcept {
@@ -49,13 +49,13 @@ class Physics {
     return count != 0;
   }
   [[nodiscard]] std::string warning_text() const;
-  // Bodies, joints, geoms, sites, sensors, actuators, tendons, equalities: what the scene made it build.
+  // Number of bodies, joints, geoms, sites, sensors, actuators, tendons and equalities that the scene caused.
   [[nodiscard]] int elements() const {
     const mjModel& m = *model_;
     return m.nbody + m.njnt + m.ngeom + m.nsite + m.nsensor + m.nu + m.ntendon + m.neq;
   }
-  [[nodiscard]] std::string xml() const;                      // MJCF of it, which MuJoCo's own programs open
-  [[nodiscard]] int id(mjtObj type, const char* name) const;  // throws Error when there is none
+  [[nodiscard]] std::string xml() const;                      // its MJCF, for MuJoCo's own programs
+  [[nodiscard]] int id(mjtObj type, const char* name) const;  // throws Error if missing
 
   [[nodiscard]] std::vector<double> save() const;
   void restore(const std::vector<double>& state);
@@ -69,14 +69,14 @@ class Physics {
   std::int64_t steps_ = 0, unsolved_ = 0;
 };
 
-// Three numbers of one of its arrays.
+// Sets three numbers of a MuJoCo array.
 inline void set3(double* to, const Vec3& v) noexcept { std::copy_n(v.data(), 3, to); }
 
-// Process-wide: mju_error would end the program with code 1, which reads as "the answer is no"
+// Process-wide. Without them mju_error would end the program with code 1, which means "the answer is no"
 // (sources/twin 4).
 void install_mujoco_handlers();
 [[nodiscard]] std::string mujoco_version();
-// Why a MuJoCo of this version (4000001 is 4.0.1) must not be used, and what to do; empty: it may.
+// The reason why MuJoCo of this version (4000001 is 4.0.1) is not allowed, and the remedy; empty: allowed.
 [[nodiscard]] std::string mujoco_problem(int version = mj_version());
 
 }  // namespace enc::sim

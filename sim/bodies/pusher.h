@@ -1,9 +1,10 @@
-// What pushes the haptic-tip from outside, such as a hand or a stand: a spring and a damper towards a point
-// that goes in, waits and comes back along a line. It can push and cannot pull [sources/hand 5]:
+// A pusher outside of the machine, such as a hand or a stand: a spring and a damper towards a point that goes
+// in, waits and comes back along a line. It can push, but not pull [sources/hand 5]:
 //
-//   F = max(0, k (x_s - x) + b (v_s - v) + tremor)      x: of the tip's outermost point, in from the surface
+//   F = max(0, k (x_s - x) + b (v_s - v) + tremor)      x: depth of the tip's outermost point below the
+//   surface
 //
-// The law is ours: MuJoCo only carries the force to the sensor.
+// The law is ours; MuJoCo only carries the force to the sensor.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace enc::sim {
 class Pusher {
  public:
   struct State {
-    std::int32_t push = 0;      // the coming or present one
+    std::int32_t push = 0;      // the next or present one
     Phase phase = Phase::wait;  // then press, hold, release
     double phase_start = 0.0;   // s
     Stream noise;
@@ -33,13 +34,14 @@ class Pusher {
   void restore(const State& state) { state_ = state; }
   [[nodiscard]] const Vec<'W'>& normal() const { return to_.at.normal; }  // outward: against the push
   [[nodiscard]] bool done() const { return state_.push >= spec_.repeats; }
-  [[nodiscard]] double duration() const;  // s, of the whole programme
-  // m in from the surface, where the spring is at rest at the end of the ramp: the object's force holds it
-  // there at the wanted depth.
+  [[nodiscard]] double duration() const;  // s, whole programme
+  // Depth at which the spring is at rest at the end of the ramp, m: the object's force then holds the tip at
+  // the wanted depth.
   [[nodiscard]] double reach() const { return to_.depth + to_.force / truth_.stiffness; }
-  // Whether the step of h from t comes to where the next push is `ahead` s away.
+  // True if the step of h from t reaches the time `ahead` (s) before the next push.
   [[nodiscard]] bool near(double t, double h, double ahead) const;
-  // Advances by h from t, s. The tip's centre and velocity at the end of that; the force on the tip, N.
+  // Advances by h from t, s. Arguments: the tip's centre and velocity at the end of the step. Returns the
+  // force on the tip, N.
   Vec<'W'> act(double t, double h, const Point<'W'>& tip, const Vec<'W'>& velocity);
 
  private:

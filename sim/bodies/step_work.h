@@ -1,13 +1,13 @@
-// What a step of the physics does to a machine, in J: the truth of the energy ledger (trial/ledger). It looks
-// on: nothing in the world depends on it.
+// The work of a physics step on a machine, in J: the ground truth of the energy balance (trial/ledger). It
+// only observes; the world does not depend on it.
 //
-// Of the force that touches the tip, what touches it is the scale. A tool of mass m, which the hand pushes
-// with g over the step of h, has been pushed back by
+// The touching body itself serves as the scale for the contact force. The hand pushes a tool of mass m with g
+// over the step of h; the machine has then pushed it back by
 //
 //   F = m (v_1 - v_0) / h - g
 //
-// in the mean of the step: exact whatever the integrator, which adds up accelerations. It owes nothing to the
-// machine's own equations of motion. Its work is that on the point of the machine that it touches.
+// in the mean of the step. This is exact for every integrator that sums accelerations, and independent of the
+// machine's own equations of motion. The work of F is that on the touched point of the machine.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace enc::sim {
 
-// The tool that pushes: the first of its three slides, its mass, kg, and the radius of its tip, m.
+// The pushing tool: the first of its three slides, its mass, kg, and the radius of its tip, m.
 struct Scale {
   int dof = -1;
   double mass = 0.0, radius = 0.0;
@@ -29,20 +29,20 @@ struct Scale {
 
 class StepWork {
  public:
-  // Before a step, when all its forces are there; `torque`: of an arm's motors, N m or N.
+  // Call this before a step, when all its forces are set; `torque`: of an arm's motors, N m or N.
   void begin(const Physics& physics, const Scale& tool, const ArmBody* arm, const PerJoint& torque);
-  // After it: mean force on the machine, N in W.
+  // After the step: mean force on the machine, N in W.
   [[nodiscard]] Vec3 pushed(const Physics& physics, double h) const;
-  [[nodiscard]] const PerJoint& rates() const { return rates_; }  // of an arm, when it began
-  // What it did to an arm, whose motors pushed with `torque` and whose friction of the smooth form with
+  [[nodiscard]] const PerJoint& rates() const { return rates_; }  // arm only, at the start of the step
+  // Adds the step's work on an arm whose motors pushed with `torque`, and whose smooth friction pushed with
   // `smooth`, N m or N.
   void count(const Physics& physics, const ArmBody& arm, const ArmTruth& truth, const PerJoint& torque,
              const PerJoint& smooth, double h, Work& sum);
 
  private:
   static constexpr std::size_t kMostDofs = 12;
-  using PerDof = std::array<double, kMostDofs>;  // of the world's coordinates
-  // Torques at an end of a step: of dry friction, and of what ends a joint's way.
+  using PerDof = std::array<double, kMostDofs>;  // the world's coordinates
+  // Torques at one end of a step: dry friction, and the joint stops.
   struct Held {
     PerJoint friction{};
     PerDof stops{};
@@ -52,13 +52,13 @@ class StepWork {
   [[nodiscard]] Vec3 touched_first(const Physics& physics, const ArmBody& arm) const;
 
   Scale tool_;
-  Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // of the tool; of the hand on it
+  Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // velocity of the tool; force of the hand on it
   PerJoint joints_{}, rates_{};
   PerDof qpos_{};
-  Held held_;  // as it began
+  Held held_;  // at the start of the step
   PerJoint torque_{kUnset, kUnset, kUnset};
   std::vector<double> warm_;
-  Vec3 tip_ = Vec3::Zero();  // of the body that the prop is on
+  Vec3 tip_ = Vec3::Zero();  // body that carries the prop
   Quat turned_{Quat::Identity()};
 };
 

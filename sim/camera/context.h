@@ -1,5 +1,5 @@
-// Where a stage draws: EGL without a window system, or OSMesa where there is none. Both are opened with
-// dlopen, so that nothing links GL.
+// The drawing context of a stage: EGL without a window system, or OSMesa if EGL is missing. Both are opened
+// with dlopen, so that no binary links GL.
 #pragma once
 
 #include <memory>
@@ -13,19 +13,19 @@ class DrawingContext {
   virtual ~DrawingContext() = default;
   virtual void make_current() const = 0;  // on the thread that made it
   [[nodiscard]] virtual const char* name() const = 0;
-  [[nodiscard]] virtual void* function(const char* name) const = 0;  // of OpenGL; null where there is none
+  [[nodiscard]] virtual void* function(const char* name) const = 0;  // OpenGL function; null if missing
 };
 
-// Whoever makes, uses or destroys a context of this module holds this meanwhile: one thread of the process
-// draws at a time. Without it a benchmark crashed once in Mesa 22.3.6, where it asks whether a resource is
-// referenced by a drawing: those of other threads' contexts are asked as well.
+// Hold this lock while you make, use or destroy a context of this module: one thread of the process draws at
+// a time. Without it a benchmark once crashed in Mesa 22.3.6, in its check whether a drawing references a
+// resource; that check includes the drawings of other threads' contexts.
 [[nodiscard]] std::unique_lock<std::mutex> drawing_lock();
 
-// EGL, else OSMesa; the environment's ENCOUNTER_GL=egl or ENCOUNTER_GL=osmesa says which. Current when it
-// returns. All contexts of a process are of one kind: MuJoCo looks OpenGL up once. Throws Error (kind device)
-// with what both said.
+// EGL, else OSMesa; the environment variable ENCOUNTER_GL=egl or ENCOUNTER_GL=osmesa selects one. The context
+// is current on return. All contexts of a process are of one kind, because MuJoCo looks OpenGL up once.
+// Throws Error (kind device) with both messages.
 [[nodiscard]] std::unique_ptr<DrawingContext> drawing_context();
-// As CameraModule has it. Draws nothing.
+// As in CameraModule. Draws nothing.
 [[nodiscard]] std::string renderer_problem(const char* kind);
 [[nodiscard]] std::string renderer_name(const char* kind);
 

@@ -1,5 +1,5 @@
-// A pointing hand: a finger out of half a sphere, exactly, and of cylinders that widen; the rest of the hand
-// and a sleeve as two meshes.
+// A pointing hand: a finger made of an exact half sphere and of widening cylinders; the rest of the hand and
+// a sleeve as two meshes.
 #pragma once
 
 #include <vector>
@@ -9,32 +9,32 @@
 
 namespace enc::sim {
 
-// Of a hand whose finger is 16 mm wide, m: x from knuckle to tip, y to the thumb, z out of its back; from the
-// middle of the tip's cap.
+// Mesh of a hand with a finger 16 mm wide, m: x from knuckle to tip, y to the thumb, z out of its back;
+// origin in the middle of the tip's cap.
 struct HandMesh {
   std::vector<float> vertices, normals;
   std::vector<int> faces;
 };
 [[nodiscard]] HandMesh bare_hand();    // without the straight finger
-[[nodiscard]] HandMesh sleeve_mesh();  // of an arm that is not bare
+[[nodiscard]] HandMesh sleeve_mesh();  // sleeve of an arm that is not bare
 [[nodiscard]] HandMesh unit_tube();    // 1 m of radius and length, about the origin, along x
 
-// Its x, y and z as columns, in C. `along` of no length points up.
+// The hand's x, y and z as columns, in C. If `along` has zero length, the hand points up.
 [[nodiscard]] Mat3 hand_axes(const HandPose& pose);
 
-// Puts a hand, and things, into a picture of a model that scenery_model() made.
+// Adds a hand and things to a picture of a model from scenery_model().
 class HandDrawing {
  public:
-  // Takes the hand's own geoms out of a picture that was just made.
+  // Removes the hand's own geoms from a new picture.
   HandDrawing(const mjModel* model, mjvScene& scene);
-  // Puts in what is shown, in place of what was there but the background.
+  // Replaces everything but the background by `shown`.
   void show(const Shown& shown, mjvScene& scene);
-  // Of the last that was shown.
+  // Queries about the last `shown`.
   [[nodiscard]] bool is_skin(int geom) const {
     return geom >= background_ && geom < things_ && geom != background_ + sleeve_at_;
   }
   [[nodiscard]] bool is_thing(int geom) const { return geom >= things_; }
-  [[nodiscard]] int background() const { return background_; }  // geoms
+  [[nodiscard]] int background() const { return background_; }  // number of geoms
 
  private:
   void add_hand(const HandPose& pose, const HandLook& look, mjvScene& scene) const;

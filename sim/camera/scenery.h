@@ -9,7 +9,7 @@ namespace enc::sim {
 
 inline constexpr const char* kSkinGeom = "skin";
 inline constexpr const char* kSleeveGeom = "sleeve";
-inline constexpr const char* kTubeGeom = "tube";  // of skin
+inline constexpr const char* kTubeGeom = "tube";  // skin of a tube
 
 [[nodiscard]] ModelPtr scenery_model(const StageSpec& spec);
 

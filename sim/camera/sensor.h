@@ -1,4 +1,4 @@
-// Noise of an image sensor, out of a table.
+// Noise of an image sensor, from a table.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@ namespace enc::sim {
 
 class SensorNoise {
  public:
-  // rms in units of 255. The table holds whole numbers whose rms is this one; nothing is added where it is 0.
-  // Throws Error where it is not 0 to 30.
+  // rms in units of 255. The table holds integers with this rms; a value of 0 adds no noise. Throws Error
+  // unless the value is 0 to 30.
   SensorNoise(double rms, std::uint64_t seed);
-  // The same bits for the same seed, frame and eye.
+  // Gives equal bits for equal seed, frame and eye.
   void add(Image& image, std::uint64_t frame, std::uint64_t eye) const;
 
  private:

@@ -1,5 +1,5 @@
-// Colours of skin for the hands of a stage, light to dark, linear RGB under the light that the camera's white
-// balance is set for.
+// Skin colours for the hands of a stage, light to dark, linear RGB under the light for which the camera's
+// white balance is set.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@ namespace enc::sim {
 struct SkinTone {
   Tone tone;
   Rgb colour;
-  bool measured;  // else assumed
+  bool measured;  // false: assumed
 };
 
-// Measured: patches 2 and 1 of the ColorChecker, made after measured skin [McCamy 1976], from their published
-// sRGB (194, 150, 130) and (115, 82, 68). Assumed: the two between these, and one beyond either end, with
-// hues of 12 to 19 degrees as theirs (16 and 14).
+// Measured: patches 2 and 1 of the ColorChecker, which imitate measured skin [McCamy 1976], from their
+// published sRGB (194, 150, 130) and (115, 82, 68). Assumed: the two between these, and one beyond either
+// end, with hues of 12 to 19 degrees, near theirs (16 and 14).
 inline constexpr std::array<SkinTone, 6> kSkinTones{{
     {Tone::fair, {0.660F, 0.440F, 0.360F}, false},
     {Tone::light, {0.539F, 0.305F, 0.223F}, true},

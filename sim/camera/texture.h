@@ -1,4 +1,4 @@
-// Textures made in code, by seed: what the things of a scenery and the skin of a hand are covered with.
+// Textures made in code, by seed, for the things of a scenery and the skin of a hand.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct Texture {
 
 // Hue in degrees, saturation and value 0 to 1.
 [[nodiscard]] Rgb of_hue(double hue, double saturation, double value);
-// Any hue but that of skin: 70 to 325 degrees, so 20 degrees off 345 to 50.
+// Any hue far from that of skin: 70 to 325 degrees, i.e. 20 degrees away from 345 to 50.
 [[nodiscard]] Rgb cool_colour(Stream& random, double saturation, double value);
-// Times a factor.
+// The colour times a factor.
 [[nodiscard]] Rgb shaded(const Rgb& colour, double by);
 
 [[nodiscard]] Texture plaster(Stream& random, const Rgb& colour, double grain, int side = 512);
@@ -30,7 +30,7 @@ struct Texture {
 [[nodiscard]] Texture text(Stream& random, const Rgb& paper, const Rgb& ink);  // lines of words
 [[nodiscard]] Texture screen(Stream& random);                                  // windows of a computer
 [[nodiscard]] Texture patches(Stream& random, double saturation);              // a picture of many colours
-[[nodiscard]] Texture face(Stream& random);                                    // a poster of one
+[[nodiscard]] Texture face(Stream& random);                                    // a poster of a face
 [[nodiscard]] Texture skin(Stream& random);  // factors of skin's colour: blotches, creases, pores
 
 }  // namespace enc::sim

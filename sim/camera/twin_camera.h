@@ -14,16 +14,16 @@ class TwinCamera final : public StereoCamera {
   // Throws Error as Stage does.
   explicit TwinCamera(const TwinCameraSpec& spec, Show show);
 
-  // Draws where an exposure is due: once, as `show` tells it, and stamped `now`, for that is what it shows;
-  // those that were missed are never drawn. How late the fingertip is told is the tracker's business. After
-  // kSilent periods without an exposure: once the last pair again, with fault, and linked() is false until
-  // there is one again.
+  // Draws the scene from `show` once for each due exposure, stamped `now`, because that is the time it shows;
+  // missed exposures are never drawn. The tracker handles the latency of the fingertip. After kSilent periods
+  // without an exposure, it returns the last pair once more with a fault, and linked() is false until the
+  // next exposure.
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] ImageSize size() const override { return spec_.stage.camera.size(); }
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] std::vector<std::string> remarks() const override;
-  [[nodiscard]] std::uint64_t drawn() const { return drawn_; }  // pairs
+  [[nodiscard]] std::uint64_t drawn() const { return drawn_; }  // number of pairs
 
   static constexpr double kSilent = 3.0;
 
@@ -38,7 +38,7 @@ class TwinCamera final : public StereoCamera {
   Time exposed_{};
   std::uint64_t drawn_ = 0;
   bool linked_ = true;
-  std::string failure_;  // why it draws no more
+  std::string failure_;  // reason why it stopped drawing
 };
 
 }  // namespace enc::sim

@@ -1,5 +1,5 @@
-// How one camera of a stage is drawn: an off-axis frustum with its exact intrinsics and, where its lens bends
-// the picture, a somewhat larger drawing that is bent afterwards.
+// Drawing of one camera of a stage: an off-axis frustum with its exact intrinsics. If its lens distorts the
+// picture, a somewhat larger drawing is made and distorted afterwards.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@
 
 namespace enc::sim {
 
-// On the plane z = 1: where a lens moves what a pinhole would see at (x, y), and back. The way back is NaN
-// where no point is moved there.
+// The distortion of a lens on the plane z = 1: the new position of a pinhole's point (x, y), and the inverse.
+// The inverse is NaN if no point is moved there.
 [[nodiscard]] std::array<double, 2> distorted(const Lens& lens, double x, double y);
 [[nodiscard]] std::array<double, 2> undistorted(const Lens& lens, double x, double y);
-// Of a point in front of the camera, in its own frame: px.
+// Projection of a point in front of the camera, in its own frame: px.
 [[nodiscard]] std::array<double, 2> projected(const Lens& lens, const Vec3& point);
 
 class Warp {
  public:
-  // Throws Error where the lens bends so far that a pixel has no direction, or needs a drawing more than
-  // three times as wide or high.
+  // Throws Error if the lens bends so far that a pixel has no direction, or needs a drawing more than three
+  // times as wide or high.
   Warp(const Lens& lens, int width, int height);
 
   [[nodiscard]] bool bends() const { return bends_; }
@@ -34,15 +34,15 @@ class Warp {
   [[nodiscard]] double top() const { return top_; }
   [[nodiscard]] double bottom() const { return bottom_; }
 
-  // The picture out of the drawing, whose first row is the lowest, as OpenGL has it.
+  // Computes the picture from the drawing, whose first row is the lowest, as in OpenGL.
   void colours(const std::uint8_t* drawing, Image& picture) const;
-  // As colours(), of the pixel of the drawing that is nearest.
+  // As colours(), with the nearest pixel of the drawing.
   [[nodiscard]] std::size_t nearest(int x, int y) const;
 
  private:
   struct Tap {  // upper left of four neighbours in the drawing, and shares of the right and lower ones
     std::uint32_t at;
-    std::uint8_t right, lower;  // of 256
+    std::uint8_t right, lower;  // out of 256
   };
   void find_taps(const Lens& lens);
 

@@ -1,5 +1,5 @@
-// What a hand wants at a time, and what its reaches are made of: minimum-jerk submovements, which overlap and
-// add up [Flash and Henis 1991; Milner 1992].
+// The intent of a hand at a time, and the elements of its reaches: minimum-jerk submovements, which overlap
+// and add up [Flash and Henis 1991; Milner 1992].
 #pragma once
 
 #include "core/base/frames.h"
@@ -8,12 +8,13 @@
 namespace enc::sim {
 
 struct HandPlan {
-  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), acceleration = Vec3::Zero();  // of the tool's tip, W
-  double depth = 0.0;                                                                  // m, below the surface
-  double load = 1.0;  // share of the object's force that the person already pushes with
+  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(),
+       acceleration = Vec3::Zero();  // motion of the tool's tip, in W
+  double depth = 0.0;                // m, below the surface
+  double load = 1.0;                 // share of the object's force that the person already pushes with
 };
 
-// From rest to rest, by `way`.
+// A motion from rest to rest, by `way`.
 struct Submovement {
   double start = 0.0, time = 1.0;  // s
   Vec<'W'> way = Vec<'W'>::zero();

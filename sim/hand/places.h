@@ -1,5 +1,5 @@
-// Where a person may reach for: even over the ball of a session, less what the machine cannot press [VHMR
-// 4.4], or over the objects of a scene that an arm carries its prop to [VisHap 2.2].
+// Points that a person may reach for: uniform over the ball of a session, except where the machine cannot
+// press [VHMR 4.4], or over the objects to which an arm carries its prop [VisHap 2.2].
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Places {
   Places(const SceneSpec& scene, const Scene& prepared);
 
   [[nodiscard]] Place draw(Stream& draws, const Tool& tool) const;
-  // From the tool's tip to the nearest object, m.
+  // Distance from the tool's tip to the nearest object, m.
   [[nodiscard]] double gap(const Point<'W'>& tip, const Tool& tool) const;
 
  private:
@@ -28,8 +28,8 @@ class Places {
   [[nodiscard]] bool pressable(const Place& place, const Tool& tool) const;
 
   const Scene& scene_;
-  bool everywhere_;         // on all objects
-  std::int32_t ball_;       // else on this one
+  bool everywhere_;         // true: all objects
+  std::int32_t ball_;       // otherwise this object
   double lowest_, spread_;  // cosine of the largest polar angle; m
 };
 

@@ -1,6 +1,5 @@
-// The arm's electronics: encoders that count, a force command that becomes joint torques by J^T F, motors
-// with a peak torque and a winding that gets warm, a watchdog; and the prop's own gimbal and motor.
-// [sources/arm 3]
+// The arm's electronics: encoders with counts, a force command that becomes joint torques by J^T F, motors
+// with a peak torque and a winding temperature, a watchdog; and the prop's gimbal and motor. [sources/arm 3]
 #pragma once
 
 #include <array>
@@ -18,23 +17,23 @@ class ArmPlant {
   static constexpr std::size_t kLongestWindow = 64;  // ticks
   struct State {
     Stamped<ArmSample> sample;
-    std::array<PerJoint, kLongestWindow> read{};  // joints as they were read, ring
+    std::array<PerJoint, kLongestWindow> read{};  // joint readings, a ring
     std::int64_t reads = 0;
     Vec<'R'> wanted = Vec<'R'>::zero();  // last command
-    double silent = 0.0;                 // s since then
+    double silent = 0.0;                 // s since the last command
     bool commanded = false;
-    PerJoint torque{};  // at the joints, for the present period
-    // Rise of each winding over its housing and of that over the room, as shares of what the winding may have
-    // over the room for ever.
+    PerJoint torque{};  // joint torques for the present period
+    // Rise of each winding over its housing, and of the housing over the room, as shares of the continuously
+    // allowed rise of the winding over the room.
     PerJoint winding{}, housing{};
-    bool clipped = false;                              // a motor could not do what was asked
-    std::array<double, 4> facing{0, 0, 0, 1};          // of the prop's front, q_WN, xyzw
-    double surface_wanted = 0.0, surface_speed = 0.0;  // of a driven front, m/s
-    Vec<'R'> facing_wanted;                            // that the front was told to face; unset: nothing yet
+    bool clipped = false;                              // a motor limit reduced the command
+    std::array<double, 4> facing{0, 0, 0, 1};          // prop's front, q_WN, xyzw
+    double surface_wanted = 0.0, surface_speed = 0.0;  // driven front, m/s
+    Vec<'R'> facing_wanted;  // commanded direction of the front; unset: no command yet
   };
 
-  // believed: kinematics that the device computes with, the rig file's. dt: of a tick, s. Throws Error where
-  // the velocity window is longer than 64 ticks.
+  // believed: the device's kinematics, from the rig file. dt: of a tick, s. Throws Error if the velocity
+  // window is longer than 64 ticks.
   ArmPlant(const ArmTruth& truth, const Arm& believed, double dt);
 
   [[nodiscard]] const State& state() const { return state_; }
@@ -43,25 +42,26 @@ class ArmPlant {
     return {state_.facing[3], state_.facing[0], state_.facing[1], state_.facing[2]};
   }
 
-  // Of a winding over the room, as a share of what it may have for ever.
+  // Rise of a winding over the room, as a share of the continuously allowed one.
   [[nodiscard]] double warmth(std::size_t joint) const {
     return state_.winding[joint] + state_.housing[joint];
   }
-  // Once a tick: encoders are read at the true joints.
+  // Call once a tick: reads the encoders at the true joints.
   void measure(Time t, const PerJoint& joints) noexcept;
-  // Stays until the next one, or until the watchdog takes it away. Not finite: refused (health fault).
+  // Holds until the next command, or until the watchdog cancels it. A force that is not finite is refused
+  // (health fault).
   void command(const Vec<'R'>& force) noexcept;
   void move_prop(const PropCommand& prop) noexcept;
-  // Torques of the coming period, from the newest reading, and what they do to the windings.
+  // Computes the torques of the coming period from the newest reading, and their heating of the windings.
   void begin_cycle() noexcept;
-  // Friction of the smooth form at these rates, N m or N; zeros of the dry one, which is the physics'.
+  // Smooth friction at these rates, N m or N; zeros for dry friction, which the physics handles.
   [[nodiscard]] PerJoint friction(const PerJoint& rates) const noexcept;
   // Motor torques, N m.
   [[nodiscard]] PerJoint motor_torque() const noexcept;
-  // The gimbal turns its front towards a normal over a step; at once where it faced nothing before.
+  // Turns the gimbal's front towards a normal over a step; at once if it faced nothing before.
   void face(const Vec3& normal, double h, bool at_once) noexcept;
 
-  // Smallest change of a joint that its encoder sees, rad or m.
+  // Quantisation step of a joint's encoder, rad or m.
   [[nodiscard]] double step(std::size_t joint) const { return step_[joint]; }
 
  private:

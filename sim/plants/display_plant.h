@@ -1,4 +1,4 @@
-// The headset as the core meets it: draws the newest view at its own rate, dents the seen object by the
+// The headset as the core sees it: draws the newest view at its own rate, deforms the shown object by the
 // tracked tool, and sends the drawn surface back over UDP [VHMR 3.5, 4.3].
 #pragma once
 

@@ -1,5 +1,5 @@
-// The force/torque sensor as it reads: what MuJoCo's sensor pair says, the inertia that a placed body does
-// not show, zero error and drift, noise, steps and range. [VHMR 2, sources/force_sensor 1]
+// Readings of the force/torque sensor: MuJoCo's sensor pair plus the inertia that a placed body does not
+// show, zero error and drift, noise, quantisation and range. [VHMR 2, sources/force_sensor 1]
 #pragma once
 
 #include "core/base/sample.h"
@@ -13,9 +13,9 @@ class ForcePlant {
   struct State {
     Stream noise;
     Vec<'F'> zero = Vec<'F'>::zero();      // N
-    Vec<'F'> shifted = Vec<'F'>::zero();   // N, of this push
-    Vec<'F'> shifting = Vec<'F'>::zero();  // N/s, for
-    double shift_left = 0.0;               // s more
+    Vec<'F'> shifted = Vec<'F'>::zero();   // N, in this push
+    Vec<'F'> shifting = Vec<'F'>::zero();  // N/s, during the next
+    double shift_left = 0.0;               // remaining s
     Stamped<Wrench> sample;
   };
   ForcePlant(const ForceTruth& truth, std::uint64_t seed);
@@ -23,15 +23,15 @@ class ForcePlant {
   [[nodiscard]] const Stamped<Wrench>& sample() const { return state_.sample; }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
-  void begin_push() noexcept;  // the zero is somewhere else than in the last push
+  void begin_push() noexcept;  // the zero differs from that of the last push
   [[nodiscard]] Vec<'F'> zero() const { return state_.zero + state_.shifted; }
-  // raw: force and torque on the sensor in its true axes; inertia: m a of what is behind it, in the same
-  // axes. Once a tick.
+  // raw: force and torque on the sensor in its true axes; inertia: m a of the mass behind it, in those axes.
+  // Once a tick.
   void measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia);
 
  private:
   ForceTruth truth_;
-  Quat turned_;  // believed sensor axes from the true ones
+  Quat turned_;  // rotation from the true sensor axes to the rig's
   State state_;
 };
 

@@ -1,6 +1,6 @@
-// A stereo head that sees single points, with the errors of matching: a point in C becomes a place in the
-// left image and a disparity, and these a point again [VisHap 2.1; sources/tracking 7]. There are no images
-// here: whatever finds the tip in them has done so, with the noise of CameraTruth.
+// A stereo head that measures single points, with the errors of matching: a point in C becomes a position in
+// the left image and a disparity, and these become a point again [VisHap 2.1; sources/tracking 7]. It uses no
+// images: the tip counts as found, with the noise of CameraTruth.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace enc::sim {
 
-// Where a point is seen, px: column and row in the left image from its upper left pixel, and by how much the
-// right image's column is less.
+// Image of a point, px: column and row in the left image from its upper left pixel, and the disparity, left
+// column minus right column.
 struct StereoPixel {
   double column = kUnset, row = kUnset, disparity = kUnset;
 };
@@ -22,14 +22,14 @@ class StereoPoints {
  public:
   StereoPoints(const CameraTruth& truth, std::uint64_t seed);
 
-  // Without errors. Nothing where the point is behind the cameras or outside of either image.
+  // Projection without errors. Empty if the point is behind the cameras or outside of either image.
   [[nodiscard]] std::optional<StereoPixel> project(const Point<'C'>& point) const;
-  // The point that is seen there; NaN where the disparity is not positive.
+  // The point with that image; NaN if the disparity is not positive.
   [[nodiscard]] Point<'C'> triangulate(const StereoPixel& pixel) const;
-  // How much a point there scatters by noise of one frame, rms along the axes of C, m: to first order.
+  // Scatter of a point by the noise of one frame, rms along the axes of C, m: to first order.
   [[nodiscard]] Vec<'C'> scatter(const Point<'C'>& point) const;
 
-  // What is seen has moved: draws the errors that stay until it moves again.
+  // Call this when the object has moved: draws the errors that stay until it moves again.
   void move();
   // One frame of the point.
   [[nodiscard]] std::optional<Point<'C'>> see(const Point<'C'>& point);
@@ -37,7 +37,7 @@ class StereoPoints {
  private:
   CameraTruth truth_;
   Stream frames_, places_;
-  Vec3 standing_{0, 0, 0};  // of column, row and disparity, px
+  Vec3 standing_{0, 0, 0};  // column, row and disparity, px
 };
 
 }  // namespace enc::sim

@@ -1,5 +1,5 @@
-// The optical tracker and the way of its data: exposure, host, server tick, process and UDP delay, loss [VHMR
-// 2, 4.1; sources/tracking 3].
+// The optical tracker and its data path: exposure, host, server tick, process and UDP delay, loss [VHMR 2,
+// 4.1; sources/tracking 3].
 #pragma once
 
 #include <array>
@@ -17,24 +17,24 @@ class TrackerPlant {
  public:
   struct Packet {
     Stamped<TrackedTool> sample;
-    Time due{};  // when it reaches the core
+    Time due{};  // arrival at the core
     bool waiting = false;
   };
   struct State {
     Stream noise;
     Every exposure, server;
     std::array<Packet, 64> exposed;  // poses on their way to the server
-    Stamped<TrackedTool> at_server;  // newest pose that the server has
+    Stamped<TrackedTool> at_server;  // newest pose at the server
     Time sent{};                     // stamp of the newest packet sent
     std::array<Packet, 64> on_wire;
-    Pose<'W', 'T'> before;  // the tool one tick ago: exposures lie between ticks
+    Pose<'W', 'T'> before;  // the tool one tick ago, because exposures lie between ticks
     std::int32_t tool_before = -1;
     Time before_t{};
-    Stamped<TrackedTool> arrived;  // newest that reached the core
+    Stamped<TrackedTool> arrived;  // newest pose at the core
     bool news = false;
     std::int64_t dropped = 0;  // packets lost
   };
-  // `markers`: of each tool in T. Without them the tool is known, and `marker_noise` is not used.
+  // `markers`: of each tool in T. Without them the tracker knows the tool, and `marker_noise` is unused.
   TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed,
                std::vector<std::vector<Vec3>> markers = {});
 
@@ -57,7 +57,7 @@ class TrackerPlant {
   State state_;
 };
 
-// The same noise of an upright tool's tip, in W, from a tracker that knows the tool: `noise` includes the
+// Equal noise of an upright tool's tip, in W, from a tracker that knows the tool: `noise` includes the
 // markers'.
 [[nodiscard]] TrackerTruth with_tool_known(TrackerTruth truth, std::span<const Vec3> markers,
                                            const Vec3& tip);

@@ -1,4 +1,4 @@
-// What the machine, its gripper and what pushes it really are: [truth.hexapod], [truth.structure],
+// Ground truth of the machine, its gripper and its pusher: [truth.hexapod], [truth.structure],
 // [truth.gripper], [truth.pusher]. A part of twin_spec.h.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace enc::sim {
 
-// Of MuJoCo. A key that is called integrator takes one of these.
+// Values of every key `integrator`, by MuJoCo's names.
 inline constexpr auto kIntegrators = enum_words("euler", "rk4", "implicit", "implicitfast", "discrete");
 
 enum class HexapodForm : std::uint8_t {
-  control,    // the platform's pose is prescribed: exact where the servo puts it, no sag, no modes
+  control,    // the platform's pose is prescribed: exactly at the servo's pose, no sag, no modes
   structural  // the platform is a free body on six legs with stiffness and damping (sim/bodies/legs.h)
 };
 constexpr auto words(HexapodForm) { return enum_words("control", "structural"); }
@@ -27,35 +27,37 @@ struct HexapodTruth {
   std::int64_t delay_cycles = 4;
   double speed = 0.050;           // m/s
   double acceleration = 0.41;     // m/s^2
-  double step = 3e-6;             // m, of commands
-  double repeatability = 0.5e-6;  // m rms along each axis: where the same command ends, from move to move
+  double step = 3e-6;             // m, quantisation of commands
+  double repeatability = 0.5e-6;  // m rms along each axis: scatter of a command's final pose between moves
   double tip_radius = 0.005;      // m
   double mass = 0.91;             // kg, behind the sensor
-  Vec3 misplaced{0, 0, 0};        // of the machine against the believed X_WR, m
-  Vec3 turned{0, 0, 0};           // and its rotation against it, rad
+  Vec3 misplaced{0, 0, 0};        // machine against the rig's X_WR, m
+  Vec3 turned{0, 0, 0};           // machine's rotation against X_WR, rad
 };
 
-// The legs and what they carry, in the structural form. It has its own time step, so that one key switches.
+// The legs and their load, in the structural form. It has its own time step, so that a single key switches
+// the form.
 struct StructureTruth {
   double timestep = 0.0005;  // s
   std::string integrator = "rk4";
   double leg_stiffness = 2e6;  // N/m
-  double leg_damping = 0.05;   // ratio, of a leg that carries a sixth of the moved mass (legs.h)
-  double platform_mass = 2.5;  // kg, with the sensor's machine side; what is behind the sensor comes on top
-  double payload = 0.0;        // kg, put on after the zero was calibrated
+  double leg_damping = 0.05;   // ratio, for a leg that carries a sixth of the moved mass (legs.h)
+  double platform_mass =
+      2.5;               // kg, including the sensor's machine side; the mass behind the sensor adds to it
+  double payload = 0.0;  // kg, added after the calibration of the zero
 };
 
 // A gripper with two jaws that clamps a tool.
 struct GripperTruth {
-  double stroke = 0.008;           // m, of each jaw
+  double stroke = 0.008;           // m, each jaw
   double closing_time = 0.21;      // s, over the whole stroke
   double force_min = 54.0;         // N
   double force_max = 215.0;        // N
-  double repeatability = 0.02e-3;  // m rms, of where the jaws stand
-  double width = 0.006;            // m, of what is between the jaws; 0: nothing
+  double repeatability = 0.02e-3;  // m rms, position of the jaws
+  double width = 0.006;            // m, object between the jaws; 0: no object
 };
 
-// What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
+// A pusher outside of the machine, a hand or a stand: a spring to its intended position, and a damper.
 struct PusherTruth {
   double stiffness = 40.0;   // N/m: calibrated (docs/notes/stiffness.md); "firm": 1000
   double damping = 1.0;      // N s/m

@@ -1,4 +1,4 @@
-// How the physics solves: [truth.solver]. A part of twin_spec.h.
+// The solver of the physics: [truth.solver]. A part of twin_spec.h.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace enc::sim {
 
-// How MuJoCo solves contacts and dry friction.
+// MuJoCo's method for contacts and dry friction.
 enum class Cone : std::uint8_t { elliptic, pyramidal };
 constexpr auto words(Cone) { return enum_words("elliptic", "pyramidal"); }
 struct SolverTruth {
   Cone cone = Cone::elliptic;
-  double impratio = 20.0;     // of friction's impedance to that of the stop: friction that does not creep
-  double noslip = kUnset;     // steps of the pass that takes out creep; unset: 4, and none with an arm
-  double iterations = 100.0;  // of Newton's method, at most
-  double tolerance = 1e-12;   // where it ends
+  double impratio = 20.0;     // friction's impedance over that of the stop: friction without creep
+  double noslip = kUnset;     // steps of the pass that removes creep; unset: 4, and 0 with an arm
+  double iterations = 100.0;  // most iterations of Newton's method
+  double tolerance = 1e-12;   // tolerance of Newton's method
 };
 
 }  // namespace enc::sim

@@ -1,5 +1,5 @@
-// The simulator's truth: what the devices, the room and the person really are, in [truth.*] of
-// models/rigs/sim.toml. The core never sees it. Sources: models/schema/schema_twin.cpp.
+// The simulator's ground truth: devices, room and person, in [truth.*] of models/rigs/sim.toml. The core
+// never sees it. Sources: models/schema/schema_twin.cpp.
 #pragma once
 
 #include <array>
@@ -20,70 +20,70 @@ struct WorldTruth {
   double timestep = 0.001;  // s
   std::string integrator = "implicitfast";
   double tip_friction = 0.6;    // tool on haptic-tip
-  double contact_time = 0.005;  // s, of the stop between tool and tip: hard, not a rendered stiffness
+  double contact_time = 0.005;  // s, stop between tool and tip: hard, not a rendered stiffness
 };
 
-// Where camera and sensor really are. The rig file has what is believed.
+// True poses of camera and sensor. The rig file has the calibrated ones.
 struct FramesTruth {
   PoseSpec W_C{{0.0, -0.9, 0.6}, {0, 0, 0}};
   PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
 };
 
-// What gives where the tool touches, in series: quasi-static, as far as it is seen (World::observe).
+// Compliances at the touching point, in series: quasi-static, as far as they are visible (World::observe).
 struct ContactTruth {
-  double compliance = 0.0;  // m/N, of tool tip and haptic-tip where they touch: their centres come nearer
-  double flexure = 0.0;  // m/N, of the tool between its tip and its markers: these go on where the tip stops
+  double compliance = 0.0;  // m/N, tool tip and haptic-tip where they touch: their centres approach
+  double flexure = 0.0;     // m/N, tool between its tip and its markers: these go on after the tip stops
 };
 
 struct HandTruth {
   double mass = 1.35;             // kg, arm endpoint and hand
   double damping = 12.0;          // N s/m
-  double strength = 50.0;         // N: no arm pushes harder with a fingertip or a light tool
+  double strength = 50.0;         // N: limit of an arm's push with a fingertip or a light tool
   double stiffness = 250.0;       // N/m
   double grip_stiffness = 700.0;  // N/m
   double grip_damping = 4.0;      // N s/m
-  double integral_time = 0.05;    // s, of the depth loop the person closes while pressing
+  double integral_time = 0.05;    // s, depth loop that the person closes while pressing
   double tremor = 0.06e-3;        // m rms
   double tremor_rate = 8.1;       // Hz
   double drift = 0.15e-3;         // m rms, below 2 Hz
-  double tremor_band = 4.0;       // Hz, from tremor_rate upwards, where the scene asks for a band
-  // Reaches of a session. Their first part aims at this share of the way and scatters, along it and aside.
+  double tremor_band = 4.0;       // Hz, from tremor_rate upwards, if the scene asks for a band
+  // Reaches of a session. Their first part aims at this share of the path; it scatters along it and aside.
   double primary_share = 0.93, primary_scatter = 0.05,
-         aside_scatter = 0.02;  // of the way; standard deviations
-  double shortest = 0.20;       // s, of a submovement
+         aside_scatter = 0.02;  // shares of the path; standard deviations
+  double shortest = 0.20;       // s, a submovement
   double aborted = 0.1;         // share of reaches that turn back before the touch
-  double tilt = 0.0;            // rad: the tool tilts about its tip by so much to either side
-  double tilt_rate = 0.5;       // Hz, of that
+  double tilt = 0.0;            // rad: amplitude of the tool's tilt about its tip
+  double tilt_rate = 0.5;       // Hz, of the tilt
 };
 
-// Sets of ball_plant.h [sources/ball 4]: four others that also give 12 N at 6 mm, and a ball as played with.
+// Sets of ball_plant.h [sources/ball 4]: five that give 12 N at 6 mm, and a ball as played with.
 enum class BallSet : std::uint8_t { nominal, low_loss, high_loss, vented, kpa_20, regulation };
 constexpr auto words(BallSet) {
   return enum_words("nominal", "low_loss", "high_loss", "vented", "kpa_20", "regulation");
 }
 
-// The real ball that a probe presses. Numbers that are unset come from the set.
+// The real ball that a probe presses. Unset numbers come from the set.
 struct BallTruth {
   BallSet set = BallSet::nominal;
-  double radius = kUnset;                                    // m; unset: as the scene says
+  double radius = kUnset;                                    // m; unset: from the scene
   double wall = kUnset, felt = kUnset;                       // m
   double rubber_modulus = kUnset, pressure = kUnset;         // Pa
   double felt_modulus = kUnset;                              // Pa
-  double friction = kUnset, friction_travel = kUnset;        // -, m: loss inside of the ball
-  std::array<double, 3> relaxing{kUnset, kUnset, kUnset};    // -, share of each rubber branch
+  double friction = kUnset, friction_travel = kUnset;        // dimensionless, m: loss inside of the ball
+  std::array<double, 3> relaxing{kUnset, kUnset, kUnset};    // share of each rubber branch
   std::array<double, 3> relaxation{kUnset, kUnset, kUnset};  // s
-  double uneven = 0.03;            // -, stiffer than at the poles of its z axis elsewhere
+  double uneven = 0.03;            // extra stiffness away from the poles of its z axis, as a share
   double surface_friction = 0.6;   // felt on the probe
   double surface_travel = 2.5e-3;  // m, of the probe along the surface before it slides
-  Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
+  Vec3 misplaced{0, 0, 0};         // ball against its place in the scene, m
 };
 
 struct Stepping {
   double timestep;  // s
   std::string integrator;
-  std::string table;  // of the file, that has both
+  std::string table;  // table of the file with both keys
 
-  // Physics steps in a haptic period (rate in Hz); 0 where the time step does not divide it.
+  // Physics steps in a haptic period (rate in Hz); 0 if the time step does not divide it.
   [[nodiscard]] int steps_per_tick(double rate) const {
     const double steps = 1.0 / (rate * timestep);
     const double whole = std::round(steps);
@@ -109,7 +109,7 @@ struct TwinSpec {
   PusherTruth pusher;
 
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
-  // How the physics steps: an arm, a structural hexapod and all other worlds have keys of their own.
+  // Time step and integrator: an arm, a structural hexapod and all other worlds have their own keys.
   [[nodiscard]] Stepping stepping(const SceneSpec& scene) const {
     if (scene.arm) return {arm.timestep, arm.integrator, "truth.arm"};
     if (structural()) return {structure.timestep, structure.integrator, "truth.structure"};

@@ -1,4 +1,4 @@
-// Named random streams: one for each device, so that adding a part changes nobody else's numbers
+// Named random streams, one for each device, so that an added part does not change the numbers of the others
 // (sources/choices 7).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace enc::sim {
 
-// splitmix64 in counter form: all its state is one number, so that save and restore are trivial.
+// splitmix64 in counter form: its whole state is one number, so that save and restore are trivial.
 class Stream {
  public:
   Stream() = default;
@@ -22,9 +22,9 @@ class Stream {
     state_ += 0x9e3779b97f4a7c15ULL;
     return mix(state_);
   }
-  // In (0, 1): never 0, so that its logarithm exists.
+  // A number in (0, 1): never 0, so that its logarithm exists.
   double uniform() { return (static_cast<double>(bits() >> 11U) + 0.5) * 0x1p-53; }
-  double normal() {  // Marsaglia's polar method; the second value is dropped to stay without memory
+  double normal() {  // Marsaglia's polar method; the second value is dropped to avoid memory
     while (true) {
       const double x = 2.0 * uniform() - 1.0;
       const double y = 2.0 * uniform() - 1.0;

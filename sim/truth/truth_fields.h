@@ -1,5 +1,5 @@
-// The fields of the truth, named once, as core/record/state_hash.h does for what the core sees: for a hash
-// over what really happened.
+// The fields of the truth, named once, as core/record/state_hash.h does for the core's data: for a hash over
+// the true events.
 #pragma once
 
 #include "core/record/state_hash.h"

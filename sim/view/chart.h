@@ -1,4 +1,4 @@
-// What lies over a picture in a window: strip charts, and a bar of time.
+// Elements over a picture in a window: strip charts, and a bar of time.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ struct ViewLine {
 struct ViewChart {
   std::string title;
   std::vector<ViewLine> lines;
-  std::array<float, 2> across{0, 1};  // of x
-  std::array<float, 2> up{0, 0};      // of y, at least
+  std::array<float, 2> across{0, 1};  // range of x
+  std::array<float, 2> up{0, 0};      // smallest range of y
   std::optional<float> cursor{};      // x of a vertical line
 };
 
-// A bar along the bottom of a window: time, the moment that is shown, marks. Positions are shares, 0 to 1.
+// A bar along the bottom of a window: time, the shown moment, marks. Positions are shares, 0 to 1.
 struct ViewBar {
   struct Mark {
     float from = 0.0F, to = 0.0F;

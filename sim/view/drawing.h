@@ -10,10 +10,11 @@ inline constexpr int kRoom = 1000;  // geoms
 // m, distance of the white backdrop; translucent geoms need something to mix with.
 inline constexpr double kBackdrop = 4.0;
 
-// A copy of the model with settings for pictures; physics never sees it. `shadow_size`: size of the shadow
-// map, px. `stacks`, `slices`: of a round body, along its axis and around it.
+// A copy of the model with settings for pictures; the physics never sees it. `shadow_size`: size of the
+// shadow map, px. `stacks`, `slices`: parts of a round body, along its axis and around it.
 [[nodiscard]] ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks, int slices);
-// Adds the model's bodies, camera and light. Throws Error (kind device) for too many geoms, as all below.
+// Adds the model's bodies, camera and light. Throws Error (kind device) for too many geoms, as the functions
+// below do.
 void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool shadows);
 // Adds a wall that fills the background.
 void add_backdrop(mjvScene& scene);

@@ -1,18 +1,18 @@
-// An OpenGL context without a screen: EGL's surfaceless platform, opened with dlopen so that nothing links
+// An OpenGL context without a screen: EGL's surfaceless platform, opened with dlopen so that no binary links
 // GL.
 #pragma once
 
 namespace enc::sim {
 
-// Made current for the thread that makes it. Several may live at a time.
+// Becomes current on the thread that makes it. Several contexts may coexist.
 class OffscreenContext {
  public:
-  // Throws Error (kind device) that names the Debian packages, where there is no EGL or no driver.
+  // Throws Error (kind device) that names the Debian packages, if EGL or a driver is missing.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
-  // Draws into this one from now on. On the thread that made it.
+  // Drawing goes to this context from now on. Call it on the thread that made it.
   void make_current() const;
 
  private:

@@ -1,4 +1,4 @@
-// Lettering of a picture: labels in both margins with lines to what they name, and a title.
+// Lettering of a picture: a title, and labels in both margins with lines to their objects.
 #pragma once
 
 #include "sim/bodies/mujoco.h"
@@ -7,7 +7,7 @@
 
 namespace enc::sim {
 
-// `finer`: how many pixels of `picture` one pixel of the final picture has.
+// `finer`: number of pixels of `picture` for one pixel of the final picture.
 void letter(Image& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
             int finer);
 

@@ -1,5 +1,5 @@
-// Paints ViewRequests of one model with one renderer: the picture in a file, every frame of a film and the
-// window.
+// Paints ViewRequests of one model with one renderer, for the picture in a file, every frame of a film, and
+// the window.
 #pragma once
 
 #include <optional>
@@ -13,22 +13,22 @@ namespace enc::sim {
 
 struct PaintSettings {
   int shadow_size = 0;  // px of the shadow map; 0: no shadows
-  // Of a round body: parts along its axis, and around it.
+  // Round bodies: parts along the axis, and around it.
   int stacks = 48, slices = 64;
   mjtFontScale letters = mjFONTSCALE_100;
   int width = 0, height = 0;  // px off the screen; 0: into the window
 };
 
-// Needs the OpenGL context that was current when it was made.
+// Needs the OpenGL context that was current at its construction.
 class Painter {
  public:
-  // Throws Error (kind device) where there is not enough memory.
+  // Throws Error (kind device) if memory is short.
   Painter(const ViewRequest& request, const PaintSettings& settings);
 
   [[nodiscard]] bool is_of(const mjModel* model) const { return of_ == model; }
   // Throws Error (kind device) for too many geoms.
   void paint(const ViewRequest& request, const mjrRect& where);
-  // By another camera, with the dent of the picture before.
+  // Paints by another camera, with the deformation of the last picture.
   void paint_again(const ViewRequest& request, const mjrRect& where);
   // Sets scene() for a request without painting it.
   void look(const ViewRequest& request);
@@ -45,10 +45,10 @@ class Painter {
   void restore();
 
   const mjModel* of_;
-  ModelPtr model_;  // the picture's own, which can be dented
+  ModelPtr model_;  // the picture's own model, which can be deformed
   bool shadows_;
   Renderer renderer_;
-  std::vector<float> whole_vertices_, whole_normals_;  // of all meshes, before the first dent
+  std::vector<float> whole_vertices_, whole_normals_;  // all meshes, before the first deformation
   int dented_ = -1;                                    // mesh
 };
 

@@ -1,17 +1,17 @@
-// MuJoCo's classic renderer and its scene, drawing into the OpenGL context that is current: into its window,
-// or off the screen.
+// MuJoCo's classic renderer and its scene, drawing into the current OpenGL context: into its window, or off
+// the screen.
 #pragma once
 
 #include "sim/bodies/mujoco.h"
 
 namespace enc::sim {
 
-// Frees both, the context of drawing first, while OpenGL's is still there.
+// Frees both, the drawing context first, while OpenGL's still exists.
 struct Renderer {
   mjvScene scene;
   mjrContext context;
 
-  // `room`: of geoms, most. `width`, `height`: px off the screen; 0: into the window.
+  // `room`: most geoms. `width`, `height`: px off the screen; 0: into the window.
   Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height) {
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);

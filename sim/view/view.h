@@ -1,5 +1,5 @@
-// The description of a picture of a simulated world, and the view module, which draws it off the screen.
-// The window module draws the same (window.h). Both are shared objects of their own, so that nothing but
+// The description of a picture of a simulated world, and the view module, which draws it off the screen. The
+// window module draws the same descriptions (window.h). Both are separate shared objects, so that only
 // `encounter view` maps OpenGL.
 #pragma once
 
@@ -19,17 +19,17 @@ struct mjData_;
 
 namespace enc::sim {
 
-// Things that are drawn besides the model's own bodies.
+// Things drawn besides the model's own bodies.
 struct ViewRod {  // a leg, a strut
   Point<'W'> from, to;
   double radius = 0.002;  // m
   Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
-  bool flat = false;  // its ends; else round
+  bool flat = false;  // flat ends, else round
 };
 struct ViewBox {
   Point<'W'> middle;
-  Quat q;     // of its axes in W
-  Vec3 half;  // sizes along them, m
+  Quat q;     // its axes in W
+  Vec3 half;  // half sizes along them, m
   Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
 };
 struct ViewArrow {
@@ -38,10 +38,10 @@ struct ViewArrow {
   double radius = 0.002;  // m
   Colour colour{0.9F, 0.1F, 0.1F, 1.0F};
 };
-struct ViewLabel {  // written in the margin, with a line to what it names
+struct ViewLabel {  // text in the margin, with a line to its object
   std::string text;
   Point<'W'> at;
-  bool left = false;  // margin
+  bool left = false;  // left margin, else right
 };
 
 struct Camera {
@@ -52,7 +52,7 @@ struct Camera {
   Point<'W'> look_at{0, 0, 0};
 };
 
-// A small picture in a window: an image, or the same world by another camera.
+// A small picture in a window: an image, or this world by another camera.
 struct ViewInset {
   std::string name;
   const Image* image = nullptr;
@@ -64,18 +64,18 @@ struct ViewRequest {
   mjData_* data = nullptr;
   int width = 1000, height = 700;  // pixels
   Camera camera;
-  Point<'W'> floor;  // the middle of a round floor; unset: none
+  Point<'W'> floor;  // middle of a round floor; unset: no floor
   std::vector<ViewRod> rods;
   std::vector<ViewBox> boxes;
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
-  std::vector<ViewLabel> signs;  // written at their places themselves
+  std::vector<ViewLabel> signs;  // written at their own places
   std::string title;             // top left, one or more lines; may be empty
-  // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
+  // Deforms a mesh of the picture's own copy of the model; returns its index, -1: no mesh.
   std::function<int(mjModel_*)> dent;
-  // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.
+  // Only in a window: names and values, a line each; the same for a help page, else empty; charts.
   std::string names, values, help_keys, help;
-  std::string message;  // a mistake, in the middle of the bottom
+  std::string message;  // an error, at the bottom centre
   std::vector<ViewChart> charts;
   ViewBar bar;
   std::vector<ViewInset> insets;
@@ -89,14 +89,14 @@ class Pictures {
   virtual Image draw(const ViewRequest& request) = 0;
 };
 
-// A still picture is drawn at three times its size and shrunk; a frame of a film, of which there are
-// hundreds, is drawn at twice its size.
+// A still picture is drawn at three times its size and shrunk; a frame of a film, one of hundreds, at twice
+// its size.
 enum class Finish { still, film };
 
 struct ViewModule {
-  // Throws Error of the kind device where there is no EGL or Mesa.
+  // Throws Error of the kind device if EGL or Mesa is missing.
   std::unique_ptr<Pictures> (*open)(const ViewRequest& first, Finish finish) = nullptr;
-  std::string (*png)(const Image& picture) = nullptr;  // the bytes of a PNG
+  std::string (*png)(const Image& picture) = nullptr;  // bytes of a PNG
 };
 
 }  // namespace enc::sim

@@ -1,4 +1,4 @@
-// What lies over or beside the picture in a window: charts, the bar of time, images, tiles. Positions are px
+// Elements over or beside the picture in a window: charts, the bar of time, images, tiles. Positions are px
 // of the framebuffer, from below.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace enc::sim {
 
-// MuJoCo writes with a model's context only: this is one of nothing.
+// MuJoCo draws text only with a model's context: this one has an empty model.
 class Letters {
  public:
   Letters()
@@ -29,7 +29,7 @@ void draw_chart(const ViewChart& chart, const mjrRect& where, mjvFigure& figure,
 void draw_bar(const ViewBar& bar, const mjrRect& all);
 void draw_image(const Image& picture, int left, int bottom, const mjrContext& context);
 [[nodiscard]] Image resized(const Image& from, int width, int height);  // by the nearest pixel
-// The first half of the lines of a text, and the rest.
+// The first half of a text's lines, and the rest.
 [[nodiscard]] std::pair<std::string, std::string> halves(const std::string& text);
 void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& context);
 

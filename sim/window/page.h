@@ -1,4 +1,4 @@
-// A page of tiles in a window, each a picture with a name, to choose one.
+// A page of tiles in a window, each a picture with a name, for a choice.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace enc::sim {
 
 struct ViewTile {
-  Image picture;  // empty: none yet
+  Image picture;  // empty: no picture yet
   std::string name;
 };
 struct ViewPage {
@@ -21,12 +21,12 @@ struct ViewPage {
   std::size_t chosen = 0;
 };
 
-// Where tiles are, px from the window's upper left corner.
+// Positions of the tiles, px from the window's upper left corner.
 struct TileGrid {
-  static constexpr double kWidest = 1.4;                             // of a tile, over its height
+  static constexpr double kWidest = 1.4;                             // tile's width over its height
   static constexpr double kGap = 6.0, kName = 24.0, kMargin = 34.0;  // px; the margin: above and below
   std::size_t columns = 1;
-  double width = 1.0, height = 1.0;  // of a tile with its name and gap
+  double width = 1.0, height = 1.0;  // tile with its name and gap
 
   TileGrid(std::size_t tiles, double window_width, double window_height) {
     const double room = std::max(1.0, window_height - 2.0 * kMargin);
@@ -42,7 +42,7 @@ struct TileGrid {
     const std::size_t row = i / columns;
     return kMargin + height * static_cast<double>(row);
   }
-  // Of the picture in a tile.
+  // Size of the picture in a tile.
   [[nodiscard]] int picture_width() const { return std::max(1, static_cast<int>(width - kGap)); }
   [[nodiscard]] int picture_height() const { return std::max(1, static_cast<int>(height - kGap - kName)); }
   // The tile at (x, y), or `none`.

@@ -1,5 +1,5 @@
-// The window module: one window that draws a ViewRequest and reports mouse and keys. Being a shared object of
-// its own, it is the only part that maps GLFW.
+// The window module: one window that draws a ViewRequest and reports mouse and keys. It is a separate shared
+// object, and the only part that maps GLFW.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace enc::sim {
 
-// Keys without a character. Others have the code of their character, in upper case.
+// Keys without a character. Other keys have the code of their character, in upper case.
 enum class Key : std::int32_t {
   escape = 256,
   enter = 257,
@@ -40,13 +40,14 @@ struct WindowEvent {
   bool shift = false;
   double x = 0.0, y = 0.0;  // px from the window's upper left corner
   double wheel = 0.0;       // clicks; positive: away from the user
-  // Of a gamepad's sticks, while one is out of its middle: -1 to 1, and s since it was read before.
+  // A gamepad's sticks, while one is off its middle: -1 to 1, and s since the last reading.
   double right = 0.0, up = 0.0, away = 0.0, since = 0.0;
 };
 
 // Layout of the bar of time (ViewBar), px from the window's edges.
 inline constexpr double kBarSide = 10.0, kBarHeight = 14.0;
-// The share of the bar at (x, y) of a window of this size; unset: above it. `held`: the drag began on it.
+// The share of the bar at (x, y) of a window of this size; unset: above it. `held`: the drag began on the
+// bar.
 [[nodiscard]] inline std::optional<double> bar_share(double x, double y, double width, double height,
                                                      bool held = false) {
   if (!held && y < height - kBarHeight - kBarSide) return {};
@@ -60,17 +61,17 @@ class ViewWindow {
   virtual bool poll(std::vector<WindowEvent>& events) = 0;
   virtual void draw(const ViewRequest& request) = 0;
   virtual void draw_page(const ViewPage& page) = 0;
-  // A picture of its own, px; the window does not show it.
+  // A separate picture, px; the window does not show it.
   [[nodiscard]] virtual Image snap(const ViewRequest& request, int width, int height) = 0;
   virtual void set_title(const std::string& title) = 0;
   // The point of the model at (x, y), with these data and the last picture's camera; unset: background.
   [[nodiscard]] virtual std::optional<Point<'W'>> seen_at(double x, double y, const mjData_* data) = 0;
   // x of the chart under (x, y), as last drawn; unset: no chart there.
   [[nodiscard]] virtual std::optional<double> chart_at(double x, double y) const = 0;
-  virtual void forget() = 0;                    // the model and all that was drawn of it, before another run
+  virtual void forget() = 0;                    // drops the model and its drawings, before another run
   [[nodiscard]] virtual int width() const = 0;  // px
   [[nodiscard]] virtual int height() const = 0;
-  [[nodiscard]] virtual std::string renderer() const = 0;  // OpenGL's name for it
+  [[nodiscard]] virtual std::string renderer() const = 0;  // OpenGL's name
 };
 
 struct WindowModule {
