@@ -1,5 +1,5 @@
-// The way from a fake to whoever listens, on which messages fare as on a bad network. Without trouble each
-// leaves as it came.
+// The connection from a fake to its client, with the faults of a bad network. Without a fault each message
+// leaves unchanged.
 #pragma once
 
 #include <array>
@@ -26,17 +26,17 @@ class BadLine {
   [[nodiscard]] bool suffers(Trouble::Kind kind) const noexcept {
     return shares_[static_cast<std::size_t>(kind)].has_value();
   }
-  // The device stands, or nobody is let in.
+  // The device is stalled, or new connections are refused.
   [[nodiscard]] bool dead() const noexcept {
     return suffers(Trouble::Kind::stall) || suffers(Trouble::Kind::disconnect);
   }
-  // Somebody came: what was on its way is gone.
+  // A new client: drops all messages under way.
   void begin(Time now);
 
   void put(Time now, std::span<const std::byte> message);
-  // The next that is to leave by now.
+  // The next message that is due by now.
   [[nodiscard]] std::optional<std::vector<std::byte>> take(Time now);
-  // All of them, each to send(bytes).
+  // Passes all due messages to send(bytes).
   template <class Send>
   void leave(Time now, Send send) {
     for (auto next = take(now); next; next = take(now)) send(std::span<const std::byte>(*next));
@@ -46,20 +46,20 @@ class BadLine {
   struct Message {
     Time due;
     std::vector<std::byte> bytes;
-    bool waits = false;  // until another one has left
+    bool waits = false;  // until another message has left
   };
   [[nodiscard]] std::optional<double>& of(Trouble::Kind kind) noexcept {
     return shares_[static_cast<std::size_t>(kind)];
   }
-  [[nodiscard]] bool happens(Trouble::Kind kind);  // to this message
+  [[nodiscard]] bool happens(Trouble::Kind kind);  // true if the fault hits this message
   [[nodiscard]] double uniform() { return std::generate_canonical<double, 53>(random_); }
   void spoil(std::vector<std::byte>& bytes);
 
   Wire wire_;
   std::mt19937_64 random_;
-  std::array<std::optional<double>, 11> shares_{};  // by kind
-  std::deque<Message> on_the_way_;                  // in the order in which they leave
-  Time begun_{}, last_{}, now_{};                   // last_: when the one before leaves, of a stream
+  std::array<std::optional<double>, 11> shares_{};  // indexed by kind
+  std::deque<Message> on_the_way_;                  // ordered by departure
+  Time begun_{}, last_{}, now_{};                   // last_: departure of the last message, stream only
 };
 
 }  // namespace enc::net

@@ -1,4 +1,4 @@
-// Whole numbers as networks write them: the most significant byte first.
+// Integers in network order: the most significant byte first.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace enc::net {
 
-// Of bytes[at] and those behind it, which must be there.
+// Reads from bytes[at] on; these bytes must exist.
 template <class Number>
 [[nodiscard]] constexpr Number take(std::span<const std::byte> bytes, std::size_t at) noexcept {
   std::uint64_t value = 0;

@@ -1,12 +1,12 @@
-// Ties the clock of a device to the loop's, from nothing but what the device stamped and when it came: the
-// one place where the two meet. What came quickest was under way for a time that is given; the line under all
-// that came in the last half minute is offset and drift of the device's clock, and what lies above it was
+// Relates the clock of a device to the loop's, using only the device's stamps and their arrival times. It is
+// the only place where the two clocks meet. The quickest messages took a given time. The lower bound line of
+// all messages of the last half minute gives offset and drift of the device's clock; messages above it were
 // late.
 //
-// A delay that lasts is no clock: the line rises by 200 ppm at most, as two poor crystals drift apart. A
-// clock that is set forward is followed at once, as nothing comes before it is sent; by more than 20 ms, and
-// 200 ppm of the time that it was watched for, it is called so. One that is set back looks like a delay, and
-// what it stamps too old: whoever sees stamps go back says so (forget()).
+// A lasting delay is not a clock error: the line rises by 200 ppm at most, the relative drift of two poor
+// crystals. A forward step of the clock is followed at once, because no message arrives before it is sent. It
+// is counted as a step if it exceeds 20 ms plus 200 ppm of the observed time. A backward step looks like a
+// delay, and makes its stamps too old: a caller that sees stamps go back must call forget().
 #pragma once
 
 #include <array>
@@ -19,32 +19,31 @@
 
 namespace enc::net {
 
-// The device's clock against the loop's: what it says is `ahead` of the loop's time, `drift` more each
-// second.
+// The device's clock against the loop's: it is `ahead` of the loop's time, and gains `drift` each second.
 struct ClockEstimate {
   double ahead = kUnset;     // s, now
-  double drift = kUnset;     // s/s; unset: watched for too short a time
-  double spread = kUnset;    // s: how far the quickest of each half second lie above the line, the median
-  std::int64_t forward = 0;  // how often it was set forward
+  double drift = kUnset;     // s/s; unset: observed for too short a time
+  double spread = kUnset;    // s: median height of each half second's quickest message above the line
+  std::int64_t forward = 0;  // number of forward steps
 };
 
-// "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; half of its quickest messages lie within
-// 0.020 ms of that"; empty: nothing is known.
+// "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; half of its quickest messages lie within 0.020 ms
+// of that"; empty: no estimate.
 [[nodiscard]] std::string words(const ClockEstimate& clock);
 
 class ClockTie {
  public:
-  explicit ClockTie(Duration least) : least_(least) {}  // under way, of the quickest
+  explicit ClockTie(Duration least) : least_(least) {}  // travel time of the quickest message
 
-  void forget() noexcept;  // the device's clock is another now: its stamps went back
-  // When it was by the loop's clock, of what the device stamped and has come by now.
+  void forget() noexcept;  // call this when stamps went back: the device's clock has changed
+  // Time of a stamp by the loop's clock; the stamped message has arrived by now.
   [[nodiscard]] Time here(std::int64_t stamp_ns, Time now) noexcept;
   [[nodiscard]] ClockEstimate estimate() const noexcept;
 
  private:
   static constexpr std::size_t kBins = 64;
   struct Quickest {
-    double stamp = 0.0, gap = 0.0;  // ns since the first: of the stamp; arrival - stamp
+    double stamp = 0.0, gap = 0.0;  // ns since the first: stamp; arrival - stamp
   };
   // The line at a stamp, ns since the first.
   [[nodiscard]] double line(double stamp) const noexcept { return level_ + slope_ * (stamp - from_); }
@@ -62,12 +61,12 @@ class ClockTie {
   bool any_ = false;
   std::int64_t first_stamp_ = 0, first_gap_ = 0;
   std::int64_t forward_ = 0;
-  Quickest open_;                     // of the bin that is filled
+  Quickest open_;                     // quickest message of the bin being filled
   double opened_ = 0.0, last_ = 0.0;  // stamps
   std::array<Quickest, kBins> bins_{};
-  std::size_t begin_ = 0, end_ = 0;  // of the bins that count, as if there were no end of them
+  std::size_t begin_ = 0, end_ = 0;  // range of the valid bins, counted without wrapping
   double level_ = 0.0, slope_ = 0.0, from_ = 0.0;
-  double lowest_ = 0.0;  // ns at from_: as low as the clocks may be by now, of whatever came
+  double lowest_ = 0.0;  // ns at from_: lowest possible level of the clocks by now, from all messages
 };
 
 }  // namespace enc::net

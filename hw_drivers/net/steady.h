@@ -1,11 +1,11 @@
-// The clock of the drivers: how old something is, and whether an answer is late. It says nothing of
-// experiment time, which each read() and poll() is told.
+// The clock of the drivers: measures ages and late answers. It does not give experiment time, which each
+// read() and poll() receives.
 #pragma once
 
 #include "core/base/time.h"
 
 namespace enc::net {
 
-[[nodiscard]] Duration steady_now() noexcept;  // since any start, the same for all threads
+[[nodiscard]] Duration steady_now() noexcept;  // any start, common to all threads
 
 }  // namespace enc::net

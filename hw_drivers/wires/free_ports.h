@@ -1,5 +1,5 @@
-// Ports for the fakes of models/rigs/fakes.toml that nobody has just now, as settings: tests and benchmarks
-// run beside each other.
+// Ports that are free at present, as settings for the fakes of models/rigs/fakes.toml, because tests and
+// benchmarks run beside each other.
 #pragma once
 
 #include <string>

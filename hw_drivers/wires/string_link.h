@@ -1,4 +1,4 @@
-// A link to a controller that is a string: who answers within send() is heard at once.
+// A link to a controller by a string: an answer within send() is received at once.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Lateness as a real rig allows it, as settings. models/rigs/fakes.toml allows ten times as much, because on
-// the wall clock fakes share the processor with the run; in virtual time and in lockstep nothing is late.
+// The time limits of a real rig, as settings. models/rigs/fakes.toml allows ten times as much, because on the
+// wall clock fakes share the processor with the run; in virtual time and in lockstep no data are late.
 #pragma once
 
 #include <string>

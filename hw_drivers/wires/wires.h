@@ -1,7 +1,6 @@
-// The devices of a rig behind their wires in virtual time, for tests and benchmarks: the drivers of the
-// laboratory on one side, on the other their fakes in front of the same roles that were there before. The
-// machine's wire is a string; force and tool data go over loopback, where a datagram is there when it was
-// sent.
+// The devices of a rig over their protocols in virtual time, for tests and benchmarks: the laboratory's
+// drivers on one side, and on the other their fakes in front of the earlier roles. The machine's connection
+// is a string; force and tool data go over loopback, where a datagram arrives as soon as it is sent.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +19,17 @@
 
 namespace enc::wires {
 
-// What may happen to the machine's wire. Force and tool data suffer as their fakes do (core/devices/fake.h).
+// Faults of the machine's connection. For force and tool data use the faults of their fakes
+// (core/devices/fake.h).
 struct Spoilt {
-  bool silent = false;   // nothing comes any more, though it is taken
-  bool cut = false;      // a cable: nothing comes, and nothing is taken
+  bool silent = false;   // receives no answer, though data are taken
+  bool cut = false;      // a cut cable: no data are received or taken
   bool hung_up = false;  // closed by the other side
-  std::string instead;   // once, in place of the next answer
-  bool half = false;     // of the next answer, and then nothing
+  std::string instead;   // replaces the next answer, once
+  bool half = false;     // half of the next answer, and then silence
 };
 
-// Which devices go behind their wires.
+// The devices that go over their protocols.
 struct Which {
   bool machine = true, force = true, tracker = true;
 };
@@ -41,13 +41,14 @@ struct Tables {
 
 class Wires {
  public:
-  explicit Wires(std::uint64_t seed = 1) : seed_(seed) {}  // of what is lost, late or noise
+  explicit Wires(std::uint64_t seed = 1) : seed_(seed) {}  // seed of losses, delays and noise
   Wires(const Wires&) = delete;
   Wires& operator=(const Wires&) = delete;
   ~Wires();
 
-  // Puts drivers into the roles, and what filled them behind their wires. Time goes on with the rig's clock,
-  // whose ticks come through here. The rig goes before this. `tools`: names of the scene's, by index.
+  // Puts drivers into the roles, and the earlier devices behind fakes. Time advances with the rig's clock,
+  // whose ticks come through here. The rig must be destroyed before this object. `tools`: names of the
+  // scene's, by index.
   void fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
                Log& log, Which which = {true, true, true});
 
@@ -55,8 +56,8 @@ class Wires {
   [[nodiscard]] gcs::Controller& controller() { return *controller_; }
   [[nodiscard]] netft::Server& box() { return *box_; }
   [[nodiscard]] igtl::ToolServer& tools() { return *tools_; }
-  // The next tick comes so much later, and its clock has missed as many. Until then the loop stands; the
-  // thread of the machine's driver goes on, or stands as well, as where the process was stopped.
+  // Delays the next tick by this time, and its clock misses that many cycles. Until then the loop stands
+  // still. The thread of the machine's driver goes on, or stands too, as if the process were stopped.
   void stand(Duration how_long, bool process) {
     standing_ = how_long;
     process_stands_ = process;
@@ -68,16 +69,16 @@ class Wires {
   class Link;
   class Clock;
   void pass(Time now);
-  // Puts the machine's driver into its role, and what filled that behind its wire.
+  // Puts the machine's driver into its role, and the earlier device behind a fake.
   void put_machine(Rig& rig, const Offer& offer, Settings& table);
-  // What filled the tracker's role answers on loopback, by the tools' names.
+  // The earlier tracker answers on loopback, by the tools' names.
   void serve_tools(Rig& rig, Settings& table, std::span<const std::string> tools);
 
   std::uint64_t seed_;
   Time now_{};
-  Duration standing_{};  // from the next tick on
+  Duration standing_{};  // starts at the next tick
   bool process_stands_ = false;
-  Rig twin_;  // the roles that went behind their wires
+  Rig twin_;  // the roles that went behind fakes
   std::unique_ptr<gcs::Controller> controller_;
   std::unique_ptr<netft::Server> box_;
   std::unique_ptr<igtl::ToolServer> tools_;

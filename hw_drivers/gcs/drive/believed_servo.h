@@ -1,5 +1,5 @@
-// How the machine moves under its set-points, as the rig file believes of its servo. GCS says positions
-// alone, and what is differenced twice from them is noise.
+// Motion of the machine under its set-points, by the rig file's servo model. GCS reports only positions, and
+// differencing them twice gives only noise.
 #pragma once
 
 #include <array>
@@ -11,14 +11,15 @@ namespace enc::gcs {
 
 class BelievedServo {
  public:
-  static constexpr std::int64_t kLongest = 64;  // cycles of delay
-  // Delay and period: s. Step: m, 0 for none. Steps are counted from `zero`, the machine's zero.
+  static constexpr std::int64_t kLongest = 64;  // most cycles of delay
+  // Delay and period: s. Step: quantisation, m, 0: no quantisation. Steps are counted from `zero`, the
+  // machine's zero.
   BelievedServo(const ServoLaw& law, double delay, double period, double step, const Vec3& zero)
       : law_(law), period_(period), step_(step), zero_(zero) {
     delay_ = std::min(std::llround(delay / period), static_cast<long long>(kLongest - 1));
   }
 
-  // A period under this set-point, which comes a period after the last one.
+  // One period under this set-point, which comes a period after the last one.
   void next(const Vec3& point) noexcept {
     line_[static_cast<std::size_t>(given_ % kLongest)] = point;
     const std::int64_t due = std::max<std::int64_t>(0, given_ - delay_);
@@ -26,7 +27,7 @@ class BelievedServo {
     const Vec3 wanted = zero_ + in_steps(line_[static_cast<std::size_t>(due % kLongest)] - zero_, step_);
     follow(law_, wanted, period_, motion_);
   }
-  // It stands there; what comes next begins anew.
+  // The machine stands at this position; the next set-point begins anew.
   void stand(const Vec3& at) noexcept {
     given_ = 0;
     motion_ = {at};

@@ -1,4 +1,4 @@
-// A controller that was asked and is ready to be told: what the ways to talk to it have in common.
+// A controller that was inspected and is ready for commands: the common part of the drivers that talk to it.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@
 
 namespace enc::gcs {
 
-// An aim as the machine can take it.
+// A command in the machine's coordinates.
 struct Aim {
   Pose<'R', 'H'> X_RH;
   Coordinates to{};
-  Health health = Health::ok;  // fault: not a number, or no rotation, and nothing is to be sent
+  // Fault: not a number, or not a rotation; such a command is not sent.
+  Health health = Health::ok;
 };
 
 class Controlled {
@@ -26,17 +27,17 @@ class Controlled {
   [[nodiscard]] const GcsSettings& settings() const noexcept { return settings_; }
   [[nodiscard]] const Found& found() const noexcept { return found_; }
   [[nodiscard]] const Reach& reach() const noexcept { return reach_; }
-  [[nodiscard]] const Pose<'R', 'H'>& at_first() const noexcept { return at_first_; }  // where it stood
+  [[nodiscard]] const Pose<'R', 'H'>& at_first() const noexcept { return at_first_; }  // pose at the start
   [[nodiscard]] Link& link() noexcept { return *link_; }
   [[nodiscard]] const Link& link() const noexcept { return *link_; }
   [[nodiscard]] std::string describe() const;
   void say(const std::string& words) const { log_.say(describe() + words); }
 
-  // A set-point for the coming period, within the struts and within what the controller takes on each axis.
+  // A set-point for the coming period, limited to the struts and to the controller's range on each axis.
   const Aim& aim(const Pose<'R', 'H'>& X_RH) noexcept;
   void stand() noexcept { servo_.stand(aim_.X_RH.p()); }
   [[nodiscard]] const Aim& aim() const noexcept { return aim_; }
-  // Of the tip, under the set-points so far.
+  // Acceleration of the tip under the set-points so far.
   [[nodiscard]] Vec<'R'> acceleration() const noexcept { return Vec<'R'>(servo_.motion().acceleration); }
 
  private:
@@ -50,7 +51,7 @@ class Controlled {
   BelievedServo servo_;
 };
 
-// Sends a line and waits for the whole answer, before the run. Throws Error (kind device) where none comes.
+// Sends a line and waits for the whole answer, before the run. Throws Error (kind device) if no answer comes.
 [[nodiscard]] std::string ask(Link& link, const GcsSettings& settings, std::string_view line);
 
 }  // namespace enc::gcs

@@ -1,6 +1,6 @@
-// The talk with a controller that was inspected: which bytes go when, and what those that come mean. It knows
-// neither sockets nor clocks. Positions are asked for again and again, one question at a time; set-points go
-// along, where there is a new one; the machine is stopped where none comes any more.
+// The dialogue with an inspected controller: which bytes to send when, and the meaning of received bytes. It
+// uses neither sockets nor clocks. It queries positions continuously, one query at a time, and sends each new
+// set-point along with a query. It stops the machine if no set-point comes any more.
 #pragma once
 
 #include <cstdint>
@@ -14,57 +14,59 @@
 
 namespace enc::gcs {
 
-// The newest that the loop said. Numbers only grow, so that whoever comes late still sees all that counts.
+// The loop's newest order. Its numbers only grow, so that a late reader still sees every relevant change.
 struct Order {
-  std::int64_t number = 0;   // of set-points
-  std::int64_t stops = 0;    // of stops
-  std::int64_t stopped = 0;  // the number at the last stop: what is not beyond it is void
+  std::int64_t number = 0;   // number of set-points
+  std::int64_t stops = 0;    // number of stops
+  std::int64_t stopped = 0;  // number of set-points at the last stop; those up to it are void
   Coordinates to{};
-  Duration given{};  // of the drivers' clock, when the loop gave it: not when this side saw it
+  Duration given{};  // drivers' clock when the loop gave it, not when this side read it
 };
 
 enum class Loss : std::uint8_t { none, silent, closed, garbled, fault, servo_off, velocity, path };
 [[nodiscard]] std::string_view words_of(Loss loss) noexcept;
 
-// The newest that the machine said.
+// The machine's newest report.
 struct Report {
   Pose<'R', 'H'> X_RH;
-  Vec<'R'> velocity;  // of the tip, m/s
-  Duration t{};       // of the drivers' clock, when the position was true: between question and answer
+  Vec<'R'> velocity;  // tip velocity, m/s
+  Duration t{};       // drivers' clock at the position's time: between query and answer
   Health health = Health::ok;
-  int error = 0;            // the last that was no zero
-  std::int64_t errors = 0;  // how many were not
-  std::int64_t stops = 0;   // of Order, which were sent
+  int error = 0;            // last nonzero error
+  std::int64_t errors = 0;  // number of nonzero errors
+  std::int64_t stops = 0;   // stops of Order that were sent
 };
 
 class Conversation {
  public:
-  // `fastest`: of the platform, m/s. No point is farther from the last one than that, however the loop leaps.
+  // `fastest`: speed limit of the platform, m/s. No point is farther from the last one than it allows,
+  // however the loop jumps.
   Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now,
                double fastest = std::numeric_limits<double>::infinity());
 
   void told(const Order& order) noexcept { order_ = order; }
-  // What is to be sent now; often nothing. It stays until the next call.
+  // The bytes to send now; often empty. Valid until the next call.
   [[nodiscard]] std::string_view send(Duration now) noexcept;
-  // True where the report is new.
+  // Returns true if the report is new.
   bool take(std::string_view bytes, Duration now) noexcept;
   void closed() noexcept { lose(Loss::closed); }
 
   [[nodiscard]] const Report& report() const noexcept { return report_; }
   [[nodiscard]] Loss loss() const noexcept { return loss_; }
-  [[nodiscard]] bool moving() const noexcept { return moving_; }  // told to, and not stopped since
-  // The controller was told that its path is made of points.
+  [[nodiscard]] bool moving() const noexcept { return moving_; }  // commanded, and not stopped since
+  // True once the controller has been set to a path made of points.
   [[nodiscard]] bool by_points() const noexcept { return by_points_ && path_told_; }
   [[nodiscard]] Duration longest_answer() const noexcept { return longest_; }
   [[nodiscard]] std::int64_t answers() const noexcept { return answers_; }
   [[nodiscard]] std::int64_t watchdogs() const noexcept { return watchdogs_; }
-  // No stop is to go once more: none was asked for, or what might have come behind it was answered.
+  // True if no stop must be sent again: no stop is pending, or the controller has answered whatever could
+  // follow it.
   [[nodiscard]] bool stopped() const noexcept {
     return order_.stops == report_.stops && !overtaken_ && awaiting_ == Awaiting::nothing;
   }
 
  private:
-  // What the question under way asks for; each is followed by ERR?.
+  // The pending query; each is followed by ERR?.
   enum class Awaiting : std::uint8_t { nothing, room, position, velocity, path, servos, error };
 
   void lose(Loss loss) noexcept;
@@ -81,26 +83,28 @@ class Conversation {
 
   Duration timeout_, cycle_, poll_, watchdog_;
   double fastest_;   // m/s
-  double velocity_;  // to be told once, m/s; 0: not, or no more
+  double velocity_;  // velocity to command once, m/s; 0: no, or already done
   bool by_points_;
-  bool path_told_ = false;          // and read back
-  int room_ = -1, most_room_ = -1;  // of the buffer of points, when it was asked last; with none in it
+  bool path_told_ = false;  // commanded and read back
+  // Free places in the point buffer at the last query; its capacity.
+  int room_ = -1, most_room_ = -1;
   Stand stand_;
   AnswerReader reader_;
   Text out_;
   Order order_;
-  Coordinates at_{}, point_{};  // where it was said to be, and the last point that was sent
-  std::int64_t sent_ = 0;       // number of the set-point that was sent last
-  Duration due_, asked_;        // when the next set-point may go, and the last question went
+  Coordinates at_{}, point_{};  // last reported position, and last point sent
+  std::int64_t sent_ = 0;       // number of the last set-point sent
+  Duration due_, asked_;        // due time of the next set-point, and time of the last query
   bool moving_ = false;
-  bool stopped_us_ = false;    // our own stop is the reason of an error 10 that is still to come
-  bool carries_move_ = false;  // the question under way
-  bool overtaken_ = false;     // a stop went after it: it may be carried out after that
-  bool after_stop_ = false;    // the question under way went after that stop
-  bool ask_servos_ = false;    // our stop took the place of whatever error was there
+  // Our own stop will cause an error 10 that is still to come.
+  bool stopped_us_ = false;
+  bool carries_move_ = false;  // the pending query carries a move
+  bool overtaken_ = false;     // a stop was sent during that query: the move may be executed after it
+  bool after_stop_ = false;    // the pending query was sent after our stop
+  bool ask_servos_ = false;    // our stop replaced the error number of an earlier fault: query the servos
   Awaiting awaiting_ = Awaiting::nothing;
   Report report_;
-  Vec3 from_;  // where and when velocity is counted from
+  Vec3 from_;  // start of the velocity's measurement: position and time
   Duration from_t_;
   Loss loss_ = Loss::none;
   Duration longest_{};

@@ -1,5 +1,5 @@
-// A hexapod on a PI C-887, over GCS 2.0. The constructor asks; from then on a thread of its own has the link,
-// and the loop hands it the newest set-point and takes the newest position.
+// A hexapod on a PI C-887, over GCS 2.0. The constructor queries it. From then on a separate thread owns the
+// link; the loop gives it the newest set-point and takes the newest position.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace enc::gcs {
 
-// Whose the turns are: a thread's, on the wall clock; or the caller's, in whatever time the link has.
+// The caller of turn(): a thread, on the wall clock; or the loop, in the link's time.
 enum class Turns : std::uint8_t { thread, called };
 
 class GcsManipulator final : public Manipulator {
@@ -25,7 +25,7 @@ class GcsManipulator final : public Manipulator {
                  Turns turns = Turns::thread);
   GcsManipulator(const GcsManipulator&) = delete;
   GcsManipulator& operator=(const GcsManipulator&) = delete;
-  ~GcsManipulator() override;  // stops what was told to move
+  ~GcsManipulator() override;  // stops the machine if it was commanded
 
   [[nodiscard]] std::string describe() const override { return machine_.describe(); }
   [[nodiscard]] bool is_fake() const override { return machine_.found().fake; }
@@ -34,34 +34,35 @@ class GcsManipulator final : public Manipulator {
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
   Stamped<TipSample> read(Time now) noexcept override;
   void command(const Pose<'R', 'H'>& X_RH) noexcept override;
-  // Waits until the stop was sent and nothing can come behind it, or the link is gone, at most 100 ms.
+  // Waits until the stop is sent and no later command can follow it, or the link is gone; at most 100 ms.
   void stop() noexcept override;
-  // Takes what came and sends what is due; false: the link is lost. Each read() and command() makes one where
-  // turns are called.
+  // Takes received data and sends what is due; returns false if the link is lost. With Turns::called, each
+  // read() and command() calls it once.
   bool turn() noexcept;
 
  private:
-  void talk() noexcept;  // the thread
+  void talk() noexcept;  // the thread's function
   void publish() noexcept;
-  void lose(Loss loss, bool told) noexcept;  // told: it may be on its way
+  // told: the machine may be moving, so send it a stop.
+  void lose(Loss loss, bool told) noexcept;
 
   Controlled machine_;
 
-  // Of the loop.
+  // Data of the loop.
   Order order_;
   Report report_;
   Time stamp_{};
   bool read_ = false;
-  Duration tick_{};  // of the link's clock, when the tick began: a set-point is as old as what it was made of
+  Duration tick_{};  // link's clock at the start of the tick: a set-point is as old as its inputs
 
-  // Of who makes the turns.
+  // Data of the caller of turn().
   Conversation conversation_;
   Order newest_;
   std::array<char, kMostText> bytes_{};
   std::string_view unsent_;
-  int said_ = kNoError;  // the last error that a person was told of
+  int said_ = kNoError;  // last error reported to the user
 
-  // Between the two.
+  // Shared by both.
   Latest<Order> orders_;
   Latest<Report> reports_;
   std::atomic<std::int64_t> stops_sent_ = 0, answers_ = 0, watchdogs_ = 0;

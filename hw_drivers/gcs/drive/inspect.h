@@ -1,4 +1,4 @@
-// Asks a controller what it is before it is told anything. Nothing moves.
+// Inspects a controller before any command. Moves nothing.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,22 @@
 
 namespace enc::gcs {
 
-// Sends a line and gives the whole answer; throws Error (kind device) where none comes.
+// Sends a line and returns the whole answer; throws Error (kind device) if no answer comes.
 using Ask = std::function<std::string(std::string_view line)>;
 
 struct Found {
   std::string identity;  // "C-887.53 119012345"
   std::string firmware;
-  double velocity = kUnset;  // of the platform, m/s
+  double velocity = kUnset;  // m/s, platform
   Stand stand;
   Travel travel;
-  Coordinates at{};       // where it stands
-  int left_over = 0;      // an error that was there before: to ask for it clears it
-  bool fake = false;      // and says so
-  bool lockstep = false;  // a fake whose time goes on with each set-point, and not by itself
+  Coordinates at{};       // present position
+  int left_over = 0;      // an earlier error, which the query has cleared
+  bool fake = false;      // it identifies itself as a fake
+  bool lockstep = false;  // a fake whose time advances only with each set-point
 };
 
-// Throws Error (kind device): another device, not referenced, a servo off, or less than the rig promises.
+// Throws Error (kind device): another device, not referenced, a servo off, or less than the rig states.
 [[nodiscard]] Found inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised);
 
 }  // namespace enc::gcs

@@ -1,4 +1,4 @@
-// The bytes to and from a controller, and the clock they are timed by: a socket, or in tests the fake itself.
+// The bytes to and from a controller, and the clock that times them: a socket, or in tests the fake itself.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace enc::gcs {
 class Link {
  public:
   virtual ~Link() = default;
-  // How many of the bytes were taken; the rest is to be sent again.
+  // Returns the number of bytes taken; send the rest again.
   virtual std::size_t send(std::string_view bytes) noexcept = 0;
-  // How many came; 0: none yet.
+  // Returns the number of bytes received; 0: no bytes yet.
   virtual std::size_t receive(std::span<char> into) noexcept = 0;
   [[nodiscard]] virtual bool closed() const noexcept = 0;
-  // Returns when something came, and after this long at the latest.
+  // Returns when data have come, or after this time at the latest.
   virtual void wait(Duration most) noexcept = 0;
-  // Of a steady clock, from any start; from any thread.
+  // Time of a steady clock with any start; callable from any thread.
   [[nodiscard]] virtual Duration now() const noexcept = 0;
 };
 

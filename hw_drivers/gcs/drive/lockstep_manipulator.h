@@ -1,6 +1,6 @@
-// A fake controller whose time goes on by a cycle with each set-point. Nothing runs beside the loop: what is
-// read is what the last set-point led to, however long the answer takes, so that a run over the wire is the
-// same each time.
+// Driver for a fake controller whose time advances by a cycle with each set-point. It has no parallel
+// activity: each reading is the result of the last set-point, however long the answer takes. So a run over
+// this protocol is the same each time.
 #pragma once
 
 #include <memory>
@@ -13,30 +13,31 @@ namespace enc::gcs {
 
 class LockstepManipulator final : public Manipulator {
  public:
-  // Throws Error (kind device) as inspect() does, and where the controller keeps a time of its own.
+  // Throws Error (kind device) as inspect() does, and if the controller has its own time.
   LockstepManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link);
 
   [[nodiscard]] std::string describe() const override { return machine_.describe(); }
   [[nodiscard]] bool is_fake() const override { return machine_.found().fake; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
-  // Both wait for the answer, timeout_ms at most.
+  // Both wait for the answer, at most timeout_ms.
   Stamped<TipSample> read(Time now) noexcept override;
   void command(const Pose<'R', 'H'>& X_RH) noexcept override;
   void stop() noexcept override;
 
  private:
   void send(std::string_view bytes) noexcept;
-  [[nodiscard]] std::string_view hear() noexcept;  // the next answer, until the next call; empty: lost
+  [[nodiscard]] std::string_view
+  hear() noexcept;  // the next answer, valid until the next call; empty: link lost
   void lose(const std::string& why) noexcept;
 
   Controlled machine_;
   double period_;  // s
   AnswerReader reader_;
   std::array<char, kMostText> bytes_{};
-  std::string_view heard_;  // of these, what was not read yet
+  std::string_view heard_;  // unread part of bytes_
   TipSample sample_;
-  Health said_ = Health::ok;  // of the last set-point
+  Health said_ = Health::ok;  // health of the last set-point
   bool linked_ = true, told_ = false;
 };
 

@@ -34,7 +34,7 @@ class NetLink final : public Link {
   net::Socket socket_;
 };
 
-// The driver, connected as its table says.
+// The driver, connected by its table.
 [[nodiscard]] std::unique_ptr<Manipulator> connected(const Offer& offer);
 
 }  // namespace enc::gcs

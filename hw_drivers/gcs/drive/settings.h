@@ -12,13 +12,13 @@ struct GcsSettings {
   std::string address = "127.0.0.1";
   std::int64_t port = 50000;
   double timeout = 0.2;     // s
-  double cycle = 0.010;     // of set-points, s
-  double poll = 0.002;      // of positions, s
+  double cycle = 0.010;     // set-point cycle, s
+  double poll = 0.002;      // position query interval, s
   double watchdog = 0.005;  // s
-  double velocity = 0.0;    // m/s; 0: the one that the controller has
+  double velocity = 0.0;    // m/s; 0: keep the controller's own
   std::string path = "points";
   double step = 3e-6;             // m
-  double origin_height = 0.1845;  // m: of the joint plane at zero, and 30 mm to the catalogue's pivot
+  double origin_height = 0.1845;  // m: height of the joint plane at zero, plus 30 mm to the catalogue's pivot
   std::string identity = "C-887", stage = "H-840", firmware;
 
   void declare(Settings& table);

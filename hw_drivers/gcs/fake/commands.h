@@ -1,4 +1,4 @@
-// Every command line that the fake controller knows.
+// Every command line that the fake controller supports.
 #pragma once
 
 #include <span>
@@ -31,7 +31,7 @@ struct Commands {
 
  private:
   static bool names_parameter(Controller& of, std::string_view axis, std::string_view number);
-  static bool names_axes(Controller& of, std::string_view rest);  // or nothing
+  static bool names_axes(Controller& of, std::string_view rest);  // or no axes
   static void go(Controller& of, std::string_view rest, bool relative);
 };
 

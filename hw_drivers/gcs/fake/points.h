@@ -1,5 +1,5 @@
-// A path of points, of which one is due each cycle (parameter 0x19001900 = 1, SCT): straight from one to the
-// next, each in a cycle, or as fast as it may. Where none is left it stands at the last.
+// A path of points, one for each cycle (parameter 0x19001900 = 1, SCT): straight from one to the next, each
+// in a cycle or at the speed limit. When no point is left, it stands at the last one.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class Points {
   void add(const Coordinates& point) noexcept {
     if (free() > 0) line_[(first_ + count_++) % kMost] = point;
   }
-  // The one that was added last; where none waits, where it is.
+  // The last point added; if no point is pending, the present target or position.
   [[nodiscard]] const Coordinates& last(const Coordinates& at) const noexcept {
     return count_ > 0 ? line_[(first_ + count_ - 1) % kMost] : going_ ? to_ : at;
   }
@@ -27,7 +27,7 @@ class Points {
     count_ = 0;
     going_ = false;
   }
-  // Where it is dt later, from where it is; s, m/s.
+  // Position after dt from `at`; s, m/s.
   [[nodiscard]] Coordinates step(Coordinates at, double dt, double cycle, double fastest) noexcept {
     for (double left = dt; left > 1e-9;) {
       if (!going_) {
@@ -53,7 +53,7 @@ class Points {
   std::array<Coordinates, kMost> line_{};
   std::size_t first_ = 0, count_ = 0;
   Coordinates to_{};
-  double due_ = 0.0;  // s until it is at to_
+  double due_ = 0.0;  // s until it reaches to_
   bool going_ = false;
 };
 

@@ -1,5 +1,5 @@
-// The way of a platform to where it is told to go: all six coordinates start and end together, no faster and
-// no harder than allowed. A new aim while it moves bends the way.
+// The path of a platform to its commanded position: all six coordinates start and end together, within
+// velocity and acceleration limits. A new command during motion bends the path.
 #pragma once
 
 #include "hw_drivers/gcs/wire/coordinates.h"
@@ -12,9 +12,9 @@ struct ProfileLimits {
 
 class Profile {
  public:
-  void reset(const Coordinates& at) noexcept;  // stands there
+  void reset(const Coordinates& at) noexcept;  // it stands there
   void go(const Coordinates& to) noexcept;
-  // Brakes on the way, this many times as hard as it may otherwise, and stays where that ends.
+  // Brakes on its path, `hardness` times as hard as its acceleration limit, and stays where that ends.
   void halt(double hardness) noexcept;
   void step(double dt, const ProfileLimits& limits) noexcept;
 
@@ -24,7 +24,7 @@ class Profile {
 
  private:
   Coordinates at_{}, to_{}, velocity_{};
-  double hardness_ = 0.0;  // of braking; 0: it goes
+  double hardness_ = 0.0;  // deceleration factor; 0: moving
   bool moving_ = false;
 };
 

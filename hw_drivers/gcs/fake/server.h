@@ -15,8 +15,8 @@ namespace enc::gcs {
 
 class Server final : public Fake {
  public:
-  // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `machine` and `log`
-  // stay until the server is gone. `begin` is called when a client comes.
+  // Port 0: any free port. Throws Error (kind device) if it cannot listen there. `machine` and `log` must
+  // outlive the server. `begin` is called when a client connects.
   Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
          std::uint16_t port, Log& log, std::function<void()> begin = {}, std::uint64_t seed = 1);
 
@@ -30,19 +30,19 @@ class Server final : public Fake {
   void heal(Trouble::Kind kind) override;
 
  private:
-  bool accept(Time now);  // true: somebody has come, for whom the world has begun anew
-  bool answer(Time now);  // true: something came
+  bool accept(Time now);  // true: a client connected, and its world was restarted
+  bool answer(Time now);  // true: data came
   void send(Time now);
-  void leave();  // the client has
+  void leave();  // the client has left
 
   Log& log_;
-  bool lockstep_;  // time goes on with its answers: none can be late or missing
+  bool lockstep_;  // time advances with its answers: none can be late or missing
   Controller controller_;
   std::string address_;
   std::function<void()> begin_;
   net::Socket listener_;
   net::Socket client_;
-  std::int64_t told_before_ = 0, stops_before_ = 0;  // of the controller, when that came
+  std::int64_t told_before_ = 0, stops_before_ = 0;  // controller's counts when the client connected
   std::vector<Time> stopped_;                        // the client's first stops
   net::BadLine line_;
   std::string unsent_;

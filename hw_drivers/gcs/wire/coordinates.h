@@ -1,6 +1,6 @@
-// A pose as the hexapod's controller says it: X Y Z along axes that stand still, then U V W about axes that
-// meet in the pivot and turn with the platform: U about x, V about the y that U turned, W about the z that
-// both turned (manual of the H-820, page 13).
+// A pose in the hexapod controller's coordinates. X Y Z act along fixed axes. U V W act about axes that meet
+// in the pivot and turn with the platform: U about x, V about the y that U turned, W about the z that both
+// turned (manual of the H-820, page 13).
 #pragma once
 
 #include <array>
@@ -15,27 +15,27 @@ inline constexpr std::size_t kAxes = 6;
 inline constexpr std::string_view kAxisNames = "XYZUVW";
 inline constexpr std::string_view kPivotNames = "RST";
 
-using Coordinates = std::array<double, kAxes>;  // of X Y Z, m, and of U V W, rad
+using Coordinates = std::array<double, kAxes>;  // X Y Z in m, U V W in rad
 
-// The wire has mm and degrees. Its only two borders:
+// The protocol has mm and degrees; these two functions are its only conversions.
 [[nodiscard]] Coordinates to_wire_units(const Coordinates& metres_and_radians) noexcept;
 [[nodiscard]] Coordinates from_wire_units(const Coordinates& millimetres_and_degrees) noexcept;
 [[nodiscard]] double metres(double millimetres) noexcept;
 [[nodiscard]] double millimetres(double metres) noexcept;
 
-// From one to the other, m: a degree counts as a millimetre.
+// Distance, m: a degree counts as a millimetre.
 [[nodiscard]] double distance(const Coordinates& from, const Coordinates& to) noexcept;
 
-// How the controller's axes stand in R, with which they are parallel.
+// Position of the controller's axes in R; they are parallel to those of R.
 struct Stand {
-  Vec3 origin{0, 0, 0};  // of the coordinates: the pivot while R, S and T are 0; m
-  Vec3 pivot{0, 0, 0};   // R S T: from there to the pivot, m
+  Vec3 origin{0, 0, 0};  // origin of the coordinates: the pivot while R, S and T are 0; m
+  Vec3 pivot{0, 0, 0};   // R S T: from the origin to the pivot, m
   Vec3 tip{0, 0, 0};     // H while all coordinates are 0, in R, m
 };
 
 // p_RH = centre + (X Y Z) + turn * (tip - centre), turn = Rx(U) Ry(V) Rz(W), centre = origin + pivot.
 [[nodiscard]] Pose<'R', 'H'> pose_of(const Coordinates& at, const Stand& stand) noexcept;
-// False where V is +-90 degrees, and U and W are not to be told apart, or where it is no pose.
+// Returns false if V is +-90 degrees, where U and W are ambiguous, or if the input is not a pose.
 [[nodiscard]] bool coordinates_of(const Pose<'R', 'H'>& X_RH, const Stand& stand, Coordinates& at) noexcept;
 
 }  // namespace enc::gcs

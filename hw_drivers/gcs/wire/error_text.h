@@ -1,4 +1,4 @@
-// What the number that ERR? is answered with means, and what to do about it.
+// Meaning and remedy of the numbers that ERR? returns.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ struct ErrorMeaning {
   int number;
   std::string_view what, to_do;
 };
-[[nodiscard]] std::span<const ErrorMeaning> error_meanings() noexcept;  // by number
+[[nodiscard]] std::span<const ErrorMeaning> error_meanings() noexcept;  // sorted by number
 
 // "error 5: not referenced, or a servo is off; reference it and switch the servos on".
 [[nodiscard]] std::string error_words(int number);

@@ -1,4 +1,4 @@
-// How far a machine gets on each of the controller's axes, from its zero: what TMN? and TMX? say.
+// Range of a machine on each of the controller's axes, from its zero, as TMN? and TMX? report it.
 #pragma once
 
 #include "core/machine/reach.h"
@@ -9,8 +9,8 @@ namespace enc::gcs {
 struct Travel {
   Coordinates low{}, high{};
 
-  [[nodiscard]] Coordinates both_sides() const noexcept;  // the lesser of the two on each axis
-  // The nearest within; true where that is another one.
+  [[nodiscard]] Coordinates both_sides() const noexcept;  // the smaller of the two on each axis
+  // Limits `at` to the range; returns true if that changed it.
   bool clamp(Coordinates& at) const noexcept;
 };
 [[nodiscard]] Travel travel_of(const Reach& reach, const Stand& stand) noexcept;

@@ -1,5 +1,6 @@
-// Tool data from a server, in datagrams as [VHMR 2] sends them, or as a stream from the tracker's own server,
-// such as PLUS: a PoseTracker. Read within the loop: what has come is in the socket, and nothing waits.
+// Tool data from a server: datagrams as in [VHMR 2], or a stream from the tracker's own server, such as PLUS.
+// It is a PoseTracker that is read within the loop: received data are already in the socket, and it never
+// waits.
 #pragma once
 
 #include <memory>
@@ -16,11 +17,11 @@ namespace enc::igtl {
 
 class IgtlTracker final : public PoseTracker {
  public:
-  // Asks the server to send, and waits for its first message. Throws Error (kind device) where none comes.
+  // Asks the server to send, and waits for its first message. Throws Error (kind device) if no message comes.
   IgtlTracker(const Offer& offer, const IgtlSettings& settings);
   IgtlTracker(const IgtlTracker&) = delete;
   IgtlTracker& operator=(const IgtlTracker&) = delete;
-  ~IgtlTracker() override;  // asks it to send no more
+  ~IgtlTracker() override;  // asks the server to stop
 
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool is_fake() const override { return fake_; }
@@ -30,13 +31,14 @@ class IgtlTracker final : public PoseTracker {
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
 
  private:
-  void ask() noexcept;  // the server, to send
+  void ask() noexcept;  // asks the server to send
   void first_answer();
-  void keep_awake(
-      Time now) noexcept;  // of a stream: a server whose tools are out of view says that it is there
+  // Stream only: queries the status of a silent server, because one whose tools are out of view still
+  // answers.
+  void keep_awake(Time now) noexcept;
   void say(const char* what, std::span<const std::byte> content = {}) noexcept;
   [[nodiscard]] bool take_next(Time now) noexcept;  // true: a message has come
-  void begin_run(Time now) noexcept;                // until nothing is there that came before
+  void begin_run(Time now) noexcept;                // discards messages from before the run
 
   IgtlSettings settings_;
   Reception reception_;
@@ -44,7 +46,7 @@ class IgtlTracker final : public PoseTracker {
   net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
   Time begun_{}, asked_{}, heard_{};
-  bool fake_ = false;  // as its STATUS is named
+  bool fake_ = false;  // known by the name in its STATUS
   bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;
   int settled_ = 0;
 };

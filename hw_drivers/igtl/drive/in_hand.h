@@ -1,6 +1,5 @@
-// Which of several tools in view a person holds. It stays the same one until another is picked up: while it
-// lies still itself, or is no longer in view. What lies on the table is in view all the time and is passed
-// over.
+// Decides which of several visible tools a person holds. It stays the same tool until another one is picked
+// up while this one lies still or is out of view. A tool on the table is visible all the time and is ignored.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,8 @@ class InHand {
  public:
   explicit InHand(std::size_t tools) : seen_(tools) {}
 
-  // Whether this tool is the one, seen there at that time of the tracker's clock, ns. With one in view at a
-  // time it always is, from its first pose on.
+  // True if this tool is the held one, at its position at that time of the tracker's clock (ns). A tool that
+  // is the only visible one is held from its first pose on.
   [[nodiscard]] bool is(std::size_t tool, std::int64_t stamp_ns, const Vec3& place_C) noexcept {
     Seen& one = seen_[tool];
     note(one, stamp_ns, place_C);
@@ -29,15 +28,16 @@ class InHand {
     if (gone ? came_after || !rests(one) : rests(held) && picked_up) held_ = tool;
     return tool == held_;
   }
-  void forget() noexcept {  // the tracker's clock is another now
+  void forget() noexcept {  // the tracker's clock has changed
     for (Seen& one : seen_) one.last = one.moved = kNever;
   }
 
  private:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
   struct Seen {
-    std::int64_t since = 0, last = kNever, moved = kNever;  // ns: in view, seen, moved away from `place`
-    Vec3 place = Vec3::Zero(), lay = Vec3::Zero();          // `lay`: where it was before it was moved
+    std::int64_t since = 0, last = kNever,
+                 moved = kNever;  // ns: came into view, last seen, last moved away from `place`
+    Vec3 place = Vec3::Zero(), lay = Vec3::Zero();  // `lay`: its place before it was moved
   };
   [[nodiscard]] static bool rests(const Seen& one) noexcept {
     return one.moved == kNever || one.last - one.moved > kRests.count();
@@ -54,10 +54,12 @@ class InHand {
     one.place = place_C;
   }
 
-  static constexpr double kMoved = 5e-3;         // m: more than noise, tremor, and a table that is knocked
-  static constexpr double kPickedUp = 50e-3;     // m: more than a tool on a table is pushed by
-  static constexpr Duration kGone{100'000'000};  // as lost_age_ms ships: by then a run that follows it holds
-  static constexpr Duration kRests{2'000'000'000};  // longer than a hand on its way stands still
+  static constexpr double kMoved = 5e-3;  // m: more than noise, tremor, and a knock at the table
+  // m: more than a push of a tool on the table.
+  static constexpr double kPickedUp = 50e-3;
+  static constexpr Duration kGone{
+      100'000'000};  // as lost_age_ms ships: by then a run with this tool is in a hold
+  static constexpr Duration kRests{2'000'000'000};  // longer than a moving hand stands still
   std::vector<Seen> seen_;
   std::size_t held_ = std::numeric_limits<std::size_t>::max();
 };

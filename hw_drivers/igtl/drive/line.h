@@ -1,4 +1,5 @@
-// The way to a server of tool data: datagrams, or a stream. Messages go one by one, and nothing waits.
+// The connection to a server of tool data: datagrams, or a stream. It transfers single messages and never
+// waits.
 #pragma once
 
 #include <array>
@@ -14,21 +15,23 @@ namespace enc::igtl {
 
 class Line {
  public:
-  // Throws Error (kind device) where nobody listens there.
+  // Throws Error (kind device) if no server listens there.
   explicit Line(const IgtlSettings& settings);
 
   void say(const Written& message) noexcept;
-  // The next message; empty: none yet. Stays until it is called again.
+  // The next message; empty: no message yet. Valid until the next call.
   [[nodiscard]] std::span<const std::byte> next() noexcept;
-  [[nodiscard]] Duration came() const noexcept { return socket_.came(); }  // of it, by net::steady_now()
+  [[nodiscard]] Duration came() const noexcept {
+    return socket_.came();
+  }  // arrival of that message, by net::steady_now()
   void wait(Duration most) noexcept { socket_.wait(most); }
-  // Of a stream: the other side has hung up, or what it sends is no OpenIGTLink.
+  // Stream only: true if the server has closed the connection or sends something other than OpenIGTLink.
   [[nodiscard]] bool closed() const noexcept { return streams_ && (socket_.closed() || stuck_); }
   [[nodiscard]] bool lost() const noexcept { return stream_.lost(); }
   [[nodiscard]] std::int64_t skipped() const noexcept { return stream_.skipped(); }
 
  private:
-  bool streams_, stuck_ = false;  // stuck_: it took half of what was said
+  bool streams_, stuck_ = false;  // stuck_: it took only half of a message
   net::Socket socket_;
   Stream stream_;
   std::array<std::byte, kMostBytes> datagram_{};

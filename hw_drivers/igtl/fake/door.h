@@ -1,5 +1,5 @@
-// The server's side of the line to who asks for tool data, one client at a time: of datagrams a later one
-// takes the place of the earlier, of a stream it is sent away.
+// The server socket for clients that ask for tool data, one client at a time. For datagrams, a later client
+// replaces the earlier one; for a stream, it is refused.
 #pragma once
 
 #include <array>
@@ -20,21 +20,21 @@ enum class Transport : bool { udp, tcp };
 
 class Door {
  public:
-  // Port 0: any that is free. Throws Error (kind device) where nobody may listen there.
+  // Port 0: any free port. Throws Error (kind device) if it cannot listen there.
   Door(Transport transport, const std::string& address, std::uint16_t port, std::uint64_t seed);
 
   [[nodiscard]] std::uint16_t port() const { return socket_.port(); }
   void wait_on(std::vector<int>& descriptors) const;
-  // Lets in who has come. True: somebody new is there.
+  // Accepts a new client. True: a new client is there.
   bool open(Time now);
-  // The next message that somebody sent; empty: none. Stays until it is called again.
+  // The next received message; empty: no message. Valid until the next call.
   [[nodiscard]] std::span<const std::byte> next();
-  void answer_sender() noexcept { socket_.answer_sender(); }  // of datagrams
-  // On its way, and out of the door when it is due.
+  void answer_sender() noexcept { socket_.answer_sender(); }  // datagrams only
+  // put() queues a message, and leave() sends it when it is due.
   void put(Time now, std::span<const std::byte> message);
   void leave(Time now);
 
-  // What is wrong with the line.
+  // Faults of the connection.
   [[nodiscard]] bool knows(Trouble::Kind kind) const noexcept { return line_.knows(kind); }
   void suffer(const Trouble& trouble) noexcept;
   void heal(Trouble::Kind kind) noexcept { line_.heal(kind); }
@@ -42,7 +42,7 @@ class Door {
 
  private:
   Transport transport_;
-  net::Socket socket_, client_;  // client_: of a stream
+  net::Socket socket_, client_;  // client_: stream only
   net::BadLine line_;
   Stream stream_;
   std::array<std::byte, kMostBytes> datagram_{};

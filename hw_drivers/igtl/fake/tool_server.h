@@ -1,6 +1,6 @@
-// The server of tool data [VHMR 2]: whoever asks gets each pose of a tracker in a datagram, numbered and
-// stamped; while none is in view, that all is well. Or a tracker's own server, such as PLUS: who connects
-// gets each pose in a stream, as TRANSFORM or, where asked for, as TDATA.
+// The server of tool data [VHMR 2]: a client that asks gets each pose of a tracker in a datagram, numbered
+// and stamped; while no tool is visible, a status "all is well". Or a tracker's own server, such as PLUS: a
+// client that connects gets each pose in a stream, as TRANSFORM or, on request, as TDATA.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@ inline constexpr Duration kServerPeriod{10'000'000};  // [VHMR 2]
 struct ToolServerSettings {
   Transport transport = Transport::udp;
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;  // 0: any that is free
-  // After so long without a pose it says over UDP that all is well. 0, in lockstep: on each period, however
-  // it sends.
+  std::uint16_t port = 0;  // 0: any free port
+  // After this time without a pose it reports over UDP that all is well. 0, in lockstep: in each period, for
+  // every transport.
   Duration alive = kServerPeriod;
   std::uint64_t seed = 1;
 };
 
 class ToolServer final : public Fake {
  public:
-  // Throws Error (kind device) where nobody may listen there. `tracker` stays until the server is gone.
-  // `devices`: names, by index of tool.
+  // Throws Error (kind device) if it cannot listen there. `tracker` must outlive the server. `devices`:
+  // names, by index of tool.
   ToolServer(PoseTracker& tracker, std::vector<std::string> devices, const ToolServerSettings& settings = {});
 
   [[nodiscard]] std::uint16_t port() const { return door_.port(); }
@@ -54,11 +54,11 @@ class ToolServer final : public Fake {
   ToolServerSettings settings_;
   Door door_;
   std::uint16_t status_ = 1;
-  // By who asked last:
-  bool asked_ = false;      // and not to stop
-  bool tdata_ = false;      // for TDATA
-  bool knows_two_ = false;  // headers of version 2
-  Duration apart_{};        // no oftener than that
+  // Set by the last request:
+  bool asked_ = false;      // asked to send, and not to stop
+  bool tdata_ = false;      // asked for TDATA
+  bool knows_two_ = false;  // supports headers of version 2
+  Duration apart_{};        // shortest interval between messages
   std::uint32_t number_ = 0;
   Time sent_{}, posed_{};
 };

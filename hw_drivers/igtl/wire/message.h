@@ -1,6 +1,6 @@
-// Messages of OpenIGTLink: 58 bytes of header, then what it says, all big-endian. With a header of version 2
-// (protocol 3) 12 bytes of extended header with the message's number come first, and metadata last. Each is a
-// datagram, or one follows the other in a stream (stream.h).
+// Messages of OpenIGTLink: 58 bytes of header, then the content, all big-endian. With a header of version 2
+// (protocol 3), 12 bytes of extended header with the message's number come first, and metadata last. Each
+// message is a datagram, or follows the last one in a stream (stream.h).
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 namespace enc::igtl {
 
 inline constexpr std::size_t kHeader = 58, kExtendedHeader = 12;
-inline constexpr std::size_t kMostBytes = 1472;  // of a message: what a datagram of Ethernet holds
+inline constexpr std::size_t kMostBytes = 1472;  // largest message: the content of an Ethernet datagram
 
-// Of a body, as the header has it: polynomial 0x42F0E1EBA9EA3693, from 0, not reflected.
+// Checksum of a body, for the header: polynomial 0x42F0E1EBA9EA3693, from 0, not reflected.
 [[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes) noexcept;
 
-// Text in a field of fixed length: what is longer is cut.
+// Text in a field of fixed length; a longer text is cut.
 template <std::size_t kLength>
 struct Name {
   std::array<char, kLength> letters{};
@@ -30,7 +30,7 @@ struct Name {
   }
 };
 
-// Of bytes[at] and those behind it, which must be there.
+// Reads from bytes[at] on; these bytes must exist.
 template <std::size_t kLength>
 [[nodiscard]] Name<kLength> take_name(std::span<const std::byte> bytes, std::size_t at) noexcept {
   Name<kLength> name;
@@ -46,27 +46,27 @@ void put_name(std::span<std::byte> bytes, std::size_t at, std::string_view text)
 
 struct Message {
   Name<12> type;    // "TRANSFORM", "STATUS", "STT_TRANS"
-  Name<20> device;  // whose: "stylusToTracker"
+  Name<20> device;  // sending device: "stylusToTracker"
   std::int64_t stamp_ns = 0;
   bool numbered = false;
-  std::uint32_t number = 0;  // where it is numbered
-  // Of the bytes it was read from: what it says, and what it says about that in pairs of words.
+  std::uint32_t number = 0;  // valid if numbered
+  // Parts of the bytes that were read: content, and metadata as pairs of words.
   std::span<const std::byte> content, metadata;
 };
 
-// no_checksum: the header has CRC 0, as of a server that does not compute it.
+// no_checksum: the header has CRC 0, as from a server that does not compute it.
 enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum, no_checksum };
-// Why a message is none; `message` is set where it is one.
+// Returns the reason why the bytes are not a message; sets `message` if they are.
 [[nodiscard]] Wrong read(std::span<const std::byte> bytes, Message& message) noexcept;
 
-// A message, in a buffer that never grows.
+// A message to send, in a buffer that never grows.
 class Written {
  public:
-  // Of version 2, numbered, with a pair of words.
+  // Version 2, numbered, with a pair of words.
   Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
           std::span<const std::byte> content, std::string_view key = {},
           std::string_view value = {}) noexcept;
-  // Of version 1, for who knows no other.
+  // Version 1, for peers that support no other.
   Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
           std::span<const std::byte> content) noexcept;
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {bytes_.data(), size_}; }
@@ -79,7 +79,7 @@ class Written {
   std::size_t size_ = 0;
 };
 
-// The value of a key in metadata; empty: there is none.
+// The value of a key in metadata; empty: no such key.
 [[nodiscard]] std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept;
 
 }  // namespace enc::igtl

@@ -1,5 +1,5 @@
-// Messages out of a stream of bytes, in whatever pieces it comes. What is longer than any message of a
-// tracker, such as a picture, is passed over; nothing grows.
+// Extracts messages from a stream of bytes, in any pieces. It skips messages longer than any message of a
+// tracker, such as a picture; no buffer grows.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@ namespace enc::igtl {
 
 class Stream {
  public:
-  static constexpr std::size_t kMost = 1U << 13U;  // of a message: some hundred tools
+  static constexpr std::size_t kMost = 1U << 13U;  // largest message: some hundred tools
 
-  void begin() noexcept { *this = Stream(std::move(bytes_)); }  // another stream: nothing has come
-  // Where what comes next may go, never empty while it is not lost(); then how much of it came.
+  void begin() noexcept { *this = Stream(std::move(bytes_)); }  // starts another stream, with no data yet
+  // Space for the next bytes, never empty unless lost(); then the number of bytes that came.
   [[nodiscard]] std::span<std::byte> room() noexcept;
   void came(std::size_t count) noexcept { end_ += count; }
-  // The next message, header and body; empty: it has not come whole. Stays until room() is called.
+  // The next message, header and body; empty: not complete yet. Valid until room() is called.
   [[nodiscard]] std::span<const std::byte> next() noexcept;
-  // What came is no header: where the next message begins is not known.
+  // True if the bytes are not a header: the start of the next message is then unknown.
   [[nodiscard]] bool lost() const noexcept { return lost_; }
   [[nodiscard]] std::int64_t skipped() const noexcept { return skipped_; }  // messages that were too long
 
@@ -33,8 +33,8 @@ class Stream {
   explicit Stream(std::vector<std::byte> bytes) noexcept : bytes_(std::move(bytes)) {}
 
   std::vector<std::byte> bytes_;
-  std::size_t begin_ = 0, end_ = 0;  // of what was not given out yet
-  std::uint64_t passing_ = 0;        // bytes of what is too long that still come
+  std::size_t begin_ = 0, end_ = 0;  // range of the bytes not yet returned
+  std::uint64_t passing_ = 0;        // remaining bytes of a message that is too long
   std::int64_t skipped_ = 0;
   bool lost_ = false;
 };

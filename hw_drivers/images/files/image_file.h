@@ -1,6 +1,6 @@
-// PNG and JPEG files as Images: colour and grey, which becomes RGB; of 16 bits the upper 8; what is
-// transparent lies on black. No more than kLargest on a side. Every mistake is an Error of one line with the
-// file's name.
+// PNG and JPEG files as Images: colour, and grey converted to RGB; 16-bit values keep their upper 8 bits;
+// transparent pixels are blended with black. No side may exceed kLargest. Every fault is an Error in one line
+// with the file's name.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ inline constexpr std::int64_t kMostPixels = 1L << 26;  // 200 MB of memory
 
 [[nodiscard]] bool is_image_name(std::string_view name);  // *.png, *.jpg, *.jpeg, in any case
 
-// What its header says; pixels are not read.
+// The size from the file's header; pixels are not read.
 [[nodiscard]] ImageSize image_size(const std::string& path);
-// The whole file. `into` keeps its memory where the size is the same.
+// Reads the whole file. `into` keeps its memory if the size is unchanged.
 void read_image(const std::string& path, Image& into);
-// The same of bytes; `name` is for messages.
+// Reads an image from bytes; `name` is for messages.
 void decode_image(std::string_view bytes, const std::string& name, Image& into);
 
-// The bytes of a PNG, made quickly rather than small. Throws Error.
+// The bytes of a PNG, optimised for speed rather than size. Throws Error.
 [[nodiscard]] std::string png_of(const ImageView& image);
 
 }  // namespace enc::images

@@ -1,7 +1,7 @@
-// A folder of stereo images: which file belongs to which, in natural order (frame 9 before frame 10).
+// A folder of stereo images: the pairs of files, in natural order (frame 9 before frame 10).
 //
-//   pairs          left01.png right01.png ..., or left/01.png right/01.png ...: one name but for what says
-//   the side side_by_side   01.png ...: the left image in the left half
+//   pairs          left01.png right01.png ..., or left/01.png right/01.png ...: equal but for the side
+//   side_by_side   01.png ...: the left image in the left half
 #pragma once
 
 #include <string>
@@ -18,22 +18,23 @@ constexpr auto words(Layout) { return enum_words("pairs", "side_by_side"); }
 
 struct PairList {
   Layout layout = Layout::pairs;
-  ImageSize size;  // of each of the two images
+  ImageSize size;  // each of the two images
   std::vector<PairFiles> pairs;
-  std::string words;  // how the folder was read: "left01.png with right01.png, and 12 pairs more"
+  // Description of the pairing: "left01.png with right01.png, and 12 pairs more".
+  std::string words;
 };
 
-// Paths of all images of a folder, in natural order. Throws Error where it cannot be read.
+// Paths of all images of a folder, in natural order. Throws Error if it cannot be read.
 [[nodiscard]] std::vector<std::string> images_in(const std::string& folder);
 
-// Side by side, where no name of a file or folder says a side.
+// side_by_side if no name of a file or folder states a side.
 [[nodiscard]] Layout layout_of(const std::string& folder);
 
 // Reads all headers. Throws Error in one line that names the file: no folder, no images in it, one without
-// its partner, one of another size, one that is no image.
+// its partner, one of another size, one that is not an image.
 [[nodiscard]] PairList list_pairs(const std::string& folder, Layout layout);
 
-// A pair's pixels; memory is used again. Throws Error: damaged, or no longer of the list's size.
+// The pixels of a pair; the memory is reused. Throws Error: damaged, or no longer of the list's size.
 struct ImagePair {
   Image left, right;
 };
@@ -48,7 +49,7 @@ class PairReader {
   Image both_;
 };
 
-// The halves of an image of both.
+// Splits an image of both sides into its halves.
 void split(const ImageView& both, ImagePair& into);
 
 }  // namespace enc::images

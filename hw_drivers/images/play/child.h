@@ -1,4 +1,4 @@
-// A program that writes to us: started, read through a pipe, ended and reaped with the object.
+// A child process that writes to us: started, read through a pipe, ended and reaped with this object.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@ namespace enc::images {
 
 class Child {
  public:
-  // `words` are the program, looked for in PATH, and what it is told. Throws Error (without a place) where
-  // there is none.
+  // `words` are the program, searched in PATH, and its arguments. Throws Error (without a place) if there is
+  // no such program.
   explicit Child(const std::vector<std::string>& words);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // Waits for that many bytes; fewer only at the end.
+  // Waits for that many bytes; returns fewer only at the end.
   std::size_t read(char* into, std::size_t size);
-  // From another thread: it is killed, and read() comes to the end.
+  // Call from another thread: kills the process, and read() reaches the end.
   void kill() noexcept;
-  // Waits for its end; the first line that it said as an error, or how it ended; empty where all was well.
+  // Waits for its end. Returns the first line of its standard error, or how it ended; empty on success.
   [[nodiscard]] std::string last_words();
 
  private:

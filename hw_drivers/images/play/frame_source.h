@@ -1,5 +1,5 @@
-// Where stereo frames come from: a folder of images, or a video that ffmpeg reads. A source may wait: it is
-// read by a thread of its own (playback.h).
+// A source of stereo frames: a folder of images, or a video that ffmpeg reads. A source may block, so a
+// separate thread reads it (playback.h).
 #pragma once
 
 #include <memory>
@@ -14,9 +14,9 @@ class FrameSource {
   virtual ~FrameSource() = default;
   // The next pair, of size(); false at the end. Throws Error in one line. `into` keeps its memory.
   virtual bool next(ImagePair& into) = 0;
-  [[nodiscard]] virtual ImageSize size() const = 0;  // of each image
+  [[nodiscard]] virtual ImageSize size() const = 0;  // each image
   [[nodiscard]] virtual std::string words() const = 0;
-  // From another thread: a next() that waits comes back soon, and all others say false.
+  // Call from another thread: a waiting next() returns soon, and all later ones return false.
   virtual void stop() noexcept {}
 };
 
@@ -29,7 +29,7 @@ struct Reel {
   bool repeat = false;
 };
 
-// Looks at all that can be known beforehand. Throws Error in one line.
+// Checks everything that can be checked beforehand. Throws Error in one line.
 [[nodiscard]] std::unique_ptr<FrameSource> open_reel(const Reel& reel);
 
 // The two kinds.

@@ -8,7 +8,7 @@ namespace enc::images {
 
 class ImageCamera final : public StereoCamera {
  public:
-  // Throws Error (kind device). `log` stays as long as this. `waits`: the run does, where a frame is late.
+  // Throws Error (kind device). `log` must outlive this. `waits`: the run waits for a late frame.
   ImageCamera(const Reel& reel, Log& log, bool waits);
 
   [[nodiscard]] std::string describe() const override { return words_; }
@@ -16,8 +16,8 @@ class ImageCamera final : public StereoCamera {
     return playback_->state() == Playback::State::playing;
   }
   [[nodiscard]] ImageSize size() const override { return size_; }
-  // Frame n is of n / rate after the first poll. The end and a stall (stale) and a damaged file (fault) are
-  // told once, with the last frame and its time.
+  // Frame n has the time n / rate after the first poll. The end or a stall (stale) and a damaged file (fault)
+  // are reported once, with the last frame and its time.
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
 
  private:

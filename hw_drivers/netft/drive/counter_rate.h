@@ -1,5 +1,5 @@
-// How fast a box counts its samples: it stamps its records with that counter, and its page does not have the
-// rate. Found from what the counter gains while records arrive, before a run begins.
+// Measures the rate of a box's sample counter. The box stamps its records with that counter, and its HTTP
+// page does not state the rate. The measurement compares counter and arrival times before a run begins.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace enc::netft {
 
-inline constexpr double kNetBoxRate = 7000.0;  // of a Net Box, Hz
+inline constexpr double kNetBoxRate = 7000.0;  // rate of a Net Box, Hz
 
 class CounterRate {
  public:
-  // set: the rate as the rig file has it, Hz; 0: that of any box that is known.
+  // set: the rate from the rig file, Hz; 0: that of any known box.
   explicit CounterRate(double set = 0.0) : set_(set) {}
-  // A record's counter, and when it came. A record that came out of order is left out.
+  // Takes a record's counter and arrival time. Ignores a record that arrived out of order.
   void take(std::uint32_t sample, Duration came);
   // s, from the first record to the last.
   [[nodiscard]] double watched() const noexcept;
-  // Counter over arrival of the records so far, Hz; unset: too few.
+  // Counter rate by arrival of the records so far, Hz; unset: too few.
   [[nodiscard]] double measured() const noexcept;
-  // What it should be, Hz.
+  // The expected rate, Hz.
   [[nodiscard]] double expected() const noexcept { return set_ > 0.0 ? set_ : kNetBoxRate; }
-  // The set rate, or that of a known box, where the measured one is within 0.3 % of it, Hz; else unset. With
-  // a wrong rate the age of records would grow without end.
+  // The set rate, or that of a known box, if the measured one is within 0.3 % of it, Hz; else unset. With a
+  // wrong rate the age of records would grow without end.
   [[nodiscard]] double known() const noexcept;
 
  private:

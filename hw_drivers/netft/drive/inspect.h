@@ -1,4 +1,4 @@
-// Asks a box what it is before it is told to send.
+// Inspects a box before it is asked to send.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@
 
 namespace enc::netft {
 
-// The page as it came; throws Error (kind device) where none comes.
+// The raw HTTP page; throws Error (kind device) if no page comes.
 [[nodiscard]] std::string fetch(const NetftSettings& settings, const std::string& path);
 
-// What the command interface answers to READCALINFO; empty: nobody listens there. Throws Error (kind device)
-// where somebody does and says nothing.
+// The answer of the command interface to READCALINFO; empty: no server listens there. Throws Error (kind
+// device) if a server accepts and does not answer.
 [[nodiscard]] std::vector<std::byte> ask_calibration(const NetftSettings& settings);
-// Throws Error (kind device) where that is none, or means other units than the page.
+// Throws Error (kind device) if the answer is invalid, or if its units differ from the page's.
 void agree(std::span<const std::byte> answer, const Configuration& page, const NetftSettings& settings);
 
-// What the page says. Throws Error (kind device): another device, units that nobody knows, no records, fewer
-// of them than the loop needs, or less range than the rig says.
+// The content of the page. Throws Error (kind device): another device, unknown units, no records, fewer of
+// them than the loop needs, or less range than the rig states.
 [[nodiscard]] Configuration inspect(const std::string& xml, const NetftSettings& settings, Duration period);
 
 }  // namespace enc::netft

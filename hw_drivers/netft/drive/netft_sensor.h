@@ -1,5 +1,5 @@
-// A force/torque sensor on an ATI Net Box [VHMR 2]. Its records are taken within the loop: what has come is
-// in the socket, and nothing waits. Nothing is taken off: zero and weight are the core's to know.
+// A force/torque sensor on an ATI Net Box [VHMR 2]. The loop reads its records: received data are already in
+// the socket, and it never waits. The readings are raw: the core handles zero and weight.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ namespace enc::netft {
 
 class NetftSensor final : public ForceSensor {
  public:
-  // Asks for its page and for a first record. Throws Error (kind device).
+  // Fetches its page and a first record. Throws Error (kind device).
   NetftSensor(const Offer& offer, const NetftSettings& settings);
   NetftSensor(const NetftSensor&) = delete;
   NetftSensor& operator=(const NetftSensor&) = delete;
-  ~NetftSensor() override;  // asks it to send no more
+  ~NetftSensor() override;  // asks the box to stop
 
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool is_fake() const override { return found_.serial.find(kFakeName) != std::string::npos; }
@@ -35,7 +35,7 @@ class NetftSensor final : public ForceSensor {
   void first_record();
   void find_counter_rate();
   bool receive() noexcept;  // into datagram_
-  // s, since the last record, at the last read; in lockstep there is none.
+  // s, from the last record to the last read; in lockstep there is no silence.
   [[nodiscard]] double silence() const noexcept;
 
   NetftSettings settings_;
@@ -44,14 +44,14 @@ class NetftSensor final : public ForceSensor {
   Session session_;
   net::Socket socket_;
   net::Arrival arrival_;
-  Duration period_;                        // of the loop
-  std::array<std::byte, 256> datagram_{};  // longer ones are no records
+  Duration period_;                        // period of the loop
+  std::array<std::byte, 256> datagram_{};  // longer datagrams are not records
   std::size_t size_ = 0;
   Time begun_{}, heard_{}, read_{};
-  // A run that does not keep the wall clock has our fake.
+  // A run without a wall clock always has our fake.
   bool lockstep_, wall_clock_;
   bool reading_ = false, linked_ = true;
-  bool agreed_ = false;  // the command interface was asked, too
+  bool agreed_ = false;  // the command interface was queried too
 };
 
 [[nodiscard]] std::unique_ptr<ForceSensor> streaming(const Offer& offer);

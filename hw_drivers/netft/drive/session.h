@@ -1,5 +1,4 @@
-// What is made of records: which are news, what they weigh and when they were true. It knows neither sockets
-// nor clocks.
+// Evaluates records: which are new, their forces and their times. It uses neither sockets nor clocks.
 #pragma once
 
 #include <cstdint>
@@ -15,30 +14,30 @@ namespace enc::netft {
 struct Counts {
   std::int64_t records = 0;
   std::int64_t missing = 0;  // numbers that never came, or came too late
-  std::int64_t old = 0;      // came behind a newer one, or twice
-  std::int64_t wrong = 0;    // no record
-  std::int64_t beyond = 0;   // with a force or torque beyond the rating of its axis (cfgmr)
-  std::uint32_t status = 0;  // the last that was a fault or saturated
-  double longest_gap = 0.0;  // between two that came, s
+  std::int64_t old = 0;      // arrived after a newer one, or twice
+  std::int64_t wrong = 0;    // not a record
+  std::int64_t beyond = 0;   // force or torque beyond the rating of its axis (cfgmr)
+  std::uint32_t status = 0;  // last fault or saturation
+  double longest_gap = 0.0;  // s, between two records
 };
 
 class Session {
  public:
-  // counter_rate: of the box's own counter of samples, Hz. Lockstep: a record is true when it comes.
+  // counter_rate: of the box's own sample counter, Hz. Lockstep: a record has the time of its arrival.
   Session(const Configuration& of, Duration least_delay, bool lockstep, double counter_rate = kNetBoxRate)
       : of_(of), tie_(least_delay), counter_rate_(counter_rate), lockstep_(lockstep) {}
 
-  // A record has no checksum: one whose counter is far from what was expected is believed when the next goes
-  // on from there, as after a box was switched off and on.
+  // A record has no checksum. If its counter is far from the expected value, it is accepted only when the
+  // next one continues from there, as after a restart of the box.
   void take(std::span<const std::byte> datagram, Time now) noexcept;
-  // absent before the first record.
+  // absent before the first record
   [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
   [[nodiscard]] net::ClockEstimate clock() const noexcept {
     return tie_.estimate();
   }  // 0 at its first record
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
-  // Counter over arrival since the first record, Hz; unset below half a minute, in which a late record
-  // counts.
+  // Counter rate by arrival since the first record, Hz; unset below half a minute, because a late record
+  // would still matter.
   [[nodiscard]] double counted() const noexcept;
 
  private:
@@ -48,17 +47,17 @@ class Session {
   bool lockstep_, begun_ = false, begun_anew_ = false;
   Counts counts_;
   [[nodiscard]] bool within_rating(const Record& record) const noexcept;
-  [[nodiscard]] bool believed(const Record& record) noexcept;  // counts it where not
+  [[nodiscard]] bool believed(const Record& record) noexcept;  // counts a refused one
 
   std::uint32_t number_ = 0, sample_ = 0;
-  std::uint32_t far_sample_ = 0;  // of the last that was far
+  std::uint32_t far_sample_ = 0;  // counter of the last record that was far off
   bool was_far_ = false;
-  std::int64_t samples_ = 0;  // since the first, as it never goes round
-  // Samples and time of the first record, or of the first after the box began anew.
+  std::int64_t samples_ = 0;  // since the first, without wrapping
+  // Samples and time of the first record, or of the first one after a restart of the box.
   std::int64_t since_samples_ = 0;
   Time since_{};
   Stamped<Wrench> newest_;
-  Time last_{};  // when a record came
+  Time last_{};  // arrival of the last record
 };
 
 }  // namespace enc::netft

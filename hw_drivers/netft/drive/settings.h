@@ -16,7 +16,7 @@ struct NetftSettings {
   double range = 130.0;        // N
   double torque_range = 10.0;  // N m
   double least_delay = 0.0;    // s
-  double counter = 0.0;        // Hz; 0: found
+  double counter = 0.0;        // Hz; 0: measured
   std::string product = "F/T";
 
   void declare(Settings& table);

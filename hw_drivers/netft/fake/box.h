@@ -1,4 +1,4 @@
-// A Net Box as its clients see it, in front of any force sensor of the core. It knows neither sockets nor
+// A Net Box as its clients see it, in front of any force sensor of the core. It uses neither sockets nor
 // clocks.
 #pragma once
 
@@ -21,16 +21,16 @@ class Box {
  public:
   Box(ForceSensor& sensor, const Configuration& configuration) : sensor_(sensor), of_(configuration) {}
 
-  // A request, or what is none; true: a record is to be sent at once.
+  // Takes a request, or other bytes; true: a record must be sent at once.
   bool take(std::span<const std::byte> request) noexcept;
   [[nodiscard]] bool streams() const noexcept { return streams_; }
-  [[nodiscard]] Record record(Time now) noexcept;  // the next
-  // To 20 bytes of the command interface; empty: it does not know them.
+  [[nodiscard]] Record record(Time now) noexcept;  // the next record
+  // Answer to 20 bytes of the command interface; empty: unknown command.
   [[nodiscard]] std::vector<std::byte> answer(std::span<const std::byte> question, Time now);
   [[nodiscard]] std::string xml() const { return xml_of(of_); }
-  // For tests: of another box, Hz.
+  // Test aid: counts at the rate of another box, Hz.
   void count_at(double rate) noexcept { counter_rate_ = rate; }
-  // For tests: what goes with each record from now on; 0: nothing.
+  // Test aid: status of each record from now on; 0: no fault.
   void fail(std::uint32_t status) noexcept { failure_ = status; }
 
  private:
@@ -41,7 +41,7 @@ class Box {
   std::uint32_t number_ = 0, left_ = 0, sample_ = 0, failure_ = 0;
   std::array<double, 6> bias_{}, counts_{};
   Time before_{};
-  std::uint32_t first_ = 0;  // of the counter, at time 0
+  std::uint32_t first_ = 0;  // counter at time 0
 };
 
 }  // namespace enc::netft

@@ -1,5 +1,5 @@
-// The fake box on its ports: records over UDP to who asked last, its page over HTTP, its
-// command interface over TCP.
+// The fake box on its ports: records over UDP to the last client, its page over HTTP, its command interface
+// over TCP.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct Ports {
 
 class Server final : public Fake {
  public:
-  // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `sensor` stays until
-  // the server is gone.
+  // Port 0: any free port. Throws Error (kind device) if it cannot listen there. `sensor` must outlive the
+  // server.
   Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
          const Ports& ports, std::uint64_t seed = 1);
 
@@ -51,7 +51,7 @@ class Server final : public Fake {
   Box box_;
   std::string address_;
   net::Socket records_, listener_, commands_;
-  net::BadLine line_;  // of the records; its page and commands are there or not
+  net::BadLine line_;  // records only; page and commands are only available or not
   std::vector<Reader> readers_, askers_;
 };
 

@@ -1,4 +1,4 @@
-// As much of HTTP/1.1 as a page of a device needs: one request, one answer, and the connection ends.
+// The part of HTTP/1.1 that a device's page needs: one request, one answer, and the connection ends.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,22 @@ inline constexpr std::size_t kMostHttp = 80'000;  // bytes of an answer, head an
 class HttpAnswer {
  public:
   void take(std::string_view bytes);
-  void closed();  // the other side has said all
+  void closed();  // the other side has sent everything
   [[nodiscard]] bool complete() const { return complete_ || !wrong_.empty(); }
-  [[nodiscard]] const std::string& wrong() const { return wrong_; }  // empty: nothing
+  [[nodiscard]] const std::string& wrong() const { return wrong_; }  // empty: no fault
   [[nodiscard]] std::string_view body() const { return std::string_view(all_).substr(head_); }
 
  private:
-  void read_head(std::size_t from);  // its end is at `from` or later, or has not come
+  // Its end is at `from` or later, or has not come.
+  void read_head(std::size_t from);
 
   std::string all_, wrong_;
-  std::size_t head_ = 0;                    // bytes before the body; 0: it has not come whole
+  std::size_t head_ = 0;                    // bytes before the body; 0: the head is not complete
   std::size_t length_ = std::string::npos;  // of the body; npos: up to the end
   bool complete_ = false;
 };
 
-// "/netftapi2.xml" of "GET /netftapi2.xml HTTP/1.1"; empty: not whole yet, or none.
+// "/netftapi2.xml" for "GET /netftapi2.xml HTTP/1.1"; empty: not complete yet, or not a request.
 [[nodiscard]] std::string_view requested_path(std::string_view request);
 
 }  // namespace enc::netft

@@ -23,27 +23,27 @@ enum class Command : std::uint16_t {
 
 struct Request {
   Command command = Command::stop;
-  std::uint32_t samples = 0;  // 0: without end
+  std::uint32_t samples = 0;  // 0: unlimited
 };
 [[nodiscard]] std::array<std::byte, kRequest> bytes_of(const Request& request) noexcept;
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Request& request) noexcept;
 
 struct Record {
-  std::uint32_t number = 0;  // from 1, anew with each request
-  std::uint32_t sample = 0;  // of the sensor's own clock
-  std::uint32_t status = 0;  // 0: well
+  std::uint32_t number = 0;  // from 1, restarts with each request
+  std::uint32_t sample = 0;  // counter of the sensor's own clock
+  std::uint32_t status = 0;  // 0: no fault
   std::array<std::int32_t, kAxes> counts{};
 };
 [[nodiscard]] std::array<std::byte, kRecord> bytes_of(const Record& record) noexcept;
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Record& record) noexcept;
 
 inline constexpr std::uint32_t kError = 1U << 31U;      // any of the others
-inline constexpr std::uint32_t kSaturated = 1U << 17U;  // the transducer, or its converter
-inline constexpr std::uint32_t kMonitor = 1U << 16U;    // a threshold of the user's was met: no fault
+inline constexpr std::uint32_t kSaturated = 1U << 17U;  // transducer or its converter
+inline constexpr std::uint32_t kMonitor = 1U << 16U;    // a threshold set by the user was met: not a fault
 
-// What the core is to believe of a record with this status.
+// Health of a record with this status, for the core.
 [[nodiscard]] Health health_of(std::uint32_t status) noexcept;
-// "status 0x80020000: transducer saturated"; of all bits that are set.
+// "status 0x80020000: transducer saturated"; names all set bits.
 [[nodiscard]] std::string status_words(std::uint32_t status);
 
 }  // namespace enc::netft
