@@ -1,6 +1,6 @@
-// Files as the program reads and writes them: nothing that this run has read is ever written over, nothing at
-// all without --force; what is written stands beside its place until it is whole, two runs never write one
-// file (sources/choices 14), and no link is followed: a file is written where the user said, or nowhere.
+// The program's file access. It never overwrites a file that this run has read, and no existing file without
+// --force. Output is written beside its place until it is complete, and two runs never write one file
+// (sources/choices 14). No link is followed: a file is written exactly at the user's path, or not at all.
 #pragma once
 
 #include <cstdio>
@@ -9,10 +9,10 @@
 
 namespace enc::models {
 
-// The whole file; or nothing, and `why`: a folder, a device, unreadable, longer than `most` bytes. From here
-// on it is an input.
+// Reads the whole file, which then counts as an input. Otherwise returns an empty text and sets `why`: a
+// folder, a device, unreadable, longer than `most` bytes.
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t most, std::string& why);
-void note_input(const std::string& path);  // was or will be read by something else
+void note_input(const std::string& path);  // other code has read it or will read it
 
 enum class Existing { keep, replace };  // replace: --force
 
@@ -20,27 +20,27 @@ enum class Existing { keep, replace };  // replace: --force
 
 class OutFile {
  public:
-  // Throws Error in one line where it may not be written, or cannot be.
+  // Throws Error in one line if the file may not or cannot be written.
   OutFile(std::string path, Existing existing);
-  ~OutFile();  // takes away what was not kept
+  ~OutFile();  // removes a file that was not kept
   OutFile(const OutFile&) = delete;
   OutFile& operator=(const OutFile&) = delete;
 
-  // Where it stands until keep(): PATH.part, a new file. A device or a pipe is written at once.
+  // Path until keep(): PATH.part, a new file. A device or a pipe is written directly.
   [[nodiscard]] const std::string& aside() const { return aside_; }
-  // The same open file, for a writer of its own, which closes it.
+  // This open file, for a separate writer, which closes it.
   [[nodiscard]] std::FILE* stream() const;
   void write(std::string_view text);
-  void spare() { spared_ = true; }  // part of it is worth something: it stays where it is without keep(), too
-  void keep();                      // it is whole: puts it in its place
+  void spare() { spared_ = true; }  // keeps a useful partial file in place even without keep()
+  void keep();                      // the file is complete: moves it to its place
 
  private:
   [[nodiscard]] bool begin();       // false: another run has just made, moved or removed it
   [[nodiscard]] bool lock() const;  // false: another run has it
   void refuse_existing() const;
   [[noreturn]] void refuse_other_run();
-  void remove_left_over();             // what stands in aside_, where it is of a run that did not end
-  [[nodiscard]] bool is_ours() const;  // what stands in aside_
+  void remove_left_over();             // removes a file in aside_ from an aborted run
+  [[nodiscard]] bool is_ours() const;  // true if the file in aside_ is ours
   void close();
   [[noreturn]] void fail(int why) const;
 
@@ -52,7 +52,7 @@ class OutFile {
 
 void write_file(const std::string& path, std::string_view text, Existing existing);
 
-// Makes the folder if need be and keeps other runs out of it as long as this lives.
+// Makes the folder if necessary, and locks other runs out of it during its lifetime.
 class OutFolder {
  public:
   explicit OutFolder(const std::string& path);

@@ -1,4 +1,4 @@
-// Least squares under linear inequalities: how curves are fitted that a machine can render.
+// Least squares under linear inequalities, for fitting curves that a machine can render.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ struct Constraints {
   Eigen::VectorXd bounds;
 };
 
-// The exact minimum; constraints may be missed by `tolerance`. Throws Error where no x keeps them all. With x
-// >= 0 as the only constraints this is non-negative least squares.
+// The exact minimum; constraints may be violated by `tolerance`. Throws Error if no x satisfies them all.
+// With x >= 0 as the only constraints, this is non-negative least squares.
 [[nodiscard]] Eigen::VectorXd constrained_minimum(const Quadratic& q, const Constraints& all,
                                                   double tolerance);
 

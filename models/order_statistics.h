@@ -1,4 +1,4 @@
-// Order statistics: what fits, benchmarks and reports share.
+// Order statistics for fits, benchmarks and reports.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace enc::models {
 
-// The value below which `share` (0 to 1) of them lie, by nearest rank; NaN where there is none.
+// The value below which `share` (0 to 1) of the values lie, by nearest rank; NaN without values.
 template <class T>
 [[nodiscard]] double percentile(std::vector<T> values, double share) {
   if (values.empty()) return kUnset;
@@ -18,13 +18,13 @@ template <class T>
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
   return static_cast<double>(values[rank]);
 }
-// Whether so many values have such a percentile: on average one of them at least lies beyond it. p50 needs 2
-// values, p95 and p5 need 20, p99 needs 100, p99.9 needs 1000. The least and the most need one.
+// True if that many values determine such a percentile: on average at least one of them lies beyond it. p50
+// needs 2 values, p95 and p5 need 20, p99 needs 100, p99.9 needs 1000. Minimum and maximum need one.
 [[nodiscard]] constexpr bool has_percentile(std::size_t count, double share) {
   const double beyond = share < 0.5 ? share : 1.0 - share;
   return count > 0 && (beyond <= 0.0 || beyond * static_cast<double>(count) >= 1.0 - 1e-9);
 }
-// As percentile(); NaN where there are too few values for it.
+// As percentile(); NaN if there are too few values for it.
 template <class T>
 [[nodiscard]] double known_percentile(const std::vector<T>& values, double share) {
   return has_percentile(values.size(), share) ? percentile(values, share) : kUnset;
@@ -34,7 +34,7 @@ template <class T>
   return percentile(values, 0.5);
 }
 
-// Sum of the distances from the median: a size that outliers do not rule.
+// Sum of the distances from the median: a measure that outliers do not dominate.
 [[nodiscard]] inline double spread(const std::vector<double>& values) {
   const double middle = median(values);
   double sum = 0.0;

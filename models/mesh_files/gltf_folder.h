@@ -1,4 +1,4 @@
-// The files that reading a glTF may open: those in its own folder. tinygltf asks here before it opens one.
+// The files that a glTF reader may open: those in its own folder. tinygltf asks here before it opens a file.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace enc::models {
 
-inline constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // of all buffer files
+inline constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // total of all buffer files
 
-// What tinygltf may read: regular files in the mesh's own folder. Images are never read.
+// Rules for tinygltf: it may read regular files in the mesh's own folder, and never images.
 struct GltfFolder {
   std::filesystem::path root;  // canonical
-  std::string refused;         // the first file that was asked for outside
-  std::uintmax_t read = 0;     // bytes; one file may be named any number of times
+  std::string refused;         // the first file requested outside of the folder
+  std::uintmax_t read = 0;     // bytes; a file may be named several times
 
   static bool is_image(const std::filesystem::path& path) {
     static const std::vector<std::string> kEndings{".png", ".jpg",  ".jpeg", ".webp",
@@ -23,7 +23,7 @@ struct GltfFolder {
     return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
   }
   bool may_read(const std::string& asked) {
-    if (asked.starts_with("./")) return false;  // tinygltf then looks in the working directory, too
+    if (asked.starts_with("./")) return false;  // because tinygltf then also looks in the working directory
     std::error_code failed;
     const std::filesystem::path path = std::filesystem::weakly_canonical(asked, failed);
     const std::filesystem::path inside = failed ? std::filesystem::path("..") : path.lexically_relative(root);

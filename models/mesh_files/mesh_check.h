@@ -1,4 +1,4 @@
-// Is a mesh the surface of a solid? What is not is named with its first bad faces, and repaired where that is
+// Checks that a mesh is the surface of a solid. It names the first bad faces, and repairs a mesh if that is
 // safe. A signed distance, and so a haptic surface, exists only for a closed, outward, simple surface.
 #pragma once
 
@@ -13,17 +13,18 @@ namespace enc::models {
 
 struct CheckedMesh {
   Mesh mesh;                                  // closed, manifold, outward, without faces of zero area
-  std::vector<std::string> notes;             // what was repaired or not checked, one line each
-  std::optional<SurfaceMaterial> material{};  // as the file says
+  std::vector<std::string> notes;             // repairs and skipped checks, one line each
+  std::optional<SurfaceMaterial> material{};  // material from the file
 };
 
-// Above this many triangles self-intersection is not looked for, and a note says so: it would take seconds.
+// Above this many triangles the check for self-intersection is skipped, with a note, because it would take
+// seconds.
 inline constexpr std::size_t kMostTouchTested = 300'000;
 
-// Corners of open edges that differ in the last digits of a float alone are joined (mesh_edges.h). `name`
-// begins every message. Faces are numbered from 0 in the order of the file, or named by their `lines`, one
-// for each triangle. Throws Error where the mesh is open, non-manifold, has faces of no area, is not
-// orientable, or meets itself.
+// Joins corners of open edges that differ only in the last digits of a float (mesh_edges.h). `name` begins
+// every message. Faces are numbered from 0 in the order of the file, or named by their `lines`, one for each
+// triangle. Throws Error if the mesh is open, non-manifold, has faces without area, is not orientable, or
+// intersects itself.
 [[nodiscard]] CheckedMesh check_mesh(Mesh mesh, const std::string& name,
                                      const std::vector<std::int32_t>& lines = {});
 // load_faces() and check_mesh().
@@ -33,14 +34,15 @@ inline constexpr std::size_t kMostTouchTested = 300'000;
 // ---------------------------------------------------------------------------------------------------------
 struct Touching {
   std::vector<std::size_t> crossing;  // faces that pass through another one, or lie folded on a neighbour
-  std::vector<std::size_t> touching;  // that touch one beside a common corner or edge; each once, in order
-  std::size_t touched = 0;            // the face that the first of these touches
-  double depth = 0.0;                 // m: the shift that parts two crossing faces; the largest of all pairs
-  bool finished = true;               // false: given up after 100 million pairs
+  std::vector<std::size_t>
+      touching;             // faces that touch one other than at a common corner or edge; each once, in order
+  std::size_t touched = 0;  // face touched by the first of these
+  double depth = 0.0;       // m: shift that separates two crossing faces; the largest of all pairs
+  bool finished = true;     // false: stopped after 100 million pairs
 };
-// Faces that meet where they should not. They touch where they are no farther apart than 1e-12 of the mesh's
-// size: nearer than that the search cannot tell whose side a point is on. Boxes in a tree: about n log n for
-// a mesh of even triangles.
+// Faces that meet where they should not. Two faces touch if they are no farther apart than 1e-12 of the
+// mesh's size: below that, the search cannot decide on which side a point is. Boxes in a tree: about n log n
+// for a mesh of even triangles.
 [[nodiscard]] Touching touching_faces(const Mesh& mesh);
 // "face 12", "faces 12, 15 and 3 more"; "faces of lines 12 and 15"
 [[nodiscard]] std::string face_list(const std::vector<std::size_t>& faces, bool lines = false);

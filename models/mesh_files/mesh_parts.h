@@ -1,4 +1,4 @@
-// Which of the separate parts of a mesh lie in others. Internal to check_mesh().
+// Finds the separate parts of a mesh that lie in others. Internal to check_mesh().
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace enc::models {
 
-// In how many other parts each part lies. `part`: of each face, from 0; every part has one. Empty where to
-// say it would take minutes: too many parts lie in the boxes around others.
+// Number of other parts around each part. `part`: of each face, from 0; every part has a face. Empty if the
+// answer would take minutes, because too many parts lie in the boxes around others.
 [[nodiscard]] std::vector<int> depths_of(const Mesh& mesh, const std::vector<std::int32_t>& part,
                                          std::size_t parts);
 

@@ -1,4 +1,4 @@
-// Places that a mesh's nearest points are asked for: a table with the columns x_m,y_m,z_m and no others.
+// Query points for a mesh's nearest points: a table with exactly the columns x_m,y_m,z_m.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace enc::models {
 
-// path: for messages "path:line:column: ...". Throws Error: another header, no number, a place beyond 1e6 m.
+// path: for messages "path:line:column: ...". Throws Error: another header, not a number, a point beyond 1e6
+// m.
 [[nodiscard]] std::vector<Vec3> parse_places(const std::string& text, const std::string& path);
 
 }  // namespace enc::models

@@ -1,5 +1,4 @@
-// Writes a mesh as .glb, .obj or (binary) .stl, in metres. The same mesh gives the same bytes on every
-// machine.
+// Writes a mesh as .glb, .obj or (binary) .stl, in metres. Equal meshes give equal bytes on every machine.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace enc::models {
 
-// By the ending of the path. .glb and .stl keep float, .obj keeps double. Throws Error.
+// The path's ending selects the format. .glb and .stl keep float, .obj keeps double. Throws Error.
 void write_mesh(const Mesh& mesh, const std::string& path, Existing existing = Existing::keep);
 // `ending`: ".glb", ".obj" or ".stl"
 [[nodiscard]] std::string mesh_bytes(const Mesh& mesh, const std::string& ending);

@@ -1,4 +1,4 @@
-// Text that others wrote, as it may be shown.
+// Makes foreign text safe to show.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace enc::models {
 
-// For a terminal, on one line: what would move its cursor, change its colours or turn its letters round, and
-// what is no UTF-8, stands as "\n", "\x1b" or "\u202e". Printable text is as it was.
+// Text for a terminal, on one line. Characters that would move its cursor, change its colours or reverse its
+// letters, and invalid UTF-8, become "\n", "\x1b" or "\u202e". Printable text stays unchanged.
 std::string printable(std::string_view text);
 
 }  // namespace enc::models

@@ -1,6 +1,6 @@
-// The one description of every parameter: key with its unit, range, meaning, source and how sure we are.
-// Reading, writing, --set, the list of `encounter params` and "did you mean" are visitors that walk it.
-// Structs are in SI, keys carry the file's unit.
+// The one description of every parameter: key with its unit, range, meaning, source and confidence. Reading,
+// writing, --set, the list of `encounter params` and "did you mean" are visitors that walk it. Structs are in
+// SI, keys carry the file's unit.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@
 
 namespace enc::models {
 
-// `chosen`: by who writes the file.
+// `chosen`: by the author of the file.
 enum class Confidence : std::uint8_t { published, derived, assumed, chosen };
 constexpr auto words(Confidence) { return enum_words("published", "derived", "assumed", "chosen"); }
 enum class Presence : std::uint8_t { defaulted, needed, optional };  // optional: may also be unset
 
-// In the file's unit; holds for every number of an array.
+// Given in the file's unit; applies to every number of an array.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -43,16 +43,16 @@ struct Key {
   Confidence confidence = Confidence::assumed;
   Range range = kAny;
   Presence presence = Presence::defaulted;
-  Words words{};       // of a text: what is allowed; empty: anything
-  bool fixed = false;  // not for --set: names, formats and what is computed
+  Words words{};       // text only: allowed values; empty: any
+  bool fixed = false;  // not for --set: names, formats and computed values
 };
 
-// A word out of the list of an enum (core/base/words.h), as its index.
+// A word from the list of an enum (core/base/words.h), as its index.
 struct Choice {
   Words words;
   std::uint8_t* index;
 };
-// A span: exactly so many numbers.
+// A span: exactly that many numbers.
 using Target = std::variant<double*, std::int64_t*, std::string*, Choice, Vec3*, std::vector<double>*,
                             std::vector<Vec3>*, std::span<double>>;
 
@@ -60,19 +60,19 @@ class Visitor {
  public:
   virtual ~Visitor() = default;
   virtual void value(const Key& key, const Target& target) = 0;
-  // A table; `present` is what the struct says, the answer is whether it is there. If so, it is walked and
-  // closed.
-  virtual bool open(std::string_view table, bool present) = 0;
-  // A list of named tables, of which the struct has `size`; the answer is how many it shall have. Each is
+  // Opens a table. `present`: whether the struct has it; returns whether the visitor has it. If so, it is
   // walked and closed.
+  virtual bool open(std::string_view table, bool present) = 0;
+  // Opens a list of named tables, of which the struct has `size`; returns the new number. Each is walked and
+  // closed.
   virtual std::size_t open_list(std::string_view list, std::size_t size) = 0;
   virtual void open_entry(std::string_view list, std::size_t index, std::string_view name) = 0;
   virtual void close() = 0;
-  // Tables of drivers, whose keys they declare themselves.
+  // Tables of drivers, which declare their own keys.
   virtual void drivers(std::string_view name, std::vector<DriverTable>& tables) = 0;
 };
 
-void describe(Visitor&, SceneSpec&);  // without its behaviours, which have a file of their own
+void describe(Visitor&, SceneSpec&);  // without its behaviours, which have their own file
 void describe(Visitor&, BehaviourSpec&, bool with_curves);
 void describe_behaviours(Visitor&, std::vector<BehaviourSpec>&, bool with_curves);
 void describe(Visitor&, ResponseSpec&);
@@ -84,7 +84,7 @@ void describe(Visitor&, PropSpec&);
 void describe(Visitor&, UserSpec&);
 void describe(Visitor&, InteractionSpec&);
 void describe(Visitor&, StereoRig&);
-// The part of it that a calibration knows, which that writes as a rig has it.
+// The part that a calibration knows; a calibration writes it in the form of a rig.
 struct HeadKeys {
   std::string_view source;
   Presence presence = Presence::defaulted;
@@ -95,7 +95,7 @@ void describe(Visitor&, VisionRig&);
 void describe(Visitor&, sim::ArmTruth&);
 void describe(Visitor&, std::string_view table, PoseSpec&);
 void describe(Visitor&, sim::TwinSpec&);
-// Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
+// All parameters, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
 void describe_all(Visitor&, SceneSpec&, RigSpec&, sim::TwinSpec&);
 
 }  // namespace enc::models

@@ -1,4 +1,4 @@
-// How schema_*.cpp walk tables, parts, lists and choices.
+// Helpers of schema_*.cpp for tables, parts, lists and choices.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace enc::models {
 
-inline constexpr std::string_view kAuthor = "scene";  // source of a value: whoever writes the scene
+inline constexpr std::string_view kAuthor = "scene";  // source of a value: the author of the scene
 
 template <class Walk>
 void table(Visitor& visitor, std::string_view name, Walk walk) {
@@ -18,7 +18,7 @@ void table(Visitor& visitor, std::string_view name, Walk walk) {
   visitor.close();
 }
 
-// A table that is there only if it is named. Says whether it is.
+// A table that exists only if it is named. Returns whether it exists.
 template <class Walk>
 bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
   if (!visitor.open(name, there)) return false;
@@ -27,7 +27,7 @@ bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
   return true;
 }
 
-// A part that is there only if the scene names it.
+// A part that exists only if the scene names it.
 template <class T, class Walk>
 void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
   if (!v.open(name, item.has_value())) return item.reset();
@@ -47,7 +47,7 @@ void list(Visitor& visitor, std::string_view name, std::vector<T>& items, Walk w
   }
 }
 
-// One of the words that stand beside the enum.
+// One of the words beside the enum.
 template <class Enum>
 void choice(Visitor& visitor, const Key& key, Enum& value) {
   auto index = static_cast<std::uint8_t>(value);

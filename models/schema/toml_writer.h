@@ -1,4 +1,4 @@
-// Writes what schema.h describes as TOML: shortest numbers, in the file's units, the same in every locale.
+// Writes the structs of schema.h as TOML: shortest numbers, in the file's units, independent of the locale.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace enc::models {
 
-// Everything that is set, in the order of the schema. Reading the text gives the same text again.
+// Everything that is set, in the order of the schema. Reading and writing the text again does not change it.
 std::string write_toml(const std::function<void(Visitor&)>& walk);
 
-// One value, as TOML writes it; empty if it is unset.
+// One value in TOML form; empty if it is unset.
 std::string value_text(const Key& key, const Target& target);
 
 }  // namespace enc::models

@@ -1,4 +1,5 @@
-// Units in keys: "radius_mm" is a length in mm in the file and in m in memory. The suffix says it all.
+// Units in keys: "radius_mm" is a length in mm in the file and in m in memory. The suffix alone defines the
+// unit.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 namespace enc::models {
 
 struct Unit {
-  std::string_view suffix;  // of the key, "_mm"; empty: a plain number
+  std::string_view suffix;  // suffix of the key, "_mm"; empty: a plain number
   std::string_view label;   // "mm"
   int power = 0;            // SI = value * 10^power
   bool degrees = false;     // SI = value * pi / 180
@@ -21,17 +22,17 @@ std::string_view stem_of(std::string_view key);  // "radius_mm" -> "radius"
 // Powers of ten move the decimal point of the shortest text, so 0.0779 mm is exactly the number written
 // 0.0779e-3 in C++.
 double to_si(const Unit& unit, double value, int k = 1);
-// The shortest text that to_si() turns into `si` again. (A number that no text in this unit gives is replaced
-// by its neighbour.)
+// The shortest text that to_si() converts back to `si`. (If no text in this unit gives that number, its
+// neighbour is used.)
 std::string text_of(const Unit& unit, double si, int k = 1);
 
-// By what numbers are multiplied that go from a key or column into one that differs in its unit alone: 1000
-// from "tip_m" to "tip_mm". Units that no key has count, too (cm, g, rad, ...). Empty where the stems or the
-// kinds of unit differ.
+// Factor for numbers that move from a key or column to one that differs only in its unit: 1000 from "tip_m"
+// to "tip_mm". Includes units that no key has (cm, g, rad, ...). Empty if the stems or the kinds of unit
+// differ.
 [[nodiscard]] std::optional<double> factor_between(std::string_view from, std::string_view to);
 
-// To the nearest whole number of 1 / per_unit, as a file shall have it; what is too large for that, or unset,
-// stays.
+// Rounds to the nearest multiple of 1 / per_unit, for a file; values that are too large for that, or unset,
+// stay unchanged.
 [[nodiscard]] double round_to(double value, double per_unit);
 
 }  // namespace enc::models

@@ -1,5 +1,5 @@
-// Drivers' own tables of a rig file, [driver.NAME]: kept as text until the driver declares its keys, then
-// read strictly, with the place of each mistake.
+// The drivers' own tables of a rig file, [driver.NAME]: kept as text until the driver declares its keys, then
+// read strictly, with the place of each fault.
 #pragma once
 
 #include <set>
@@ -14,19 +14,19 @@ namespace enc::models {
 
 // The drivers that fill a role of the rig; the simulator has no table.
 [[nodiscard]] std::set<std::string> drivers_of(const RigSpec& rig);
-// Tables that belong to no role: refused where somebody wrote them, or left out where --set has put another
-// driver in the role.
+// Tables without a role: the first function refuses those in a file; the second one drops those whose role
+// --set has given to another driver.
 void refuse_driverless(const Setup& setup);
 void settle_drivers(Setup& setup);
 
-// Reads the table into what the driver declares (null: it has no keys). The set-up then holds every value,
-// defaults included.
+// Reads the table into the keys that the driver declares (null: it has no keys). The set-up then holds every
+// value, including defaults.
 void read_driver_table(Setup& setup, const std::string& driver, void (*declare)(Settings&));
 
-// What a driver's table says of a key, a text without its quotes; empty where it says nothing.
+// A driver's value for a key, a text without its quotes; empty if the table lacks it.
 [[nodiscard]] std::string driver_text(const RigSpec& rig, std::string_view driver, std::string_view key);
 
-// Gives one table's values to who asks for them.
+// Passes one table's values to its driver.
 class DriverTableReader final : public Settings {
  public:
   DriverTableReader(const Setup& setup, const std::string& driver);
@@ -34,7 +34,7 @@ class DriverTableReader final : public Settings {
   void value(const Setting& key, std::int64_t& whole) override { read(key, &whole); }
   void value(const Setting& key, std::string& text) override { read(key, &text); }
   void value(const Setting& key, std::vector<double>& numbers) override { read(key, &numbers); }
-  // Refuses keys that nobody asked for, and says which needed ones are missing.
+  // Refuses keys that were not read, and names the missing required ones.
   void finish() const;
   [[nodiscard]] const std::vector<DriverValue>& all() const { return all_; }  // in order of their keys
 

@@ -1,14 +1,14 @@
-// What `encounter calibrate rig RIG --out FILE` writes and a rig's [calibration] reads.
+// The calibration file that `encounter calibrate rig RIG --out FILE` writes and a rig's [calibration] reads.
 //
 //   format = 1
 //   title = "Fakes of the laboratory"          # of the rig
 //   date = "2026-11-28"
 //
-//   [of]                                       # which rig it is of: of another one it is refused
-//   manipulator = "gcs 192.168.0.10 50000"     # driver, address and port where it has them
+//   [of]                                       # identity of the rig; any other rig refuses it
+//   manipulator = "gcs 192.168.0.10 50000"     # driver, and address and port if it has them
 //   force = "netft 192.168.0.11"
 //   tracker = "igtl 192.168.0.12"
-//   [of.geometry]                              # of the machine, as [manipulator.geometry]
+//   [of.geometry]                              # the machine's, as [manipulator.geometry]
 //
 //   [frames.W_C]                               # tracker camera in the world
 //   position_mm = [0.1, -899.8, 600.2]
@@ -18,7 +18,7 @@
 //   [force]
 //   mass_kg = 0.912                            # behind the sensor, without the tool
 //
-// Each table of what is measured is there only if it was; a rig takes a file that has all that it has itself.
+// A table exists only if its values were measured; a rig accepts a file with all tables that the rig has.
 #pragma once
 
 #include <chrono>
@@ -30,7 +30,7 @@
 
 namespace enc::models {
 
-// What makes a rig this rig. Where a role is simulated or missing, its driver says so.
+// The identity of a rig. The driver field also marks a simulated or missing role.
 struct RigIdentity {
   std::string manipulator, force, tracker;
   HexapodGeometry geometry;
@@ -45,19 +45,19 @@ struct RigCalibration {
   std::optional<double> mass;  // kg
 };
 
-// Rounded to what no calibration knows: 0.1 um, 1e-5 deg, 0.1 g.
+// Rounded to less than any calibration's accuracy: 0.1 um, 1e-5 deg, 0.1 g.
 [[nodiscard]] std::string rig_calibration_text(const RigCalibration& calibration);
-// Every mistake is an Error of one line that begins with file:line:column.
+// Every fault is an Error of one line that begins with file:line:column.
 [[nodiscard]] RigCalibration parse_rig_calibration(const std::string& text, const std::string& name);
 
-// "2026-11-28" as a day; nothing where it is none.
+// "2026-11-28" as a day; empty if it is not a day.
 [[nodiscard]] std::optional<std::chrono::sys_days> day_of(std::string_view text);
 
-// What is wrong with the day on which a rig was measured, UTC; empty: nothing. It may be tomorrow's where the
-// rig was measured east of here.
+// The problem with the day on which a rig was measured, UTC; empty: no problem. The day may be tomorrow's if
+// the rig was measured farther east.
 [[nodiscard]] std::string doubt_of(const CalibrationRig& calibration, std::chrono::sys_days today);
 
-// Whether such a file says what --set calls so: "rig.force.mass_kg".
+// True if such a file contains the --set name: "rig.force.mass_kg".
 [[nodiscard]] bool of_rig_calibration(std::string_view name);
 
 }  // namespace enc::models

@@ -1,4 +1,4 @@
-// What the checks of a scene share (scene_check.cpp, session_check.cpp).
+// Shared parts of the checks of a scene (scene_check.cpp, session_check.cpp).
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace enc::models {
 
-// Throws Error: the place of the key in its file, and what is wrong, was expected and can be done.
+// Throws Error: the place of the key in its file, then the problem, the expected value and the remedy.
 [[noreturn]] void fail(const Setup& setup, const std::string& key, const std::string& what);
-[[nodiscard]] std::string mm(double metres);  // as a file has it
+[[nodiscard]] std::string mm(double metres);  // in the form of a file
 
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<T>& items) {
@@ -20,8 +20,8 @@ template <class T>
   return names;
 }
 
-inline constexpr double kNoWay = 1e-6;  // what is shorter has no direction
-// A direction has length 1; `key` ends with its name in the file.
+inline constexpr double kNoWay = 1e-6;  // a shorter vector has no direction
+// A direction must have length 1; `key` ends with its name in the file.
 void check_unit(const Setup& setup, const std::string& key, const Vec3& v);
 
 void check_session(const Setup& setup);  // [user.session]

@@ -4,15 +4,15 @@
 //   title = "13 pairs of 640 x 480 px, board 9 x 6, squares of 25 mm"
 //   width_px = 640
 //   height_px = 480
-//   reprojection_px = 0.19                     # rms that is left over
-//   epipolar_px = 0.14                         # rms, of pairs that were left out
+//   reprojection_px = 0.19                     # residual, rms
+//   epipolar_px = 0.14                         # rms, over pairs left out of the fit
 //
 //   [left]                                     # a pinhole: OpenCV's numbers
 //   focal_px = [721.3, 721.1]                  # along rows, along columns
 //   centre_px = [318.2, 241.7]                 # the centre of the first pixel is 0, 0
 //   distortion = [-0.21, 0.06, 0.001, 0, 0]    # k1, k2, p1, p2, k3
 //
-//   [right]                                    # the same, and its pose D in the left camera C
+//   [right]                                    # as [left], and its pose D in the left camera C
 //   position_mm = [90.1, 0.2, -0.1]
 //   rotation_deg = [0.1, -0.4, 0.0]            # about the fixed x, then y, then z axis
 #pragma once
@@ -30,18 +30,19 @@ struct StereoFile {
   double reprojection = kUnset, epipolar = kUnset;  // px rms
 };
 
-// Rounded to what no calibration knows: 1e-4 px, 1e-6 of distortion, 0.1 um, 1e-5 deg. Reading it again gives
-// the same text when written again.
+// Rounded to less than any calibration's accuracy: 1e-4 px, 1e-6 of distortion, 0.1 um, 1e-5 deg. A text that
+// was read and written again is unchanged.
 [[nodiscard]] std::string stereo_text(const StereoFile& file);
 
-// Strictly, and check_stereo(). Every mistake is an Error of one line that begins with file:line:column.
+// Reads strictly, and calls check_stereo(). Every fault is an Error of one line that begins with
+// file:line:column.
 [[nodiscard]] StereoFile parse_stereo(const std::string& text, const std::string& name);
 [[nodiscard]] StereoRig load_stereo(const std::string& path);
-// Whether such a file says what a scene and rig call so: "rig.camera.left.focal_px".
+// True if such a file contains the scene's or rig's name: "rig.camera.left.focal_px".
 [[nodiscard]] bool of_calibration(std::string_view name);
 
-// Numbers that no stereo head has: a centre outside of the image, distortion that folds the image over, a
-// second camera that does not stand to the right of the first. Throws Error with the key of the file.
+// Refuses impossible numbers: a centre outside of the image, distortion that folds the image over, a second
+// camera that is not to the right of the first. Throws Error with the key of the file.
 void check_stereo(const StereoRig& rig);
 
 }  // namespace enc::models

@@ -10,15 +10,15 @@
 
 namespace enc::models {
 
-inline constexpr double kBallRadius = 0.033;  // m, of a tennis ball [VHMR 4.1]
+inline constexpr double kBallRadius = 0.033;  // m, tennis ball [VHMR 4.1]
 
 // Geodesic ball: each face of an icosahedron cut into n^2 triangles, 20 n^2 in all. n = 71 has 100,820
 // triangles, n = 224 has 1,003,520.
 [[nodiscard]] Mesh geodesic_ball(int n, double radius = kBallRadius);
-// Box around the origin with edges along x, y and z; each edge is cut into so many parts, each square of a
+// Box around the origin with edges along x, y and z. Each edge is cut into `squares` parts, each square of a
 // face into two triangles.
 [[nodiscard]] Mesh box(const std::array<int, 3>& squares, const Vec3& size);
-// The surface of an object of `shape = "box"`: fine enough to show a dent.
+// The surface of an object with `shape = "box"`: fine enough to show a deformation.
 [[nodiscard]] std::shared_ptr<const Mesh> box_surface(const Vec3& size);
 // Cube of side `side` around the origin, each face n x n squares of two triangles.
 [[nodiscard]] Mesh cube(int n, double side = 0.05);

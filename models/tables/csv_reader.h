@@ -1,4 +1,4 @@
-// Comma-separated tables with a header: columns are found by name, and what is wrong is said with its place.
+// Comma-separated tables with a header: columns are found by name, and each fault is reported with its place.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@ class CsvReader {
   // name: of the file, for messages "name:line:column: ...". The text must outlive the reader.
   CsvReader(std::string_view text, std::string name);
 
-  // Reads up to and including the header: comments (#) and empty lines may stand before it. Columns are then
+  // Reads up to and including the header; comments (#) and empty lines may come before it. Columns are then
   // known by their index in `needed` followed by `optional`; others are ignored. Throws Error.
   void header(const std::vector<std::string_view>& needed,
               const std::vector<std::string_view>& optional = {});
   [[nodiscard]] const std::string& remark() const { return remark_; }  // the comments before the header
 
-  // The next row that is not empty; false at the end. Throws Error where it has not as many cells as the
-  // header.
+  // The next row that is not empty; false at the end. Throws Error if its number of cells differs from the
+  // header's.
   bool next();
-  [[nodiscard]] std::size_t line() const { return line_; }  // of the row, from 1
+  [[nodiscard]] std::size_t line() const { return line_; }  // line of the row, from 1
   [[nodiscard]] bool has(std::size_t column) const { return at_[column] < columns_; }
-  [[nodiscard]] std::string_view text(std::size_t column) const;  // "" where the column is not there
+  [[nodiscard]] std::string_view text(std::size_t column) const;  // "" if the column is missing
   // Throws Error unless it is a finite number.
   [[nodiscard]] double number(std::size_t column) const;
 
@@ -49,7 +49,7 @@ class CsvReader {
   std::size_t line_ = 0, columns_ = 0;
 };
 
-// The line that header() would read; empty where there is none.
+// The line that header() would read; empty if there is no such line.
 [[nodiscard]] std::string_view csv_header(std::string_view text);
 
 // The whole file. Throws Error "path:1:1: cannot read this <kind>; expected <wanted>; check the name".
