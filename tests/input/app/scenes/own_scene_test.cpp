@@ -27,18 +27,18 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The scene that README shows, as a reader copies it.
-std::string scene_of_readme() {
-  const std::string readme = text_of(source_dir() + "/README.md");
+// The scene that the guide shows, as a reader copies it.
+std::string scene_of_guide() {
+  const std::string page = text_of(source_dir() + "/docs/guide/scene.md");
   const std::string begin = "```toml\n";
-  const std::size_t from = readme.find(begin) + begin.size();
-  return readme.substr(from, readme.find("```", from) - from);
+  const std::size_t from = page.find(begin) + begin.size();
+  return page.substr(from, page.find("```", from) - from);
 }
 
 using OwnScene = Program;
 
-TEST_F(OwnScene, TheOneThatReadmeShowsTouchesSomething) {
-  const std::string scene = scene_of_readme();
+TEST_F(OwnScene, TheOneThatTheGuideShowsTouchesSomething) {
+  const std::string scene = scene_of_guide();
   ASSERT_THAT(scene, HasSubstr("[[object]]"));
   write("first.toml", scene);
   const Result run = run_program({"run", path("first.toml"), "--json"});
