@@ -1,5 +1,5 @@
-// What this process has mapped and started, as the kernel tells it: so that "left out" can be checked, not
-// only said. And whether what it has printed went anywhere.
+// Resources of this process by the kernel's account, so that "left out" can be checked; and checks that its
+// output was written.
 #pragma once
 
 #include <string>
@@ -7,22 +7,23 @@
 
 namespace enc::app {
 
-// Of standard input, output and error those that are closed get something that cannot be written: otherwise
-// the next file that is opened takes their place, and what is printed goes into it.
+// Opens closed standard streams on something unwritable. Otherwise the next opened file would take their
+// place, and output would go into it.
 void fill_streams();
-// Throws Error unless all that was printed has got where it should.
+// Throws Error unless all output has been written.
 void check_output();
 [[noreturn]] void fail_output();
 
-// Standard input is a terminal, and who types there types for this process.
+// True if standard input is a terminal, and its user types for this process.
 [[nodiscard]] bool reads_terminal();
-// On a line of standard error, which is a terminal; what it does not take at once is not shown.
+// Shows progress on a line of standard error, if that is a terminal; text that it does not take at once is
+// dropped.
 void show_progress(double share);
 void clear_progress();
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();
-[[nodiscard]] double cpu_seconds();  // of this process since it was started, loading included
+[[nodiscard]] double cpu_seconds();  // since the start of the process, loading included
 [[nodiscard]] std::vector<std::string>
-mapped_libraries();  // file names of shared objects, in order, each once
+mapped_libraries();  // File names of shared objects, in order, each once.
 
 }  // namespace enc::app

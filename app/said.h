@@ -1,4 +1,4 @@
-// What is said of things by name: those of which the same is said share a line.
+// Statements about named things: names with equal statements share a line.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace enc::app {
 
-using Said = std::vector<std::pair<std::string, std::string>>;  // name, and what is said of it
+using Said = std::vector<std::pair<std::string, std::string>>;  // name, and the statement about it
 
 struct SaidOf {
   std::string what;
   std::vector<std::string> names;
 };
-// In the order of the first of each.
+// Ordered by the first name of each group.
 [[nodiscard]] inline std::vector<SaidOf> grouped(const Said& said) {
   std::vector<SaidOf> groups;
   for (const auto& [name, what] : said) {

@@ -1,4 +1,4 @@
-// What certificates say, in words: for `check`, for a run and for its record.
+// The certificates as text, for `check`, for a run and for its record.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace enc::app {
 
-// A line for each object, alike ones together, and the bounds of the one that is nearest to its own. Empty:
-// nothing is rendered.
+// One line for each object, equal ones together, and the bounds of the object nearest to its bound. Empty: no
+// rendering.
 [[nodiscard]] std::string stability_text(const models::Setup& setup,
                                          const std::vector<trial::Certified>& certificates);
-// Whose rows are shown: of those beyond their bound, else of those of which it is not known, else of all the
-// one with the least margin; of equal ones an object comes before the tip that nobody touches, and the first
-// in the scene's order. There is one.
+// The certificate whose rows are shown: the smallest margin among those beyond their bound, else among the
+// unknown ones, else among all. If margins are equal, an object comes before the free tip, and the first in
+// the scene's order wins. `certificates` must not be empty.
 [[nodiscard]] const trial::Certified& nearest_its_bound(const std::vector<trial::Certified>& certificates);
-// "stable     ...", a line for each class that there is.
+// "stable     ...", one line for each existing class.
 [[nodiscard]] std::string stability_lines(const std::vector<trial::Certified>& certificates);
 
 }  // namespace enc::app

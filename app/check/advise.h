@@ -1,5 +1,5 @@
-// `check --advise`: which time step and integrator of the twin are enough for an error that the user states:
-// of the force, of the tip's path, or of both.
+// `check --advise`: the time step and integrator of the twin that suffice for the user's error of the force,
+// of the tip's path, or of both.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace enc::app {
 
 [[nodiscard]] std::string advice_text(const trial::Precision& all, const trial::Accuracy& asked);
-// Throws Error for an error that nothing holds and that two converged runs do not hold either.
+// Throws Error for an error that no setting meets and that two converged runs do not meet either.
 void refuse_below_floor(const trial::Precision& all, const trial::Accuracy& asked);
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// What a scene is made of at run time, and what that costs: asked of a short run, not of a list.
+// The parts of a scene at run time and their costs, measured in a short run.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace enc::app {
 
-// Some lines. Runs the first quarter of a second of a scene that is all simulated; of another nothing: a
-// device is not to be moved, nor to be waited for; nor where a camera's modules are not built. `ready` is the
-// CPU time of the process so far, s.
+// Some lines of text. Runs the first quarter of a second of a fully simulated scene. Empty for any other
+// scene, because no device may be moved or waited for, and if a camera's modules are not built. `ready` is
+// the CPU time of the process so far, s.
 [[nodiscard]] std::string costs_text(const models::Setup& setup, std::uint64_t seed, double ready);
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// What the command line said to `calibrate`, one struct for each subject.
+// The options of `calibrate`, one struct for each subject.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace enc::app {
 
 struct TrackerOptions {
   std::string log;
-  std::optional<double> rate;  // Hz, of the rows, as expected
+  std::optional<double> rate;  // Hz, expected rate of the rows
   bool json = false;
 };
 struct TipOptions {
@@ -22,25 +22,25 @@ struct CameraOptions {
   std::string what;  // pairs of points, or a rig whose arm is driven
   std::optional<std::uint64_t> seed;
   bool json = false;
-  // Of a rig only.
+  // Rig only.
   std::string out;
   bool force = false;
   std::optional<std::size_t> pairs, frames;
   std::vector<std::string> set;
-  bool through_images = false;  // the tip is found in pictures; else it is seen as a point
+  bool through_images = false;  // the tip is detected in pictures; otherwise it is a point
 };
 struct RigOptions {
   std::string rig;
-  std::string scene;  // whose clamped tool is carried; empty: clamped_tool
+  std::string scene;  // scene with the clamped tool; empty: clamped_tool
   std::optional<std::size_t> poses;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;
   std::string out;
   bool force = false, json = false;
   bool armed = false, lockstep = false, yes = false, not_real_time = false;
-  std::function<void()> catch_signals{};  // from here on stop() reports them
+  std::function<void()> catch_signals{};  // stop() reports signals from here on
   std::function<bool()> stop{};
-  // Asks, unless there is nothing to ask, and reads keys from then on; false: the machine must not move.
+  // Asks the operator if necessary, and reads keys from then on; false: the machine must not move.
   std::function<bool(const std::string& question)> confirm{};
 };
 struct StereoOptions {

@@ -9,7 +9,7 @@
 
 namespace enc::app {
 
-// Checks of CLI11: what is wrong, or nothing.
+// Checks for CLI11: return the problem, or an empty text.
 std::string bad_seed(const std::string& text);
 std::string unnamed(const std::string& text);
 

@@ -1,4 +1,4 @@
-// What the command line said to `fit` and `shadow`: a part of options.h.
+// The options of `fit` and `shadow`: a part of options.h.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ struct FitOptions {
   double limit_mm = 6.0;
   std::optional<double> ceiling;  // N/mm
   bool force = false;
-  // The ball behind the loops instead of a response.
+  // Fits the ball behind the loops instead of a response.
   bool ball = false, json = false;
   std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
 };
 struct ShadowOptions {
   std::string record;
-  std::vector<std::string> set;  // of the twin, "name=value"
+  std::vector<std::string> set;  // the twin's, "name=value"
   bool partial = false, json = false;
 };
 

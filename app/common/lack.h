@@ -1,4 +1,4 @@
-// What of a record is not there, as a person is told it.
+// The missing part of a record, as a text for the user.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace enc::app {
 
-// in: what was made of the rest, "table". Empty where nothing is missing.
+// `in` names the result made from the rest, "table". Empty if the record is complete.
 [[nodiscard]] inline std::string lack_of(const RecordReader& record, const char* in) {
   const std::string ticks = counted(record.ticks(), "tick");
   const char* are = record.ticks() == 1 ? "is" : "are";

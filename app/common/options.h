@@ -1,5 +1,5 @@
-// What the command line said, one struct for each subcommand. main.cpp fills them; nothing else knows the
-// parser.
+// The options of the command line, one struct for each subcommand. main.cpp fills them; no other code uses
+// the parser.
 #pragma once
 
 #include <cstdint>
@@ -22,47 +22,47 @@ struct SceneOptions {
 
 struct RunOptions : SceneOptions {
   std::string pace = "free";
-  std::optional<double> seconds;  // length; none: until the user or the probe is done
+  std::optional<double> seconds;  // length; unset: until the user or the probe is done
   std::string record;
-  std::string frames;  // folder in which what its camera sees is kept
-  std::string hand;    // record whose steered hand moves in place of the scene's own; empty: none
+  std::string frames;  // folder for the frames of its camera
+  std::string hand;    // record whose steered hand replaces the scene's own; empty: none
   bool json = false;
   bool armed = false;
   bool lockstep = false;
   bool yes = false, not_real_time = false;
-  bool force = false;  // replaces a file that is there; so below
+  bool force = false;  // replaces an existing file; also below
 };
 struct CheckOptions : SceneOptions {
-  bool resolved = false;  // the scene file that stands alone, instead of the answer
-  bool advise = false;    // and how fine the twin need step, for
+  bool resolved = false;  // print the self-contained scene file instead of the answer
+  bool advise = false;    // also print the time step for these errors
   std::optional<double> error_N, error_um;
 };
-struct ViewOptions : RunOptions {  // of a window: a run
+struct ViewOptions : RunOptions {  // without a file: a run in a window
   std::string shot;                // file; empty: a window or a film
   std::string video;               // file or folder of a film; empty: a window or a picture
-  std::optional<double> at;        // s; none: in the middle of the first hold; of a film: its beginning
+  std::optional<double> at;        // s; unset: the middle of the first hold; for a film: its beginning
   bool close_up = false;
   std::string through_camera;  // "raw", "removed", "augmented"; empty: the world from beside
 };
 struct TourOptions {
   std::string out = "tour";  // folder
-  double seconds = 20.0;     // of each film
+  double seconds = 20.0;     // each film
   bool force = false;
 };
 struct ReplayOptions {
   std::string record;
-  std::string frames;  // folder of `run --frames`: vision looks at it again, too
+  std::string frames;  // folder of `run --frames`: vision evaluates it again too
   bool partial = false;
 };
 struct ExportOptions {
-  std::string record;            // or a scene, whose simulated world `xml` shall be
+  std::string record;            // a record, or a scene to export as `xml`
   std::string xml;               // file; empty: a record is exported
   std::string csv;               // file; "-" or empty: standard output
   std::string mcap;              // file; empty: a table
-  std::string rig;               // of a scene; empty: its own
-  std::vector<std::string> set;  // likewise, "name=value"
+  std::string rig;               // scene only; empty: its own
+  std::vector<std::string> set;  // scene only, "name=value"
   bool partial = false, force = false;
-  bool ledger = false;  // of a record: its energy ledger, and not its ticks
+  bool ledger = false;  // record only: export its energy balance instead of its ticks
 };
 struct ParamsOptions : SceneOptions {
   bool json = false;
@@ -79,7 +79,7 @@ struct MeshOptions {
   bool force = false;
 };
 
-// main(): the words of the command line to an exit code.
+// main(): converts the words of the command line to an exit code.
 int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);

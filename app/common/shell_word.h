@@ -1,4 +1,4 @@
-// A word of a command as a shell reads it back.
+// A word of a command, as a shell reads it back.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace enc::app {
 
-// The word itself, or in quotes where a shell would take it apart.
+// The word itself, or in quotes if a shell would split or interpret it.
 [[nodiscard]] inline std::string shell_word(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || std::strchr("._-/+,=:@", c) != nullptr;

@@ -1,5 +1,5 @@
-// What the program asks of the module of fits. It is built and loaded when `fit` or `shadow` is called, or
-// `calibrate` of a tracker, a tip, a camera or a rig.
+// The interface to the module of fits. It is built and loaded only for `fit`, `shadow`, or `calibrate` of a
+// tracker, a tip, a camera or a rig.
 #pragma once
 
 #include "app/common/calibrate_options.h"
@@ -8,13 +8,13 @@
 
 namespace enc::app {
 
-// Each is a subcommand: prints what it has to say, gives the exit code, throws Error.
+// Each is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct FitModule {
   int (*fit)(const FitOptions& options) = nullptr;
   int (*shadow)(const ShadowOptions& options) = nullptr;
   int (*tracker)(const TrackerOptions& options) = nullptr;
   int (*tip)(const TipOptions& options) = nullptr;
-  // modules: where vision and the twin's camera come from, which only pictures need.
+  // modules: source of vision and the twin's camera, which only pictures need.
   int (*camera)(const CameraOptions& options, const trial::DriverSource& modules) = nullptr;
   int (*rig)(const RigOptions& options, const trial::DriverSource& modules) = nullptr;
 };

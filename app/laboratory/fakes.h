@@ -1,5 +1,5 @@
-// The fakes of all drivers that a rig names, over one twin: what is told on one wire is seen on the others.
-// One thread, which whoever owns them lends.
+// The fakes of all drivers of a rig, over one twin: a command on one connection shows on the others. They
+// need one thread, which the owner provides.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +20,27 @@ namespace enc::app {
 struct FakesOptions {
   trial::DriverSource drivers{};
   std::uint64_t seed = 1;
-  bool lockstep = false;  // time goes on by a period with each set-point; else with the wall clock
+  bool lockstep = false;  // time advances by a period with each set-point; otherwise with the wall clock
   std::vector<Fault> faults{};
 };
 
 class Fakes {
  public:
-  // Throws Error: a driver without a fake, a port that is taken, a scene that does not fit.
+  // Throws Error: a driver without a fake, a port in use, a scene that does not fit.
   Fakes(models::Setup setup, FakesOptions options);
   Fakes(const Fakes&) = delete;
   Fakes& operator=(const Fakes&) = delete;
 
   [[nodiscard]] std::vector<std::string> describe() const;
-  // A turn: waits until somebody asks or a period is over, at most 50 ms, answers, and lets time go on.
+  // One turn: waits for a request or the end of a period, at most 50 ms, answers, and advances time.
   void turn();
-  // From now on: `fault.at` counts from here. Throws Error (kind input), as for those of the options: there
-  // is no such fake, its wire knows no such trouble.
+  // Adds a fault from now on: `fault.at` counts from here. Throws Error (kind input), as for those of the
+  // options: no such fake, or its connection does not support the fault.
   void suffer(const Fault& fault, const std::string& where);
-  void heal();  // all of them
+  void heal();  // ends all faults
   [[nodiscard]] std::vector<std::string> log() const { return log_.lines(); }
   [[nodiscard]] sim::World& world() { return *world_; }
-  [[nodiscard]] std::int64_t begun() const { return begun_; }  // how often somebody came
+  [[nodiscard]] std::int64_t begun() const { return begun_; }  // number of clients that came
 
  private:
   struct Planned {
@@ -48,10 +48,10 @@ class Fakes {
     Fake* fake;
     Time from, to;
     bool begun = false, over = false;
-    bool by_hand = false;  // of the world as it is, and not of each run
+    bool by_hand = false;  // belongs to the present world, not to each run
   };
   [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
-  void trouble();  // what begins and ends now
+  void trouble();  // starts and ends the due faults
   void end(Planned& plan);
   void say(const Planned& plan, const char* what);
   void advance();
@@ -66,11 +66,11 @@ class Fakes {
   trial::DeviceLog log_;
   Rig rig_;
   std::vector<std::unique_ptr<Fake>> fakes_;
-  std::vector<std::string> names_;  // of their drivers
+  std::vector<std::string> names_;  // names of their drivers
   std::vector<Planned> plans_;
   Tick now_;
   std::int64_t begun_ = 0;
-  Duration due_{};  // of the wall clock, when the next period is over
+  Duration due_{};  // wall clock at the end of the next period
 };
 
 }  // namespace enc::app

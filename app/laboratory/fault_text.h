@@ -1,4 +1,4 @@
-// What a fake is to suffer, as people write it: "netft:loss=5%@2s+500ms".
+// The text form of a fault of a fake: "netft:loss=5%@2s+500ms".
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace enc::app {
 
 struct Fault {
-  std::string driver;  // whose fake
+  std::string driver;  // driver whose fake has the fault
   Trouble trouble;
   double at = 0.0;        // s of the fakes' time
   double lasts = kUnset;  // s; unset: to the end

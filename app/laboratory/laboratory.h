@@ -1,4 +1,4 @@
-// The devices of a rig: in place of those that are not there, or asked whether they are.
+// The devices of a rig: fakes that replace missing ones, or a check whether they answer.
 #pragma once
 
 #include "app/common/options.h"
@@ -6,9 +6,9 @@
 namespace enc::app {
 
 struct LaboratoryOptions : SceneOptions {
-  bool lockstep = false;            // of fake
-  double seconds = 1.0;             // of devices
-  std::vector<std::string> faults;  // of fake
+  bool lockstep = false;            // `fake` only
+  double seconds = 1.0;             // `devices` only
+  std::vector<std::string> faults;  // `fake` only
 };
 int fake(const LaboratoryOptions& options);
 int devices(const LaboratoryOptions& options);

@@ -1,4 +1,4 @@
-// Reads the devices of a rig without commanding them: how often samples come, how regularly and how late, and
+// Reads the devices of a rig without commanding them: rate, regularity and delay of their samples, and
 // whether a run could use them.
 #pragma once
 
@@ -13,19 +13,20 @@
 namespace enc::app {
 
 struct Probed {
-  std::string role, words;  // as trial::DeviceWords has them
+  std::string role, words;  // as in trial::DeviceWords
   bool there = true;
-  std::int64_t samples = 0;       // news in that time
-  double rate = kUnset;           // Hz
-  Percentiles interval{}, age{};  // s: between the times that samples were true; of a sample when it came
-  std::string last{};             // the last sample, in words
+  std::int64_t samples = 0;            // number of new samples in that time
+  double rate = kUnset;                // Hz
+  Percentiles interval{}, age{};       // s: between samples, by their stamps; age of a sample at its arrival
+  std::string last{};                  // the last sample, in words
   std::vector<std::string> remarks{};  // as in the report of a run
-  std::string unusable{};              // why a run could not use it; empty: it could
+  // Reason why a run could not use it; empty: it could.
+  std::string unusable{};
 };
 
-// Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.
-// Nothing is told: nothing moves. Where a machine does not answer, nothing is asked of the others: a run may
-// have them all, and would lose them. `stop` is asked before each reading.
+// Makes every real device, reads each for this time at the loop's rate, and releases it. Sends no command:
+// nothing moves. If a machine does not answer, the other devices are not queried, because a run may hold them
+// all and would lose them. `stop` is called before each reading.
 [[nodiscard]] std::vector<Probed> probe_devices(const models::Setup& setup,
                                                 const trial::DriverSource& drivers, double seconds,
                                                 const std::function<bool()>& stop);

@@ -1,5 +1,5 @@
-// Whether the file of a module is all there. The loader maps what its header promises, and reading beyond the
-// end of a file that was cut off ends the program (SIGBUS).
+// Checks that the file of a module is complete. The loader maps the sizes in its header, and reading beyond
+// the end of a truncated file ends the program (SIGBUS).
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace enc::app {
 
-// head: from the file's start, as far as the table of its segments. Why not all is there; empty: it is, or it
-// is no 64-bit library, which the loader says itself.
+// head: from the file's start to the end of its segment table. Returns the reason why the file is incomplete;
+// empty: complete, or not a 64-bit library, which the loader reports itself.
 [[nodiscard]] std::string cut_off(std::string_view head, std::uint64_t size);
 [[nodiscard]] std::string cut_off(const std::string& path);
 

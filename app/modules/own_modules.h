@@ -1,5 +1,5 @@
-// The program's own modules that its subcommands call. A module that was not built is refused with the
-// command that builds it.
+// The program's own modules for its subcommands. A module that was not built is refused with the command that
+// builds it.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace enc::app {
 
 const FitModule& fit_module();
 const CalibrationModule& calibration_module();
-// A module by its name. Vision and the twin's camera are built when pictures are asked for; all else is a
-// driver.
+// A module by its name. Vision and the twin's camera are built on the first request for pictures; all other
+// names are drivers.
 const ModuleInfo& module_for_pictures(const std::string& name);
 
 }  // namespace enc::app

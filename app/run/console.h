@@ -1,6 +1,6 @@
-// Shows an armed run on standard error while it happens: on a terminal a status line that renews itself and a
-// line for each event, elsewhere a line with a time stamp for each event. It writes from a thread of its own,
-// so that a terminal or a disk that does not take its words keeps no tick waiting.
+// Shows an armed run on standard error while it happens. A terminal gets a status line that renews itself and
+// one line for each event; any other stream gets one line with a time stamp for each event. It writes from a
+// separate thread, so that a blocked terminal or disk delays no tick.
 #pragma once
 
 #include <atomic>
@@ -17,14 +17,14 @@ namespace enc::app {
 
 class Console {
  public:
-  // `watch` stays until this is gone. `objects`: their names, by index. `reads_keys`: whether the run reads
-  // keys at present; asked from another thread.
+  // `watch` must outlive this. `objects`: their names, by index. `reads_keys`: whether the run reads keys at
+  // present; called from another thread.
   Console(trial::RunWatch& watch, std::vector<std::string> objects, std::function<bool()> reads_keys);
-  ~Console();  // shows what is left, for 0.2 s at most, and clears the status line
+  ~Console();  // shows the rest, for 0.2 s at most, and clears the status line
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  // Waits until all events so far are shown, for 0.1 s at most: before the process is suspended.
+  // Waits until all events so far are shown, for 0.1 s at most; call it before the process is suspended.
   void flush() const noexcept;
 
  private:
@@ -36,12 +36,12 @@ class Console {
   const std::function<bool()> reads_keys_;
   const trial::StandardError error_;
   std::string pending_;          // lines that standard error has not taken yet
-  std::size_t shown_width_ = 0;  // of the status line, in columns
+  std::size_t shown_width_ = 0;  // status line's, in columns
   std::atomic<std::uint64_t> rounds_ = 0;
   std::jthread thread_;
 };
 
-// The words for them, without a line break.
+// Their texts, without a line break.
 [[nodiscard]] std::string event_text(const trial::RunEvent& event, const std::vector<std::string>& objects);
 [[nodiscard]] std::string status_text(const trial::RunStatus& status, bool keys);
 

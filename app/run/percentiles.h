@@ -1,4 +1,4 @@
-// Percentiles of what a run measured many times, as text. One that there are too few values for is left out.
+// Percentiles of a run's frequent measurements, as text. A percentile with too few values is left out.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace enc::app {
 
-// NaN: too few values (has_percentile). `most` is NaN of none.
+// NaN: too few values (has_percentile). `most` is NaN without values.
 struct Percentiles {
   double p50 = kUnset, p99 = kUnset, p99_9 = kUnset, most = kUnset;
 };
@@ -31,7 +31,8 @@ template <class T>
       status.periods_ns.begin(), status.periods_ns.begin() + static_cast<std::ptrdiff_t>(count)));
 }
 
-// "p50 0.66, p99 1.23, p99.9 1.68, max 73.8". `scale`: from the unit of the values. Of no values "none".
+// "p50 0.66, p99 1.23, p99.9 1.68, max 73.8". `scale`: factor from the unit of the values. Without values:
+// "none".
 [[nodiscard]] inline std::string text_of(const Percentiles& of, double scale, int decimals, int of_most) {
   if (std::isnan(of.most)) return "none";
   std::string text;

@@ -1,4 +1,4 @@
-// What `run` prints, as text within 25 lines or as one JSON object.
+// The output of `run`, as text within 25 lines or as one JSON object.
 #pragma once
 
 #include <string>
@@ -21,17 +21,17 @@ struct RunReport {
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;
-  // Steps of the simulated world, and those that its solver did not solve to its tolerance.
+  // Steps of the simulated world, and of those the steps that its solver did not solve to its tolerance.
   std::int64_t steps = 0, unsolved = 0;
-  bool whole = true;        // not cut off by --for-s, a signal, a full disk or physics that diverged
-  int elements = 0;         // of the simulated world
+  bool whole = true;        // not ended early by --for-s, a signal, a full disk or diverged physics
+  int elements = 0;         // elements of the simulated world
   double started = 0.0;     // CPU s from the start of the process to the first tick
-  trial::WallTime begun{};  // when the first tick was due
-  bool steered = false;     // somebody steered the hand, so the scene's plan says nothing of it
+  trial::WallTime begun{};  // due time of the first tick
+  bool steered = false;     // a person steered the hand, so the scene's plan does not describe it
   std::vector<std::string> crossed{};  // verdict.h
 };
 
-// How many times as fast as the clock: two digits below 10, so that a slow run is not "0 x".
+// Speed relative to the clock: two digits below 10, so that a slow run is not "0 x".
 [[nodiscard]] std::string speed_text(double simulated, double wall);
 [[nodiscard]] std::string run_text(const RunReport& report);
 [[nodiscard]] std::string run_json(const RunReport& report);

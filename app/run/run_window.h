@@ -20,12 +20,12 @@ struct RunWindow {
   std::function<void(const trial::Glance&)> watch{};        // after each tick; it must not block
   std::function<void(const Stamped<StereoFrame>&)> look{};  // see TrialOptions::look
   std::function<bool()> stop{};
-  std::function<bool()> waits{};  // true: the next tick is not due; it may sleep briefly
+  std::function<bool()> waits{};  // true: the next tick is not due; the hook may sleep briefly
   std::function<trial::Hand()> hand{};
   std::function<std::optional<trial::HandWord>(std::int64_t)> steer{};  // see TrialOptions::steer
 };
 
-// `encounter run` with hooks; null: without.
+// `encounter run` with hooks; null: without hooks.
 int run(const RunOptions& options, const RunWindow* window);
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// What of a run was beyond a limit, one line each; then the program ends with exit code 1.
+// The limits that a run exceeded, one line each; the program then ends with exit code 1.
 #pragma once
 
 #include <string>

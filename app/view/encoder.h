@@ -16,7 +16,7 @@ namespace enc::app {
 class Encoder {
  public:
   // Frames are `width` x `height` pixels, `rate` a second. `format`: ffmpeg's options for the output, such as
-  // {"-f", "mp4"}. Throws Error where ffmpeg cannot be started.
+  // {"-f", "mp4"}. Throws Error if ffmpeg cannot be started.
   Encoder(const std::string& ffmpeg, int width, int height, int rate, const std::vector<std::string>& format,
           const std::string& file);
   // Kills ffmpeg unless finish() has returned.
@@ -24,7 +24,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  // Both throw Error with ffmpeg's first message where it failed.
+  // Both throw Error with ffmpeg's first message if it failed.
   void add(const Image& frame);
   void finish();  // waits until the film is written
 

@@ -12,14 +12,14 @@ struct FilmReport {
   int frames = 0;
   double from = 0.0, to = 0.0;  // s of the experiment: first and last frame
   double wall = 0.0;            // s
-  int signal = 0;               // that ended it early
-  bool diverged = false;        // the physics, after `to`
+  int signal = 0;               // signal that ended it early
+  bool diverged = false;        // the physics diverged after `to`
 };
 
-// Films the run of options.scene from options.at, or from its beginning, for options.seconds, or to its end,
-// into options.video. Throws Error.
+// Films the run of options.scene into options.video, from options.at (or its beginning) for options.seconds
+// (or to its end). Throws Error.
 [[nodiscard]] FilmReport film(const ViewOptions& options);
-// As `encounter view --video` prints it.
+// The text that `encounter view --video` prints.
 [[nodiscard]] std::string film_text(const std::string& file, const FilmReport& report);
 
 }  // namespace enc::app

@@ -7,12 +7,12 @@ namespace enc::app {
 
 enum class Look { machine, contact };  // the whole machine, or a close-up of the contact
 
-// Writes options.shot; `view` is this with Look::machine. options.at unset: when the first press is held,
-// else at 4 s.
+// Writes options.shot; `view` calls this with Look::machine. options.at unset: during the hold of the first
+// press, else at 4 s.
 int picture(const ViewOptions& options, Look look);
-// With --through-camera: what the left camera of the scene sees.
+// Handles --through-camera: the image of the scene's left camera.
 int through_camera(const ViewOptions& options);
-// Throws Error for what the words must not be.
+// Throws Error for invalid options.
 void check(const ViewOptions& options);
 
 }  // namespace enc::app

@@ -1,5 +1,5 @@
-// The path of a scene's camera images from the run's thread to the window: what vision saw in them, and the
-// user's view without the machine. Nothing is drawn while the window has not taken the last ones.
+// The path of a scene's camera images from the run's thread to the window: vision's results in them, and the
+// user's view without the machine. It draws nothing until the window has taken the last images.
 #pragma once
 
 #include <atomic>
@@ -14,12 +14,12 @@ namespace enc::app {
 
 class CameraFeed {
  public:
-  // The scene has a camera of the twin, and there is a module of vision.
+  // Requires a twin's camera in the scene, and a module of vision.
   explicit CameraFeed(trial::Trial& trial);
   CameraFeed(const CameraFeed&) = delete;
   CameraFeed& operator=(const CameraFeed&) = delete;
 
-  // Run's thread: a frame before the tracker sees it, and after each tick.
+  // Run's thread: look() before the tracker sees a frame, see() after each tick.
   void look(const Stamped<StereoFrame>& frame) { frame_ = frame.value; }
   void see();
 
@@ -32,7 +32,7 @@ class CameraFeed {
     pairs_ = pair;
     augments_ = augmented;
   }
-  // Newer ones; unset: there are none.
+  // Newer pictures; unset: no newer ones.
   [[nodiscard]] std::optional<Pictures> take();
 
  private:
@@ -40,8 +40,8 @@ class CameraFeed {
   std::unique_ptr<SeenPainter> painter_;
   std::unique_ptr<AugmentedView> view_;
   BelievedMoment moment_;
-  std::optional<StereoFrame> frame_;      // that was not drawn yet
-  static constexpr int kBackground = 60;  // frames at the beginning, from which the background is known
+  std::optional<StereoFrame> frame_;      // a frame not drawn yet
+  static constexpr int kBackground = 60;  // first frames, from which the background is learned
   int frames_ = 0;
   std::atomic<bool> pairs_ = false, augments_ = false;
   std::mutex mutex_;

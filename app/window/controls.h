@@ -1,5 +1,5 @@
-// The meaning of mouse and keys in the window: camera, wanted place of the hand, time. Controls knows neither
-// window nor run, so tests can press every key.
+// The meaning of mouse and keys in the window: camera, wanted position of the hand, time. Controls uses
+// neither window nor run, so tests can press every key.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace enc::app {
 
 // Requests to the run. Pausing, stepping and speed apply to simulated runs only.
 struct Wishes {
-  std::optional<Point<'W'>> hand{};  // wanted place of the tool's tip; unset: the scene's own hand moves
+  std::optional<Point<'W'>> hand{};  // wanted position of the tool's tip; unset: the scene's own hand moves
   bool paused = false;
   double speed = 1.0;     // experiment time per wall time
   int ticks = 0;          // single ticks to run while paused
@@ -35,9 +35,9 @@ struct Surroundings {
   bool real = false;                 // a real device keeps the time, or moves
   bool played = false;               // a record; there is no present
   bool past = false;                 // an earlier moment than the present is shown
-  // A place for the tip above the object seen at (x, y); unset: no object there.
+  // A position for the tip above the object shown at (x, y); unset: no object there.
   std::function<std::optional<Point<'W'>>(double x, double y)> above{};
-  // A place for the tip above an object of the scene, index from 0; taken modulo their number.
+  // A position for the tip above an object of the scene, index from 0; taken modulo their number.
   std::function<std::optional<Point<'W'>>(int object)> over{};
 };
 
@@ -56,7 +56,7 @@ class Controls {
   // Small pictures besides the large one; the last two only with a camera in the scene.
   enum class Insets : std::uint8_t { none, contact, sides, pair, augmented };
   [[nodiscard]] Insets insets(bool camera) const;
-  [[nodiscard]] double x() const { return x_; }  // px, of the mouse
+  [[nodiscard]] double x() const { return x_; }  // px, mouse
   [[nodiscard]] double y() const { return y_; }
   [[nodiscard]] bool follows() const { return follows_; }
   // Lasting wishes, and the single requests since the last call.
@@ -89,8 +89,8 @@ class Controls {
   Wishes wishes_;
   bool grabbed_ = false, help_ = false, charts_ = true, follows_ = false;
   bool on_bar_ = false;  // the left button was pressed there
-  int insets_ = 0;       // how often another set was asked for
-  int object_ = -1;      // that the tool was told to go above last
+  int insets_ = 0;       // number of requests for another set
+  int object_ = -1;      // last object that the tool was sent above
   bool left_ = false, right_ = false, middle_ = false, dragged_ = false;
   double x_ = 0.0, y_ = 0.0, pressed_x_ = 0.0, pressed_y_ = 0.0;  // px
 };

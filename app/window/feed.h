@@ -13,7 +13,7 @@
 
 namespace enc::app {
 
-// A still, and what is drawn of the present alone.
+// A still, and the run's status, which is drawn only for the present.
 struct Snapshot {
   Still still;
   trial::RunStatus status;
@@ -31,7 +31,7 @@ class Feed {
   // Run's thread, while the run stands still: the last tick, if the window has an older one.
   void catch_up();
 
-  // Window's thread, as all below. True: newest() is a newer one now.
+  // Window's thread, for all functions below. True: newest() is a newer one now.
   bool take();
   [[nodiscard]] const Snapshot& newest() const { return *front_; }
   bool next(ChartSample& sample) { return samples_.pop(sample); }
@@ -43,10 +43,10 @@ class Feed {
   std::unique_ptr<Snapshot> front_, back_;
   std::mutex mutex_;
   bool full_ = false;      // back_ has not been taken yet
-  bool simulated_ = true;  // of the last glance
+  bool simulated_ = true;  // value of the last glance
   bool behind_ = false;    // run's thread: the last tick was not copied
   std::int64_t ticks_ = 0;
-  trial::RunWatch watch_;  // run's thread, as
+  trial::RunWatch watch_;  // run's thread, as the two below
   Sampler sampler_;
   trial::Queue<ChartSample, 8192> samples_;
 };

@@ -25,7 +25,7 @@ class Link {
   void let_go();  // the run may begin
   void refuse();  // the run ends before its first tick, without a record or a report
   [[nodiscard]] bool ended();
-  void closed();  // nothing of the run is drawn any more
+  void closed();  // the window no longer draws the run
 
   // ---- run's side
   // Blocks until the window is open; false: it could not be opened. `wall`: the run keeps the wall clock.
@@ -38,7 +38,7 @@ class Link {
   }
   [[nodiscard]] bool ends() const { return ends_; }
   [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
-  [[nodiscard]] std::optional<trial::HandWord> hand();  // if there is news
+  [[nodiscard]] std::optional<trial::HandWord> hand();  // set if there is news
   // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
   [[nodiscard]] bool waits(double dt);
 
@@ -49,8 +49,8 @@ class Link {
   std::condition_variable changed_;
   bool begun_ = false, drawing_ = false, ended_ = false, closed_ = false, over_ = false, refused_ = false;
   bool wall_ = false;        // the run keeps the wall clock
-  Point<'W'> told_;          // newest place that the window sent
-  Latest<Point<'W'>> hand_;  // window to run, as all below but event_
+  Point<'W'> told_;          // newest position sent by the window
+  Latest<Point<'W'>> hand_;  // window to run, as all below except event_
   std::atomic<bool> changes_tool_ = false;
   std::atomic<std::uint8_t> faults_ = 0;
   std::uint8_t told_faults_ = 0;  // run's side

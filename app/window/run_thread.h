@@ -1,5 +1,5 @@
-// The thread of all runs of a window. It is made before the window's thread takes a lower priority, which
-// threads inherit and nobody may raise again.
+// The thread of all runs of a window. It is made before the window's thread lowers its priority, because
+// threads inherit a lower priority and cannot raise it again.
 #pragma once
 
 #include <condition_variable>
@@ -47,7 +47,7 @@ class RunThread {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::function<void()> run_;  // unset: there is nothing to do
+  std::function<void()> run_;  // unset: no work
   bool ends_ = false;
   std::thread thread_;
 };

@@ -1,5 +1,5 @@
-// What the window shows of a run or of a record: the picture of a moment, status, charts, the bar of time. It
-// turns events into wishes and carries out those that are about the picture itself.
+// The window's view of a run or a record: the picture of a moment, status, charts, the bar of time. It turns
+// events into wishes, and carries out those that concern only the picture.
 #pragma once
 
 #include <chrono>
@@ -22,25 +22,27 @@ class Show {
     Controls::Of of = Controls::Of::simulated;
     bool recording = false;        // a restart would replace the record
     bool cameras = false;          // the scene's camera has images
-    std::size_t most_stills = 0;   // that are kept; the oldest go first
-    std::size_t most_samples = 0;  // of the charts, likewise
+    std::size_t most_stills = 0;   // number of stills kept; the oldest go first
+    std::size_t most_samples = 0;  // number of chart samples kept; the oldest go first
   };
 
-  // The trial has a twin. It and the window must outlive this.
+  // The trial must have a twin. It and the window must outlive this.
   Show(trial::Trial& trial, sim::ViewWindow& window, const What& what);
 
   void add(const Still& still);
   void add(const ChartSample& sample) { charts_.add(sample); }
   void add(CameraFeed::Pictures&& pictures);
-  [[nodiscard]] bool shows(Controls::Insets insets) const;  // of the present
+  [[nodiscard]] bool shows(Controls::Insets insets) const;  // pictures of the present
   [[nodiscard]] Timeline& timeline() { return timeline_; }
-  [[nodiscard]] Controls& controls() { return *controls_; }  // not before there is a still
+  [[nodiscard]] Controls& controls() { return *controls_; }  // valid once there is a still
   [[nodiscard]] bool empty() const { return timeline_.empty(); }
-  void say(const std::string& message) { message_ = message; }  // until the next; empty: nothing
+  void say(const std::string& message) {
+    message_ = message;
+  }  // shown until the next message; empty: no message
 
-  // In order; then the wishes for the run. Not before there is a still.
+  // Handles events in order; returns the wishes for the run. Valid once there is a still.
   [[nodiscard]] Wishes see(const std::vector<sim::WindowEvent>& events);
-  // `status`: of the present; null: of a record.
+  // `status`: of the present; null for a record.
   void draw(const Wishes& wishes, const trial::RunStatus* status);
 
  private:
@@ -57,12 +59,12 @@ class Show {
   trial::Trial& trial_;
   sim::ViewWindow& window_;
   What what_;
-  sim::DataPtr data_;  // of the moment that is shown
+  sim::DataPtr data_;  // the shown moment
   Timeline timeline_;
   Charts charts_;
   std::optional<Controls> controls_;
   std::string message_;
-  CameraFeed::Pictures pictures_;  // newest of each
+  CameraFeed::Pictures pictures_;  // newest of each kind
   Wall::time_point paced_from_ = Wall::now();
   double paced_at_ = 0.0, pace_ = 1.0;
 };

@@ -1,4 +1,4 @@
-// The window without a scene: the shipped scenes with a picture and a line each, to choose one.
+// The window without a scene: a choice of the shipped scenes, each with a picture and a line.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace enc::app {
 
-// The name of the chosen scene; unset: the window was closed. Pictures are made while it is shown.
+// The name of the chosen scene; unset: the window was closed. Pictures are made while the page is shown.
 [[nodiscard]] std::optional<std::string> choose_scene(sim::ViewWindow& window);
 
 }  // namespace enc::app

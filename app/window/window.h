@@ -5,7 +5,7 @@
 
 namespace enc::app {
 
-// Prints the report of `encounter run` and gives its exit code once the window is closed or the run ends.
+// Prints the report of `encounter run` and returns its exit code once the window is closed or the run ends.
 int window(const ViewOptions& options);
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// What the augmented view (core/vision/augment) is told of a run: all of it as the core believes it.
+// Inputs of the augmented view (core/vision/augment) for a run, all as the core has them.
 #pragma once
 
 #include "core/vision/augment/augmented_view.h"
@@ -9,13 +9,13 @@ namespace enc::app {
 
 [[nodiscard]] AugmentedSpec believed_spec(const models::Setup& setup, const Scene& scene);
 
-// After the tick in which the image came.
+// The moment after the tick in which the image came.
 class BelievedMoment {
  public:
   [[nodiscard]] AugmentedMoment of(trial::Trial& trial);
 
  private:
-  Quat q_WN_ = Quat::Identity();  // of the last surface that was near
+  Quat q_WN_ = Quat::Identity();  // orientation of the last near surface
 };
 
 }  // namespace enc::app

@@ -1,5 +1,5 @@
-// A record for the window: the core runs again over what the devices said, beside the twin of the recorded
-// scene, which gives what no device says.
+// A record for the window: the core runs again over the devices' data, beside the twin of the recorded scene,
+// which supplies the data that no device measures.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,16 @@ class Playback {
   [[nodiscard]] const trial::Trial& trial() const { return *trial_; }
   [[nodiscard]] const models::Setup& setup() const { return trial_->setup(); }
   [[nodiscard]] std::int64_t ticks() const { return record_.ticks(); }
-  // All devices were simulated, and it is known what the hand did: tool, tip and truth are the twin's. Else
-  // they are where devices said.
+  // True if all devices were simulated and the hand's motion is known: tool, tip and truth are then the
+  // twin's. Otherwise they are those reported by the devices.
   [[nodiscard]] bool simulated() const { return simulated_; }
   [[nodiscard]] const RecordedTick& frame() const { return frame_; }
 
-  // Why the pictures may not be what happened, as far as the record was played; empty: they are.
+  // Reason why the pictures may differ from the actual run, as far as the record was played; empty: they are
+  // accurate.
   [[nodiscard]] const std::string& doubt() const { return doubt_; }
 
-  // The next tick; false after the last. `see` gets it with the twin as it was.
+  // Plays the next tick; false after the last. `see` gets it with the twin at that tick.
   bool next(const std::function<void(const trial::Glance&)>& see);
 
  private:
@@ -43,7 +44,7 @@ class Playback {
   trial::SteeringLog hand_;
   bool simulated_ = true;
   std::string doubt_;
-  std::int64_t first_difference_ = -1;  // tick of which the core says otherwise than the record
+  std::int64_t first_difference_ = -1;  // first tick at which the core's result differs from the record
   std::function<void(const trial::Glance&)> see_;
   std::unique_ptr<trial::Trial> trial_;
 };

@@ -1,4 +1,4 @@
-// A moment of a run by value, as the window shows it now or later.
+// A moment of a run by value, which the window shows now or later.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,14 @@ struct Still {
   Pose<'R', 'H'> platform;
   Quat q_WT = Quat::Identity();
   bool halted = false;     // by hand
-  bool simulated = true;   // every device: the truth knows what is touched
-  std::vector<double> at;  // of all geoms and sites of the model, as mjData has them
+  bool simulated = true;   // every device: the truth knows all touches
+  std::vector<double> at;  // all geoms and sites of the model, in the order of mjData
 };
 
-// The present moment of a trial with a twin. `simulated`: as in Still. Without it, tool and tip are where
-// devices say, not where the twin has its own.
+// Takes the present moment of a trial with a twin. `simulated`: as in Still. If false, tool and tip are those
+// reported by the devices, not the twin's.
 void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to);
-// For a picture of it; `data`, of the trial's model, takes the poses.
+// The moment for a picture; `data`, of the trial's model, receives the poses.
 [[nodiscard]] Moment moment_of(trial::Trial& trial, const Still& still, mjData* data);
 
 }  // namespace enc::app

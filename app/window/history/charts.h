@@ -1,5 +1,5 @@
-// The strip charts of the window: force, deflection and gap, energy over the last seconds before the moment
-// that is shown.
+// The strip charts of the window: force, deflection and gap, energy over the last seconds before the shown
+// moment.
 #pragma once
 
 #include <deque>
@@ -12,18 +12,18 @@
 
 namespace enc::app {
 
-// What the strip charts show of a tick.
+// The values of a tick in the strip charts.
 struct ChartSample {
   float t = 0.0F;                                             // s
   float measured = 0.0F, filtered = 0.0F, true_force = 0.0F;  // N, along the surface's normal
   float deflection = 0.0F, gap = 0.0F;                        // mm
-  float energy = 0.0F;                                        // mJ, of the hand into the contact so far
+  float energy = 0.0F;                                        // mJ, work of the hand on the contact so far
 };
 
 // Takes consecutive ticks.
 class Sampler {
  public:
-  static constexpr std::int64_t kEach = 5;  // ticks, of the samples that charts show
+  static constexpr std::int64_t kEach = 5;  // ticks between the samples in the charts
   [[nodiscard]] ChartSample sample(const trial::Glance& glance);
 
  private:
@@ -32,10 +32,10 @@ class Sampler {
 
 class Charts {
  public:
-  explicit Charts(std::size_t most) : most_(most) {}  // samples that are kept
+  explicit Charts(std::size_t most) : most_(most) {}  // number of samples kept
 
   void add(const ChartSample& sample);
-  // Up to the moment `end`, s. `cursor`: s, negative, of the values to be read out; unset: the newest.
+  // Charts up to the moment `end`, s. `cursor`: s, negative, selects the values to print; unset: the newest.
   // `truth`: the true force is known.
   [[nodiscard]] std::vector<sim::ViewChart> until(double end, std::optional<double> cursor, bool truth) const;
 

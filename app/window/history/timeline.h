@@ -1,4 +1,4 @@
-// The stills of a run in order of time, and which of them is shown: the newest, or an earlier one.
+// The stills of a run in order of time, and the shown one: the newest, or an earlier one.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@ namespace enc::app {
 
 class Timeline {
  public:
-  // `most`: stills that are kept; the oldest go first.
+  // `most`: number of stills kept; the oldest go first.
   explicit Timeline(std::size_t most) : most_(most) {}
 
   void add(const Still& still);
   [[nodiscard]] bool empty() const { return stills_.empty(); }
   [[nodiscard]] const Still& shown() const { return at(shown_); }
   [[nodiscard]] const Still& newest() const { return at(end() - 1); }
-  // An earlier one than the newest is shown.
+  // True if a still before the newest is shown.
   [[nodiscard]] bool past() const { return !stills_.empty() && shown_ + 1 < end(); }
 
-  void seek(double share);     // 0: the oldest; 1: the newest, and all that follow
+  void seek(double share);     // 0: the oldest; 1: the newest, and all following ones
   void step(int stills);       // forward; negative: back
-  void go_on(double seconds);  // from the shown one; at most to the newest
-  void to_change();            // to the next change of mode; else to the newest
+  void go_on(double seconds);  // goes on from the shown one; at most to the newest
+  void to_change();            // goes to the next change of mode; else to the newest
   void show_newest() { seek(1.0); }
 
-  // Where the shown one is, with contacts and holds as marks.
+  // The bar with the shown moment, and with contacts and holds as marks.
   [[nodiscard]] sim::ViewBar bar() const;
 
  private:
-  // Stills are counted since the first that was ever added.
+  // Number of a still, counted from the first one ever added.
   using Number = std::int64_t;
   [[nodiscard]] Number begin() const { return dropped_; }
   [[nodiscard]] Number end() const { return dropped_ + static_cast<Number>(stills_.size()); }
@@ -42,7 +42,7 @@ class Timeline {
   std::size_t most_;
   std::vector<Still> stills_;  // a ring once it is full
   Number dropped_ = 0, shown_ = 0;
-  double rest_ = 0.0;  // s of go_on() that no still was as long as
+  double rest_ = 0.0;  // s of go_on() that were too short for another still
 };
 
 [[nodiscard]] inline double seconds_of(const Still& still) { return seconds(still.now.t.time_since_epoch()); }
