@@ -19,7 +19,7 @@ namespace enc {
 inline constexpr std::int64_t kMostTicks = 1'000'000'000'000;  // `index` and `missed`: 30 years at 1 kHz
 inline constexpr std::int64_t kMostTime = 1'000'000'000'000'000'000;  // ns, time of a tick, from 0: 30 years
 inline constexpr std::int64_t kMostPeriod = 1'000'000'000;            // ns, length of a tick, from 0
-// Ns, a device's stamp, positive or negative.
+// ns, a device's stamp, positive or negative
 inline constexpr std::int64_t kMostStamp = std::int64_t{1} << 62;
 
 // The values that a leaf of a type can have, both ends included; a double can have all.
@@ -79,11 +79,11 @@ struct CheckLeaves {
   }
 };
 
-// Of frames of `each` leaves, one behind the other, the first leaf that is out of its range. `index`: of the
-// tick before them; then of the last.
+// The first leaf out of its range in consecutive frames of `each` leaves. `index`: of the tick before them;
+// afterwards, of the last.
 struct WrongLeaf {
   std::size_t leaf = 0;
-  std::string why{};  // empty: there is none
+  std::string why{};  // empty: no such leaf
 };
 template <class Frame>
 [[nodiscard]] WrongLeaf wrong_leaf_of(const std::vector<std::uint64_t>& leaves, std::size_t each,

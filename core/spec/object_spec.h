@@ -34,13 +34,13 @@ constexpr auto words(Tangential) { return enum_words("stick", "spring"); }
 // An entry of models/behaviours.toml: the response of a surface. Objects name it.
 struct BehaviourSpec {
   std::string name;
-  std::string response{};                     // file in models/responses without ".toml"; or empty and then
-  double stiffness = kUnset;                  // N/m: a linear spring, press and release alike
-  double limit = kUnset;                      // deflection limit, m; unset: that of the response file
-  Reversal reversal = Reversal::energy_stop;  // which of the file's models is felt
+  std::string response{};     // file in models/responses without ".toml"; empty: use `stiffness`
+  double stiffness = kUnset;  // N/m: a linear spring, equal for press and release
+  double limit = kUnset;      // deflection limit, m; unset: that of the response file
+  Reversal reversal = Reversal::energy_stop;  // the model of the file that is rendered
   Tangential tangential = Tangential::stick;
   double tangential_stiffness = kUnset;  // N/m, with Tangential::spring
-  InteractionSpec interaction{};         // beyond a press
+  InteractionSpec interaction{};         // other interactions than a press
   ResponseSpec curves{};                 // filled by the loader from the response file or the stiffness
 };
 

@@ -41,9 +41,9 @@ struct FramesRig {
 };
 
 struct CalibrationRig {
-  std::string file;  // of `encounter calibrate rig`, beside the rig's; empty: what the rig file says is so
-  std::string date;  // on which frames, geometry and force sensor were measured, "2026-11-27"; empty: never
-  std::int64_t valid = 30;  // days from then on, in which a real machine is armed
+  std::string file;  // the file of `encounter calibrate rig`, beside the rig file; empty: the numbers here
+  std::string date;  // measuring date of frames, geometry and force sensor, "2026-11-27"; empty: never
+  std::int64_t valid = 30;  // days after `date` in which a real machine may be armed
 };
 
 struct ManipulatorRig {

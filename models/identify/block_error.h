@@ -1,4 +1,5 @@
-// Errors of an estimate from sums over blocks of time: neighbouring readings err alike, blocks hardly do.
+// Errors of an estimate from sums over blocks of time: neighbouring readings have similar errors, blocks
+// hardly.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace enc::models {
 
-// A value and half of the width of its 95 % interval. Unset where nothing is known.
+// A value and half of the width of its 95 % interval. Unset if unknown.
 struct Interval {
   double value = kUnset, half = kUnset;
   [[nodiscard]] bool known() const { return !std::isnan(value) && !std::isnan(half); }
@@ -26,9 +27,9 @@ inline constexpr double kNormal95 = 1.959964;  // two-sided quantile of 95 %
          (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
 }
 
-// What each block of time did to one number: the sum of their influences is its error.
+// Influence of each block of time on one number: the sum of the influences is its error.
 struct Blocks {
-  std::vector<double> influence, weight;  // weight: how much the block knows about it
+  std::vector<double> influence, weight;  // weight: information of the block about the number
 
   [[nodiscard]] double variance() const {
     double sum = 0.0, count = 0.0;
@@ -38,7 +39,7 @@ struct Blocks {
     }
     return count > 1.0 ? sum * count / (count - 1.0) : kUnset;
   }
-  // As many equal blocks, less one, would know as much.
+  // Degrees of freedom: the number of equal blocks with as much information, minus one.
   [[nodiscard]] double freedom() const {
     double sum = 0.0, squares = 0.0;
     for (const double w : weight) sum += w, squares += w * w;

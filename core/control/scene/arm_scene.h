@@ -9,8 +9,8 @@ namespace enc {
 // under-damped, a missing role.
 [[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
 
-// What of both files a scene of any machine keeps as it stands there: frames, settings and the tracker's
-// place.
+// Copies the parts that a scene of any machine takes unchanged from both files: frames, settings and the
+// tracker's pose.
 void keep_settings(const SceneSpec& spec, const RigSpec& rig, Scene& scene);
 
 // Damping ratio of a tip of `mass` (kg) under f = K_p e + K_v de/dt.

@@ -1,5 +1,4 @@
-// What the core believes of a stereo head: rig table [camera], or a file that `encounter calibrate stereo`
-// wrote.
+// The core's model of a stereo head: rig table [camera], or a file written by `encounter calibrate stereo`.
 #pragma once
 
 #include <array>

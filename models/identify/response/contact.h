@@ -10,10 +10,10 @@
 
 namespace enc::models {
 
-// Mean force while nothing touches, N, with its standard deviation; unset without such readings.
+// Mean force without contact, N, with its standard deviation; unset without such readings.
 struct ForceZero {
   double time = kUnset, force = kUnset, error = kUnset;
-  // The line through these readings rises by this, N/s, with its standard deviation.
+  // Slope of the line through these readings, N/s, with its standard deviation.
   double rate = kUnset, rate_error = kUnset;
   [[nodiscard]] bool known() const { return !std::isnan(force); }
 };
@@ -22,32 +22,33 @@ struct ForceZero {
 struct PressZero {
   ForceZero before, after;
   [[nodiscard]] bool known() const { return before.known() || after.known(); }
-  [[nodiscard]] double at(double time) const;  // N; 0 where neither is known
+  [[nodiscard]] double at(double time) const;  // N; 0 if both are unknown
   [[nodiscard]] double error() const;          // N
 };
 
 struct Contact {
   std::vector<PressZero> zeros;  // one for each press
   Onset onset;
-  // A correction is needed: the value is beyond chance, and more than a thousandth of the force or depth.
+  // True if a correction is needed: the value is beyond chance, and more than a thousandth of the force or
+  // depth.
   bool subtract = false, shift = false;
 
   [[nodiscard]] double zero_at(std::size_t press, double time) const {
     return subtract ? zeros[press].at(time) : 0.0;
   }
-  [[nodiscard]] double begin() const { return shift ? onset.at : 0.0; }  // m
-  [[nodiscard]] double zero_error() const;                               // N, of the mean over the presses
+  [[nodiscard]] double begin() const { return shift ? onset.at : 0.0; }           // m
+  [[nodiscard]] double zero_error() const;                                        // N, mean over the presses
   [[nodiscard]] double begin_error() const { return shift ? onset.error : 0.0; }  // m
-  // A zero moves by so much during a press that it bends the curve: the fastest of them, N/s.
+  // Fastest drift of a zero during a press that bends the curve, N/s.
   double drift = 0.0;
-  // The force after this press, counted from 1, is another and no drift explains it; 0: there is none.
+  // The press, counted from 1, after which the force differs and no drift explains it; 0: no such press.
   std::size_t other_press = 0;
-  // The force there is so much above the zero before it, N.
+  // Excess of that force over the zero before the press, N.
   double other_force = kUnset;
-  // The zero moves from press to press, and no reading after contact tells by how much within one.
+  // The zero moves from press to press, and no reading after contact shows the drift within one.
   bool untold_drift = false;
 
-  // A curve that is bent by what nobody knows is not to be believed.
+  // True if an unknown effect bends the curve, so that it is unreliable.
   [[nodiscard]] bool doubted() const { return other_press > 0 || untold_drift; }
   // "before contact the force is 0.60 N: subtracted", "contact begins at 2.00 mm: shifted"
   [[nodiscard]] std::vector<std::string> notes() const;

@@ -1,5 +1,5 @@
-// Errors of a fitted curve beside noise: repeats differ, the zero of the force and the begin of contact are
-// uncertain, and a polynomial does not follow every curve.
+// Errors of a fitted curve besides noise: repeats differ, the zero of the force and the begin of contact are
+// uncertain, and a polynomial cannot follow every curve.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ class CurveErrors {
   CurveErrors(const LoopData& loop, const Response& response, bool pressing);
 
   // Half of the 95 % interval at a deflection, N; `noise`: half of the interval from noise alone. The
-  // polynomial's misfit is no matter of chance, so it is added as it is.
+  // polynomial's misfit is not random, so it is added linearly.
   [[nodiscard]] double half(double deflection, double noise) const;
 
  private:
@@ -27,7 +27,7 @@ class CurveErrors {
 
   Response response_;
   bool pressing_;
-  std::vector<Residual> residuals_;  // in the order of deflection
+  std::vector<Residual> residuals_;  // sorted by deflection
   double scatter_ = 0.0;             // N: standard deviation of a residual
   double repeats_ = 0.0;             // N: half of the interval of the repeats' mean, as whole branches
   double zero_, begin_;              // N, m: standard deviations

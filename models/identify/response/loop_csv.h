@@ -1,5 +1,5 @@
 // A measured loop as a file: comma-separated columns time_s, deflection_mm, force_N, repeat, found by name;
-// others are ignored (sources/choices 9). A real rig's readings and the simulated rig's are read alike.
+// others are ignored (sources/choices 9). The format is equal for a real rig and the simulated one.
 #pragma once
 
 #include <string>
@@ -10,24 +10,25 @@
 namespace enc::models {
 
 struct LoopData {
-  // One entry for each repeat: its readings with deflection > 0, in the order of time.
+  // One entry for each repeat: its readings with deflection > 0, in order of time.
   std::vector<std::vector<LoopPoint>> presses;
-  // Of these the readings of either branch: neither at standstill nor so near to the deepest that both mix.
+  // The readings of either branch among these: neither at standstill nor so near to the deepest that both
+  // mix.
   std::vector<std::vector<LoopPoint>> moving;
-  // Who measured what: the text of the column `source` in a press, else of the comment lines (#) before the
-  // header; empty where the file does not say.
+  // Origin of the data: the text of the column `source` in a press, else of the comment lines (#) before the
+  // header; empty if the file has neither.
   std::string remark;
-  // What was put right before all else, and how well that is known (one standard deviation): a force that is
-  // not 0 before contact, and contact that does not begin at 0.
+  // First corrections, each with its standard deviation: a force that is not 0 before contact, and a contact
+  // that does not begin at 0.
   std::vector<std::string> notes;
-  // One of the notes says why the curves are not to be believed.
+  // One of the notes explains why the curves are unreliable.
   bool doubted = false;
   double zero_error = 0.0;   // N
   double begin_error = 0.0;  // m
 };
 
-// Rows without a repeat, or with repeat 0, or from before contact, belong to no press; they give the zero of
-// the force and the begin of contact. name: of the file, for messages "name:line:column: ...". Throws Error.
+// Rows without a repeat, with repeat 0, or from before contact belong to no press; they give the zero of the
+// force and the begin of contact. name: of the file, for messages "name:line:column: ...". Throws Error.
 [[nodiscard]] LoopData parse_loop(const std::string& text, const std::string& name, double limit);
 
 }  // namespace enc::models

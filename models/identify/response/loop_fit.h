@@ -1,4 +1,4 @@
-// `encounter fit`: what a measured loop says about a response, and how well.
+// `encounter fit`: a response from a measured loop, with its uncertainty.
 #pragma once
 
 #include <array>
@@ -10,19 +10,20 @@
 
 namespace enc::models {
 
-// Half of the width of a 95 % interval stands beside each value.
+// A value and half of the width of its 95 % interval.
 struct Known {
   double value = 0.0, half = 0.0;
 };
 
 struct BranchKnown {
-  std::array<Known, 4> coefficients;  // of d^1..d^4, N/m^k
-  // N, at 1, 2, ... mm up to the limit: with what noise, repeats, the zero and the polynomial's shape may do.
+  std::array<Known, 4> coefficients;  // coefficients of d^1..d^4, N/m^k
+  // N, at 1, 2, ... mm up to the limit: includes noise, repeats, the zero and the polynomial's shape.
   std::vector<Known> curve;
-  std::vector<double> repeats;  // N, there: half of the interval of the repeats' mean; unset below three
-  double condition = 0.0;       // of the normal matrix, its columns scaled to length 1
-  std::array<int, 2> tied{};    // which two coefficients (1..4) are hardest to tell apart,
-  double correlation = 0.0;     // and how their errors go together
+  // N, at these depths: half of the interval of the repeats' mean; unset for fewer than three repeats.
+  std::vector<double> repeats;
+  double condition = 0.0;     // condition of the normal matrix, its columns scaled to length 1
+  std::array<int, 2> tied{};  // the two coefficients (1..4) that are hardest to separate
+  double correlation = 0.0;   // correlation of their errors
 };
 
 struct LoopFit {
@@ -32,15 +33,15 @@ struct LoopFit {
   double repeatability = 0.0;     // N: largest spread between repeats at equal deflection and branch
   double repeatability_at = 0.0;  // m
   std::size_t presses = 0, readings = 0;
-  double floor = 0.0, ceiling = 0.0;  // N/m: no softer, no stiffer
-  ResponseSpec response;              // rounded: what the file says
-  std::string source;                 // and where it says it comes from
+  double floor = 0.0, ceiling = 0.0;  // N/m: lower and upper stiffness limit
+  ResponseSpec response;              // rounded, as in the file
+  std::string source;                 // its origin, as in the file
 };
 
 struct LoopFitOptions {
   double limit = 6e-3;
-  double floor = 0.0;       // N/m, of fit_floor()
-  double ceiling = kUnset;  // N/m; unset: of fit_ceiling()
+  double floor = 0.0;       // N/m, from fit_floor()
+  double ceiling = kUnset;  // N/m; unset: from fit_ceiling()
 };
 
 [[nodiscard]] LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options);

@@ -1,4 +1,4 @@
-// A force that stays where it is while the deflection grows: a sensor at its limit, or an object that yields.
+// A force that stays constant while the deflection grows: a sensor at its limit, or an object that yields.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace enc::models {
 
-// The force stops to rise at this deflection, m, and time, s; unset: it rises to the deepest reading.
+// Deflection, m, and time, s, at which the force stops rising; unset: it rises to the deepest reading.
 struct Plateau {
   double from = kUnset, time = kUnset;
 };
 
-// Takes the readings of one press, of either branch in the order of time.
+// Takes the readings of one press, of either branch, in order of time.
 [[nodiscard]] Plateau plateau_of(std::span<const LoopPoint> moving);
 
 }  // namespace enc::models

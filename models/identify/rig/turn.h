@@ -1,4 +1,4 @@
-// Small turns, as fits of poses use them.
+// Small rotations, for fits of poses.
 #pragma once
 
 #include <Eigen/SVD>
@@ -14,14 +14,14 @@ namespace enc::models {
   return m;
 }
 
-// About this axis by its length, rad.
+// Rotation about this axis by its length, rad.
 [[nodiscard]] inline Quat turn_by(const Vec3& turn) {
   const double angle = turn.norm();
   if (!(angle > 0.0)) return Quat::Identity();
   return Quat(Eigen::AngleAxisd(angle, Vec3(turn / angle)));
 }
 
-// And back: the axis times the angle, which is at most half a turn.
+// The inverse: the axis times the angle, which is at most half a turn.
 [[nodiscard]] inline Vec3 turn_of(const Quat& rotation) {
   const Quat q = rotation.w() < 0.0 ? Quat(-rotation.coeffs()) : rotation;
   const double sine = q.vec().norm();

@@ -1,4 +1,4 @@
-// A number and how well it is known.
+// A number with its uncertainty.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@ namespace enc::models {
 
 inline constexpr double kNormal99 = 2.575829;  // two-sided quantile of 99 %
 
-// Half of the width of the 99 % interval. A calibration that is wrong moves a machine to a wrong place, so
-// its intervals are wider than those of a report.
+// Half of the width of the 99 % interval. A wrong calibration moves a machine to a wrong position, so its
+// intervals are wider than those of a report.
 struct Uncertain {
   double value = kUnset, half = kUnset;
   [[nodiscard]] bool holds(double x) const { return std::abs(x - value) <= half; }

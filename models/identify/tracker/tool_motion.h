@@ -1,4 +1,5 @@
-// What a log's tool does beside what its tip does, one axis at a time: does the machine carry it?
+// Checks whether the machine carries the tool: compares the motions of a log's tool and tip, one axis at a
+// time.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@ namespace enc::models {
 
 inline constexpr double kBlock = 0.25;  // s: errors farther apart than this are independent
 
-// When the packets came (or say that they are of), how old they are taken to be, and which are not counted.
+// Arrival times of the packets (or their stamps), their assumed age, and the ones not counted.
 struct SeenAt {
   const std::vector<double>& times;  // s
   double age;                        // s
@@ -17,10 +18,11 @@ struct SeenAt {
 };
 
 struct ToolMotion {
-  double wander = 0.0;  // m: largest less least median of a block
+  double wander = 0.0;  // m: largest minus smallest median of a block
   double noise = 0.0;   // m, rms, from one packet to the next
-  double scale = 1.0;   // slope of the tool's place over the tip's
-  // What the tip leaves of the tool's motion. Outliers included: a log of nothing else must not look good.
+  double scale = 1.0;   // slope of the tool's position over the tip's
+  // Part of the tool's motion that the tip does not explain. It includes outliers, so that a log with only
+  // outliers does not look good.
   double unexplained = 0.0;
 };
 
