@@ -1,4 +1,4 @@
-// `encounter calibrate SUBJECT`: a file for each subject with its options and its help.
+// `encounter calibrate SUBJECT`: one file for each subject, with its options and its help.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace enc::app {
 
-// What the command line said; lives as long as the parser.
+// The options of all subjects; they must live as long as the parser.
 struct CalibrateWords {
   TrackerOptions tracker;
   TipOptions tip;
@@ -20,7 +20,7 @@ struct CalibrateWords {
   SkinOptions skin;
 };
 
-// code: gets the exit code of the subcommand that runs.
+// code: receives the exit code of the subcommand that runs.
 void add_calibrate(CLI::App& app, CalibrateWords& words, int& code);
 
 void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code);
@@ -30,11 +30,11 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code);
 void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code);
 void add_skin(CLI::App& calibrate, SkinOptions& options, int& code);
 
-// words: behind `calibrate`. Throws Error where they do not begin with a subject: `calibrate WHAT` was the
-// command until it had subjects, and the message names the command that took its place.
+// words: the words after `calibrate`. Throws Error if they do not begin with a subject. `calibrate WHAT` was
+// the command before it had subjects, so the message names the command that replaces it.
 void check_subject(const std::vector<std::string>& words);
 
-// Throws Error where a folder of images is expected and something else is there, or nothing.
+// Throws Error if a folder of images is expected and the path is missing or something else.
 void check_folder(const std::string& folder);
 
 }  // namespace enc::app

@@ -1,12 +1,12 @@
-// The table that a fit reads: a CSV file, or a record as `encounter export` makes a table of it.
+// The table that a fit reads: a CSV file, or a record in the table form of `encounter export`.
 #pragma once
 
 #include <string>
 
 namespace enc::trial {
 
-// kind, expected: of the table, for the message of a file that cannot be read. Throws Error; of a record that
-// is cut off, too.
+// kind, expected: of the table, for the message of an unreadable file. Throws Error, also for a truncated
+// record.
 [[nodiscard]] std::string read_table(const std::string& path, const std::string& kind,
                                      const std::string& expected);
 

@@ -1,5 +1,5 @@
-// The subjects of `calibrate` that the module of fits serves, a file each: print what they have found, give
-// the exit code, throw Error.
+// The subjects of `calibrate` in the module of fits, one file each. They print their results, return the exit
+// code, and throw Error.
 #pragma once
 
 #include <string>
@@ -11,15 +11,16 @@ namespace enc::app {
 
 int calibrate_tracker(const TrackerOptions& options);
 int calibrate_tip(const TipOptions& options);
-// modules: where vision and the twin's camera come from, which only pictures need.
+// modules: source of vision and the twin's camera, which only pictures need.
 int calibrate_camera(const CameraOptions& options, const trial::DriverSource& modules);
 int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules);
 
-// Throws Error where the table is another subject's; its message names that subject's command.
-// expected: what the subject reads.
+// Both throw Error if the table belongs to another subject; the message names that subject's command.
+// expected: the input of this subject.
 void refuse_pairs(const std::string& csv, const std::string& file, const std::string& expected);
 void refuse_poses(const std::string& csv, const std::string& file, const std::string& expected);
-// Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
+// True for a rig: names of rigs have neither dot nor slash, and their files are TOML. Anything else is a
+// table.
 [[nodiscard]] bool is_rig(const std::string& what);
 
 }  // namespace enc::app

@@ -1,12 +1,12 @@
-// What the program asks of the module of calibrations out of images, which alone maps OpenCV. It is built and
-// loaded when `calibrate stereo` or `calibrate skin` is called.
+// The interface to the module of calibrations from images, the only one that maps OpenCV. It is built and
+// loaded only for `calibrate stereo` or `calibrate skin`.
 #pragma once
 
 #include "app/common/calibrate_options.h"
 
 namespace enc::app {
 
-// Each is a subcommand: prints what it has to say, gives the exit code, throws Error.
+// Each is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct CalibrationModule {
   int (*stereo)(const StereoOptions& options) = nullptr;
   int (*skin)(const SkinOptions& options) = nullptr;

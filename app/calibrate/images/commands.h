@@ -1,4 +1,4 @@
-// The subjects of `calibrate` that read a folder of images, a file each, and what both write.
+// The subjects of `calibrate` that read a folder of images, one file each, and their shared output.
 #pragma once
 
 #include <string>
@@ -10,10 +10,11 @@ namespace enc::app {
 int calibrate_stereo(const StereoOptions& options);
 int calibrate_skin(const SkinOptions& options);
 
-// What made a file, as its first line: whoever repeats it gets the same numbers. command: behind `calibrate`.
+// The command that made a file, as its first line: repeating it gives equal numbers. command: the words after
+// `calibrate`.
 [[nodiscard]] std::string made_by(const std::string& command);
 
-// Throws Error: the report is what is printed, so a file has a name.
+// Throws Error for "-": the report goes to standard output, so a file needs a name.
 void refuse_dash(const std::string& option, const std::string& name);
 
 }  // namespace enc::app

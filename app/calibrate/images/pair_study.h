@@ -1,4 +1,4 @@
-// A folder of pairs of a chessboard, looked at and calibrated.
+// A folder of chessboard pairs: evaluation and calibration.
 #pragma once
 
 #include <string>
@@ -11,24 +11,24 @@
 namespace enc::app {
 
 struct StudiedPair {
-  std::string name;  // of the left file, from the folder on
+  std::string name;  // left file's path in the folder
   images::ImagePair images;
   PairCorners corners;
 };
 struct PairStudy {
-  std::string title;                // what was calibrated with what
-  double square = kUnset;           // m, side, as it was said
-  std::string images;               // how the folder was read
-  std::vector<StudiedPair> pairs;   // in which the board was found, in both images
-  std::vector<std::string> missed;  // images in which it was not found
+  std::string title;                // the input and the board of the calibration
+  double square = kUnset;           // m, side, as given by the user
+  std::string images;               // description of the folder's pairing
+  std::vector<StudiedPair> pairs;   // pairs with the board found in both images
+  std::vector<std::string> missed;  // images without the board
   StereoCalibration found;
-  std::string misfit;  // why no rig may use what was found; empty: it may
+  std::string misfit;  // reason why no rig may use the result; empty: usable
 };
-inline constexpr double kMostRows = 0.6;      // px rms that rows of one pair may differ by
-inline constexpr double kMostSquare = 0.005;  // share by which squares may err without a note
+inline constexpr double kMostRows = 0.6;      // px rms, allowed row difference of one pair
+inline constexpr double kMostSquare = 0.005;  // share by which the squares may differ without a note
 
-// Both throw Error in one line that begins with the folder or a file. After the first, nothing is written
-// over the images.
+// Both throw Error in one line that begins with the folder or a file. After the first, no output can
+// overwrite the images.
 [[nodiscard]] images::PairReader open_pairs(const std::string& folder);
 [[nodiscard]] PairStudy study_pairs(images::PairReader& reader, const std::string& folder,
                                     const Board& board);
@@ -36,10 +36,10 @@ inline constexpr double kMostSquare = 0.005;  // share by which squares may err 
 [[nodiscard]] std::string study_text(const PairStudy& study);
 [[nodiscard]] std::string study_json(const PairStudy& study);
 
-// At most six, by commas.
+// Lists at most six names, separated by commas.
 [[nodiscard]] std::string some_of(const std::vector<std::string>& names);
 
-// The worst pair, a middling one and the best, rectified.
+// The worst pair, a median one and the best, rectified.
 [[nodiscard]] Image study_picture(const PairStudy& study);
 
 }  // namespace enc::app

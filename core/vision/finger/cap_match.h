@@ -15,7 +15,7 @@ struct CapDisparity {
   bool good = false;
   double disparity = kUnset;  // px, at the cap's middle
   double variance = kUnset;   // px^2: from the residual and the amount of detail
-  // Rad, away from the camera, from the tip to the knuckle.
+  // rad, away from the camera, from the tip to the knuckle.
   double slope = kUnset;
   double left_over = kUnset;  // grey levels^2 of a pixel, residual
 };

@@ -12,9 +12,9 @@ namespace enc {
 enum class FormEnd : std::uint8_t { nothing, border, hand };
 
 struct FingerForm {
-  // Px, across the finger: median of the widths behind the cap.
+  // px, across the finger: median of the widths behind the cap.
   double width = kUnset;
-  // Px, from the far end of the cap to the finger's end.
+  // px, from the far end of the cap to the finger's end.
   double length = kUnset;
   FormEnd end = FormEnd::nothing;
   // Points of the finger's middle line, evenly from the cap to its end.

@@ -12,7 +12,7 @@ namespace enc {
 
 class DisparityMap {
  public:
-  // Px, side; 1 px of the image is 0.8 mm at 600 mm.
+  // px, side; 1 px of the image is 0.8 mm at 600 mm.
   static constexpr int kCell = 4;
   // px: a pixel's value depends on the mask up to this distance, including half of the widest block.
   static constexpr int kReach = 2 * kCell + 8;

@@ -1,4 +1,4 @@
-// Measured pushes into a ball beside what the ball's law says about the same way and time.
+// Measured pushes into a ball, and the forces of the ball's law for equal path and time.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace enc::trial {
 
-// Pushes one after another into a ball that was at rest before the first: readings with deflection > 0.
+// Consecutive pushes into a ball that was at rest before the first: readings with deflection > 0.
 using Pushes = std::vector<std::vector<models::LoopPoint>>;
 
 // One or more runs of a rig, each beginning with a ball at rest.
@@ -20,12 +20,12 @@ class BallLoops {
  public:
   explicit BallLoops(std::vector<Pushes> runs);
 
-  // Means over a hundredth of a second: what the fit compares. The law is followed reading by reading.
+  // Means over a hundredth of a second, which the fit compares. The law is evaluated reading by reading.
   [[nodiscard]] std::span<const models::NoisyMean> means() const { return means_; }
-  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }  // N, of each mean
+  [[nodiscard]] const Eigen::VectorXd& measured() const { return measured_; }  // N, one for each mean
   [[nodiscard]] std::size_t pushes() const;
   [[nodiscard]] std::size_t readings() const { return readings_; }
-  // The law's force at the same means, N. nearer: the ball stands so much nearer to the probe than the
+  // The law's force at these means, N. nearer: distance by which the ball is nearer to the probe than the
   // deflection says, m.
   [[nodiscard]] Eigen::VectorXd predicted(const sim::BallPlant& ball, double nearer) const;
 

@@ -1,4 +1,5 @@
-// The numbers of the ball's law (sim/bodies/ball_plant.h) as unknowns of a fit: names as in [truth.ball].
+// The numbers of the ball's law (sim/bodies/ball_plant.h) as unknowns of a fit, with names as in
+// [truth.ball].
 #pragma once
 
 #include <cstddef>
@@ -9,13 +10,14 @@
 
 namespace enc::trial {
 
-// The ball and how it stands in the rig.
+// The ball and its position in the rig.
 struct StandingBall {
   sim::BallParameters law;
-  double nearer = 0.0;  // m, to the probe than the deflection says; as if misplaced by that along the push
+  // m: the ball is this much nearer to the probe than the deflection says, as if misplaced along the push.
+  double nearer = 0.0;
 };
 
-// First those that a loop of force and deflection tells, then those that are held unless freed.
+// First the numbers that a loop of force and deflection determines, then those that are held unless freed.
 inline constexpr std::size_t kRubberModulus = 0, kPressure = 1, kFeltModulus = 2, kFriction = 3,
                              kFrictionTravel = 4, kRelaxingFast = 5, kRelaxingMiddle = 6, kRelaxingSlow = 7,
                              kNearer = 8, kLoopNumbers = 9;
@@ -23,13 +25,13 @@ inline constexpr std::size_t kWall = 9, kFelt = 10, kRelaxationFast = 11, kRelax
                              kRelaxationSlow = 13, kBallNumbers = 14;
 
 struct BallNumber {
-  std::string_view name;  // with its unit; after "truth.ball." but for nearer_mm
-  double unit;            // SI of 1
-  double scale;           // SI, a usual value: steps of the fit are counted in it
+  std::string_view name;  // includes its unit; follows "truth.ball.", except for nearer_mm
+  double unit;            // SI value of 1
+  double scale;           // SI, a usual value: the unit of the fit's steps
   bool elastic;           // changes the elastic force
-  bool positive;          // 0 or less is no ball
+  bool positive;          // 0 or less is not a ball
   double& (*of)(StandingBall&);
-  std::string_view remedy;  // where the loops do not tell it
+  std::string_view remedy;  // remedy if the loops do not determine it
 };
 [[nodiscard]] std::span<const BallNumber> ball_numbers();
 

@@ -1,8 +1,8 @@
-// The arm of the guided registration as it really moves: in the twin, under the core's own law.
+// The arm of the guided registration in its true motion: in the twin, under the core's own law.
 //
 //   place -> core (target, law, gravity) -> motors -> physics -> encoders -> core
 //                                             physics -> true tip -> the camera's frames
-//                                            encoders -> believed kinematics -> what the device says
+//                                            encoders -> rig's kinematics -> the device's reading
 #pragma once
 
 #include "models/setup/scene_file.h"
@@ -11,8 +11,8 @@
 
 namespace enc::trial {
 
-// Nobody is there to meet: a bare tip, no object, no finger. Judges by the device's readings alone, as a real
-// procedure has to.
+// The arm moves alone: a bare tip, no object, no finger. It judges only by the device's readings, as a real
+// procedure must.
 class DrivenArm final : public MovedArm {
  public:
   // rig: read without a scene. Throws Error with the place in the rig file.
@@ -20,10 +20,10 @@ class DrivenArm final : public MovedArm {
   DrivenArm(const DrivenArm&) = delete;
   DrivenArm& operator=(const DrivenArm&) = delete;
 
-  // Throws Error where the tip does not come to rest there in time: which place, how far away it stayed.
+  // Throws Error if the tip does not come to rest there in time, with the place and the remaining distance.
   double go(const Point<'W'>& wanted) override;
   TipStand read(double later) override;
-  // The camera as the arm would tell its pose: the arm's W is where it believes its base to stand.
+  // The camera's pose as the arm would measure it: the arm's W follows from the rig's pose of its base.
   [[nodiscard]] Pose<'W', 'C'> as_it_believes(const Pose<'W', 'C'>& X_WC) const {
     return trial_.scene().X_WR * (trial_.world().X_WR().inverse() * X_WC);
   }
@@ -39,8 +39,8 @@ class DrivenArm final : public MovedArm {
 
   Point<'W'> sent_;
   Trial trial_;
-  double now_ = 0.0, due_ = 0.0;  // s: of the newest tick; of the newest reading that was asked for
-  int places_ = 0;                // that it was sent to
+  double now_ = 0.0, due_ = 0.0;  // s: newest tick; newest requested reading
+  int places_ = 0;                // places commanded so far
 };
 
 }  // namespace enc::trial

@@ -1,5 +1,5 @@
-// What a set of points tells of its own registration: how far off each pair is by the registration of the
-// others, how sure the pose is, how much averaging frames and more places help.
+// Quality of a set of points for its own registration: the error of each pair by the registration of the
+// others, the uncertainty of the pose, and the benefit of averaged frames and more positions.
 #pragma once
 
 #include <array>
@@ -20,27 +20,26 @@ struct AxisBand {
 
 struct FewerPoints {
   std::size_t pairs = 0, frames = 0;
-  AxisBand error;  // of mean |error| at the pairs that were left out
+  AxisBand error;  // mean |error| at the pairs left out
 };
 
 struct PointStudy {
   models::Registration found;
-  std::array<models::Interval, 3> position;  // of X_WC, m
-  std::array<models::Interval, 3> turn;      // about W's axes, rad: value 0, only the half is of use
+  std::array<models::Interval, 3> position;  // X_WC's position, m
+  std::array<models::Interval, 3> turn;      // about W's axes, rad: value 0, only the half is useful
   models::Interval scale;                    // 1 for rigid frames
-  // Mean |error| of each pair by the registration of all the others: what a point that was not used would
-  // show.
+  // Mean |error| of each pair by the registration of all the others: the error to expect at an unused point.
   std::array<models::Interval, 3> left_out;
   std::size_t worst = 0;                     // the pair of the largest such error
   double worst_error = kUnset;               // m
   double usual_error = kUnset;               // m, median of the others
-  double frames = 0.0;                       // of a pair, on average
-  Vec3 frame_noise{kUnset, kUnset, kUnset};  // rms of a single frame; unset where no pair has two
-  Vec3 standing{kUnset, kUnset, kUnset};     // rms of what is left over and no averaging of frames takes away
+  double frames = 0.0;                       // mean number of frames of a pair
+  Vec3 frame_noise{kUnset, kUnset, kUnset};  // rms of a single frame; unset if no pair has two
+  Vec3 standing{kUnset, kUnset, kUnset};     // rms of the residual that no averaging of frames removes
   std::vector<FewerPoints> fewer;
 };
 
-// Intervals from leaving out one pair at a time (jackknife). Fewer points: at random, by the seed.
+// Intervals by leaving out one pair at a time (jackknife). Fewer points: random, by the seed.
 [[nodiscard]] PointStudy study_points(const models::PointSet& places, std::uint64_t seed = 1);
 
 }  // namespace enc::trial

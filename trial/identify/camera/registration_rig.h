@@ -1,4 +1,4 @@
-// What a guided registration works on: the arm, the camera, and the places that the tip goes to.
+// The inputs of a guided registration: the arm, the camera, and the positions of the tip.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace enc::trial {
 
-// What a registration works on: the arm as believed and as it is, and the camera where it really is.
+// The rig of a registration: the arm's model and the true arm, and the true pose of the camera.
 struct RegistrationRig {
   ArmMachine believed;
   sim::ArmTruth arm;
@@ -18,15 +18,15 @@ struct RegistrationRig {
   sim::CameraTruth camera;
 };
 
-// The places of the tip that a rig offers, and which of them are used and judged.
+// The positions of the tip that a rig offers, and those used and judged.
 struct RegistrationPlaces {
   std::vector<Point<'W'>> visited;  // well spread, the most that are used
-  std::vector<Point<'W'>> targets;  // all over the volume in view
-  std::vector<double> distance;     // of each target from the middle of the volume, m
+  std::vector<Point<'W'>> targets;  // spread over the volume in view
+  std::vector<double> distance;     // distance of each target from the middle of the volume, m
 };
 [[nodiscard]] RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs);
 
-// Throws Error where the rig has no arm, or none that is simulated.
+// Throws Error if the rig has no arm, or no simulated arm.
 [[nodiscard]] RegistrationRig registration_rig(const models::Setup& setup);
 
 }  // namespace enc::trial

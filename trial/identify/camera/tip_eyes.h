@@ -1,5 +1,5 @@
-// Who sees the tip in the guided registration: points with the noise of CameraTruth, or pictures in which the
-// ball at the tip is found.
+// The sensors of the tip in the guided registration: points with the noise of CameraTruth, or pictures in
+// which the ball at the tip is found.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace enc::trial {
 
-// What the camera of the twin has before it while a tip stands: the ball, and whatever else is added.
+// The things in front of the twin's camera while a tip stands still: the ball, and any additions.
 using TipThings = std::function<std::vector<sim::Thing>(const TipStand& tip)>;
 [[nodiscard]] TipThings ball_at_tip(const Pose<'W', 'C'>& X_WC, const sim::CameraTruth& camera);
 
-// The ball in the frames of any stereo camera, one after the other at its rate. Where the camera is the
-// twin's, `show` is told first where the tip is.
+// The ball in the frames of any stereo camera, one after the other at its rate. For the twin's camera, `show`
+// first receives the tip.
 class PictureEyes final : public TipEyes {
  public:
   using Show = std::function<void(const TipStand& tip)>;
@@ -30,7 +30,7 @@ class PictureEyes final : public TipEyes {
               Show show = {});
 
   std::optional<Point<'C'>> see(const TipStand& tip) override;
-  // Of the newest frame that had no ball.
+  // Reason for the newest frame without a ball.
   [[nodiscard]] BallLoss loss() const { return loss_; }
 
  private:
@@ -42,8 +42,8 @@ class PictureEyes final : public TipEyes {
   BallLoss loss_ = BallLoss::none;
 };
 
-// Through the twin's camera, which is where truth.frames says; the head is believed as the rig says. Throws
-// Error where a module is missing, the rig has no simulated camera, or a number is impossible.
+// Uses the twin's camera at its pose in truth.frames, and the rig's model of the head. Throws Error if a
+// module is missing, the rig has no simulated camera, or a number is impossible.
 [[nodiscard]] PictureEyes twin_eyes(const models::Setup& setup, const DriverSource& modules,
                                     std::uint64_t seed);
 

@@ -1,5 +1,5 @@
-// A machine that carries a clamped tool from pose to pose, stands still at each, and tells what its force
-// sensor and the tracker say there: in the twin or over real devices.
+// A machine that carries a clamped tool from pose to pose, stands still at each, and reports the data of its
+// force sensor and the tracker there: in the twin or over real devices.
 #pragma once
 
 #include <cstddef>
@@ -12,34 +12,34 @@ namespace enc::trial {
 
 // Means over the time in which it stood.
 struct CarriedStand {
-  double time = kUnset;      // s of experiment, of the middle
-  Pose<'W', 'H'> X_WH;       // by the machine's own encoders
+  double time = kUnset;      // s of experiment, middle of that time
+  Pose<'W', 'H'> X_WH;       // measured by the machine's own encoders
   Wrench wrench;             // raw
-  std::size_t readings = 0;  // of the force sensor; 0: there is none
+  std::size_t readings = 0;  // number of the force sensor's readings; 0: no sensor
   Pose<'C', 'T'> X_CT;
-  std::size_t packets = 0;  // in which the tracker saw the clamped tool
+  std::size_t packets = 0;  // packets in which the tracker saw the clamped tool
 };
 
-// Whether all of the way on which go() takes it is within reach.
+// True if the whole path of go() between two poses is within reach.
 [[nodiscard]] bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
                                 const Pose<'W', 'H'>& to);
 
-// The run was told to end: all that moves was stopped.
+// Thrown when the run was asked to end; every moving device has been stopped.
 struct CarryingEnded {};
 
 class CarriedTool {
  public:
-  // `setup`: of a scene that clamps a tool. Nothing of what it renders is built: the tool is carried, watched
-  // and weighed. Of the options: seed, drivers, armed, lockstep, pace, stop. Throws Error for all that is
+  // `setup`: of a scene that clamps a tool. Its rendering is not built: the tool is carried, tracked and
+  // weighed. Used options: seed, drivers, armed, lockstep, pace, stop. Throws Error for everything that is
   // refused before anything moves.
   CarriedTool(models::Setup setup, TrialOptions options);
   CarriedTool(const CarriedTool&) = delete;
   CarriedTool& operator=(const CarriedTool&) = delete;
 
-  // The first one waits until the jaws hold the tool, and begins where the machine stands. Throws Error (kind
-  // device): no way, nothing held, no rest, a hold, a link that is lost; CarryingEnded.
+  // The first call waits until the jaws hold the tool, and begins at the machine's present pose. Throws Error
+  // (kind device): no path, no tool held, no rest, a hold, a lost link; or CarryingEnded.
   void go(const Pose<'W', 'H'>& to);
-  [[nodiscard]] CarriedStand stand();  // rests and measures where it is
+  [[nodiscard]] CarriedStand stand();  // rests, and measures at its present pose
 
   [[nodiscard]] const Trial& trial() const { return trial_; }
   [[nodiscard]] double now() const { return now_; }  // s of experiment
@@ -47,16 +47,16 @@ class CarriedTool {
  private:
   TrialOptions with_law(TrialOptions options);
   void tick();
-  void watch();  // throws where it does not do what it should
+  void watch();  // throws if the machine misbehaves
   void begin();
   void rest();
   [[nodiscard]] bool resting() const;
 
-  Pose<'W', 'H'> wanted_;  // of the next tick; unset: it waits
-  Vec<'F'> first_force_;   // N, raw, where it began; unset: not yet
+  Pose<'W', 'H'> wanted_;  // pose for the next tick; unset: it waits
+  Vec<'F'> first_force_;   // N, raw, at the begin; unset: not yet
   bool out_of_reach_ = false;
-  double turned_off_ = 0.0;        // s that it has been turned otherwise than it was sent
-  double now_ = 0.0, held_ = 0.0;  // s; in a hold
+  double turned_off_ = 0.0;        // s with a rotation other than commanded
+  double now_ = 0.0, held_ = 0.0;  // s of experiment; s in a hold
   Trial trial_;
 };
 

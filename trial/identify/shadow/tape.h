@@ -1,5 +1,5 @@
-// What shadow mode reads of a record, again and again: tick by tick, so that a long record is never in memory
-// as a whole, but for where its machine was.
+// The reader of a record for shadow mode, which plays it several times. It reads tick by tick, so that a long
+// record is never in memory as a whole, except for its machine's positions.
 #pragma once
 
 #include <functional>
@@ -11,18 +11,18 @@
 
 namespace enc::trial {
 
-// Where the machine was at any time, between what it said with its own stamps.
+// Position of the machine at any time, interpolated between its reports by their stamps.
 class TipTrace {
  public:
-  void see(const Stamped<TipSample>& tip);  // in the order of a record; what is said twice is no news
+  void see(const Stamped<TipSample>& tip);  // call in the order of a record; ignores repeated reports
   [[nodiscard]] bool empty() const { return said_.empty(); }
-  // It was heard of on both sides, and not long before or after.
+  // True if the machine reported shortly before and after this time.
   [[nodiscard]] bool knows(Time t) const;
-  // Beyond what is known it stands where it was first or last seen. Not for an empty trace.
+  // Outside of the known range, the first or last position holds. The trace must not be empty.
   [[nodiscard]] TipSample at(Time t) const;
 
  private:
-  [[nodiscard]] std::size_t after(Time t) const;  // first that was said later
+  [[nodiscard]] std::size_t after(Time t) const;  // first later report
   std::vector<Stamped<TipSample>> said_;
 };
 
@@ -32,12 +32,12 @@ using SeeTick = std::function<void(const RecordedTick&)>;
 struct Tape {
   RecordReader& record;
   const models::Setup& twin;
-  const Scene& scene;  // of the twin
+  const Scene& scene;  // the twin's
   TipTrace tip{};
   std::int64_t first = 0, last = -1;  // index of a tick
   Time begin{};
-  bool sent = false;        // some command went to the machine
-  bool pressed = false;     // by a rendered object's finger or tool
+  bool sent = false;        // the machine received some command
+  bool pressed = false;     // a finger or tool pressed a rendered object
   std::int64_t missed = 0;  // cycles
 
   Tape(RecordReader& from, const models::Setup& setup, const Scene& prepared);
@@ -45,11 +45,12 @@ struct Tape {
   [[nodiscard]] double seconds() const { return static_cast<double>(last - first) * scene.dt; }
 };
 
-// What the machine says can be believed.
+// True if the machine's report is reliable.
 [[nodiscard]] bool is_well(const Stamped<TipSample>& tip);
-// Its command of this tick went to it.
+// True if its command of this tick was sent to it.
 [[nodiscard]] bool was_sent(const RecordedTick& frame);
-// A pose that came with this tick, of a tool of the scene. `newest`: stamp of the last one; is moved on.
+// True for a pose that came with this tick, of a tool of the scene. `newest`: stamp of the last one; it is
+// updated.
 [[nodiscard]] bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest);
 
 inline double in_seconds(Time t) { return seconds(t.time_since_epoch()); }
