@@ -23,7 +23,7 @@ struct Glance {
   const sim::Truth& truth;  // unset if no slot is simulated
   const Inputs& in;
   const Outputs& out;
-  bool simulated = true;         // every slot is simulated, so the truth knows all touches
+  bool simulated = true;         // every slot is simulated, so the truth has all touches
   const State* state = nullptr;  // core's state after the tick, if available
   const Gate* gate = nullptr;    // gate between core and devices, if available
   // ns of the wall clock from the last step() to this one; 0: this is the first.

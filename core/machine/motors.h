@@ -74,8 +74,8 @@ class Motors {
   [[nodiscard]] double holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held, const Vec<'R'>& way,
                                  double force) const;
 
-  // The press at which a motor gives less than that force, 1 for the first, for presses with pauses in which
-  // the motors hold only gravity; 0: no press.
+  // The press at which a motor gives less than that force, 1 for the first; 0: no press. The motors hold only
+  // gravity in the pauses.
   struct Presses {
     double pressed = 0.0, pause = 0.0;  // s
     std::int64_t number = 1;

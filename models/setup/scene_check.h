@@ -10,7 +10,7 @@ namespace enc::models {
 
 // Throws Error: the place of the key in its file, then the problem, the expected value and the remedy.
 [[noreturn]] void fail(const Setup& setup, const std::string& key, const std::string& what);
-[[nodiscard]] std::string mm(double metres);  // in the form of a file
+[[nodiscard]] std::string mm(double metres);  // text as in a file
 
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<T>& items) {

@@ -9,7 +9,7 @@
 namespace enc::models {
 
 // Adds a warning to the setup's notes for each tool, mesh, ball and button of an unusual size, and for
-// objects farther from W than any machine reaches; it names the unit that would explain it.
+// objects farther from W than any machine reaches. The warning names the unit that would explain it.
 void note_sizes(Setup& setup);
 
 // "is 'markers_mm' in m? then multiply each number of it by 1000": the unit that gives a tool's markers a

@@ -27,8 +27,8 @@ class CsvReader {
   // Throws Error unless it is a finite number.
   [[nodiscard]] double number(std::size_t column) const;
 
-  [[noreturn]] void fail(std::size_t column, const std::string& what) const;  // at a cell of this row
-  [[noreturn]] void fail_line(const std::string& what) const;                 // at this row
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const;  // fails at a cell of this row
+  [[noreturn]] void fail_line(const std::string& what) const;                 // fails at this row
   [[noreturn]] void fail_line(std::size_t line, const std::string& what) const;
 
  private:

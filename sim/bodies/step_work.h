@@ -55,7 +55,7 @@ class StepWork {
   Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // velocity of the tool; force of the hand on it
   PerJoint joints_{}, rates_{};
   PerDof qpos_{};
-  Held held_;  // at the start of the step
+  Held held_;  // values at the start of the step
   PerJoint torque_{kUnset, kUnset, kUnset};
   std::vector<double> warm_;
   Vec3 tip_ = Vec3::Zero();  // body that carries the prop

@@ -21,8 +21,8 @@ namespace enc::sim {
 
 class Warp {
  public:
-  // Throws Error if the lens bends so far that a pixel has no direction, or needs a drawing more than three
-  // times as wide or high.
+  // Throws Error if the lens bends so far that a pixel has no direction, or if the drawing would be more than
+  // three times as wide or high.
   Warp(const Lens& lens, int width, int height);
 
   [[nodiscard]] bool bends() const { return bends_; }

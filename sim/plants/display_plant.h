@@ -1,5 +1,5 @@
-// The headset as the core sees it: draws the newest view at its own rate, deforms the shown object by the
-// tracked tool, and sends the drawn surface back over UDP [VHMR 3.5, 4.3].
+// The headset as the core sees it: it draws the newest view at its own rate and deforms the shown object by
+// the tracked tool. It sends the drawn surface back over UDP [VHMR 3.5, 4.3].
 #pragma once
 
 #include <array>

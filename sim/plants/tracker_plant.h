@@ -34,7 +34,7 @@ class TrackerPlant {
     bool news = false;
     std::int64_t dropped = 0;  // packets lost
   };
-  // `markers`: of each tool in T. Without them the tracker knows the tool, and `marker_noise` is unused.
+  // `markers`: of each tool in T. Without them the tool is given, and `marker_noise` is unused.
   TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed,
                std::vector<std::vector<Vec3>> markers = {});
 
@@ -57,7 +57,7 @@ class TrackerPlant {
   State state_;
 };
 
-// Equal noise of an upright tool's tip, in W, from a tracker that knows the tool: `noise` includes the
+// Equal noise of an upright tool's tip, in W, from a tracker with a given tool: `noise` includes the
 // markers'.
 [[nodiscard]] TrackerTruth with_tool_known(TrackerTruth truth, std::span<const Vec3> markers,
                                            const Vec3& tip);

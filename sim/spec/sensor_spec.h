@@ -50,8 +50,7 @@ struct TrackerTruth {
   Vec3 noise{0.0166e-3, 0.0069e-3, 0.0108e-3};  // m rms, each frame, in W
   double turn_noise = 0.0;                      // rad rms, each frame, about each axis of W
   // m rms, each frame and axis, of each marker, in addition to their common `noise` and `turn_noise`. If set,
-  // the tracker recognises the tool by its markers and computes the pose from them. Unset: the tracker knows
-  // the tool.
+  // the tracker recognises the tool by its markers and computes the pose from them. Unset: the tool is given.
   double marker_noise = kUnset;
   double stamp_error = 0.0;     // s: delay of the stamps after the exposure
   double loss = 0.0;            // share of packets lost

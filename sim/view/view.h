@@ -34,7 +34,7 @@ struct ViewBox {
 };
 struct ViewArrow {
   Point<'W'> from;
-  Vec<'W'> along;         // to its point, m
+  Vec<'W'> along;         // vector to its point, m
   double radius = 0.002;  // m
   Colour colour{0.9F, 0.1F, 0.1F, 1.0F};
 };

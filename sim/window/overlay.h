@@ -28,7 +28,7 @@ class Letters {
 void draw_chart(const ViewChart& chart, const mjrRect& where, mjvFigure& figure, const mjrContext& context);
 void draw_bar(const ViewBar& bar, const mjrRect& all);
 void draw_image(const Image& picture, int left, int bottom, const mjrContext& context);
-[[nodiscard]] Image resized(const Image& from, int width, int height);  // by the nearest pixel
+[[nodiscard]] Image resized(const Image& from, int width, int height);  // scaled by the nearest pixel
 // The first half of a text's lines, and the rest.
 [[nodiscard]] std::pair<std::string, std::string> halves(const std::string& text);
 void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& context);

@@ -1,4 +1,4 @@
-// Lists that grow while the loop runs reserve their memory beforehand, so that a tick never asks the heap.
+// Lists that grow while the loop runs reserve their memory beforehand, so that a tick never allocates.
 #pragma once
 
 #include <cstddef>

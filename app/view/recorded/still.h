@@ -15,7 +15,7 @@ struct Still {
   Pose<'R', 'H'> platform;
   Quat q_WT = Quat::Identity();
   bool halted = false;     // by hand
-  bool simulated = true;   // every device: the truth knows all touches
+  bool simulated = true;   // every device: the truth has all touches
   std::vector<double> at;  // all geoms and sites of the model, in the order of mjData
 };
 

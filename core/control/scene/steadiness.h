@@ -1,7 +1,7 @@
 // Checks whether an object that is pressed and held stays stable, by a simulation of the loop with its
 // limits: hand, sensor, filter, contact threshold, object, command limiter, dead time, servo. The linear
-// bound of loop_model.h ignores the limits of speed and acceleration. These lag more in a wider oscillation,
-// so a loop that is stable for small oscillations can sustain a large one (docs/notes/stiffness.md compares
+// bound of loop_model.h ignores the limits of speed and acceleration. These lag more in a wider oscillation.
+// So a loop that is stable for small oscillations can sustain a large one (docs/notes/stiffness.md compares
 // it with the twin).
 #pragma once
 

@@ -13,7 +13,7 @@ struct Contact {
   std::int32_t object = -1;
   std::int32_t tool = -1;  // tool that began the contact; -1: unknown
   Pose<'W', 'N'> X_WN;     // anchor frame, set by the first touch
-  // True once the sensor felt a force with the tip under the tool; the anchor no longer moves then.
+  // True once the sensor measured a force with the tip under the tool; the anchor no longer moves then.
   bool anchored = false;
   // True before the first force, while the tip is still on its way to the anchor, lower than its tool.
   bool below = false;

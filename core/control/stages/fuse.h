@@ -1,6 +1,6 @@
 // Chooses the tool pose that the display shows (DisplayRig::tip). While a tool presses, its tip touches the
-// haptic-tip. The machine knows that position to a few micrometres in each cycle, far better than the tracker
-// knows the tool.
+// haptic-tip. The machine measures that position to a few micrometres in each cycle, far better than the
+// tracker measures the tool.
 #pragma once
 
 #include "core/control/stages/walk.h"

@@ -9,9 +9,9 @@
 // our addition is that it acts only while d falls.
 //
 // Ball: F = q k d, and q falls from 1 as soon as the ball is faster than the pressing finger, V. With q ~
-// d^p, the energy at parting is m w^2 / 2 + q k d^2 / (p + 2), where w is the ball's speed over the finger's;
-// p makes that energy m (e V)^2 / 2. This law needs no rate of d, which encoders measure badly, and it
-// corrects itself each tick. q never rises in a touch.
+// d^p, the energy at parting is m w^2 / 2 + q k d^2 / (p + 2). w is the ball's speed over the finger's; p
+// makes that energy m (e V)^2 / 2. This law needs no rate of d, which encoders measure badly, and it corrects
+// itself each tick. q never rises in a touch.
 //
 // Both laws begin and end with F = 0, never pull, and give back no more energy than was put in.
 #pragma once

@@ -5,8 +5,8 @@
 // parts. First, a ball behaves as a thin shell: around the contact it sinks by s (1 - (c / L)^2)^3, where c
 // is the distance from the undeformed contact. Second, E is the lower boundary of the tip, continued with the
 // slope at which the surface leaves the tip. Points that are then still at a height v > 0 over E move down to
-// it by u(v), and u fades to zero at v = -3b. So the point under the tool moves by d, the surface lies on the
-// tip around it and never enters it, and far points do not move.
+// it by u(v); u fades to zero at v = -3b. So the point under the tool moves by d, and far points do not move.
+// The surface lies on the tip around that point and never enters it.
 #pragma once
 
 #include <cstddef>

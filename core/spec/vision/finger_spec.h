@@ -9,8 +9,8 @@ namespace enc {
 
 // Distance from the pixel p to the square S of step 6; the print of the paper has lost it.
 enum class SquareReading : std::uint8_t {
-  // r2 is S's side, as printed. S then has 4 r2 pixels, so more than 4 r2 can never be skin, and for r2 below
-  // 1.4 r all of S is within the finger. Any full circle then passes step 7.
+  // r2 is S's side, as printed. S then has 4 r2 pixels, so more than 4 r2 can never be skin. For r2 below 1.4
+  // r all of S is within the finger. Any full circle then passes step 7.
   side,
   // r2 is half of S's side. The limits of step 7 are in units of r: a straight finger crosses S along 2 r if
   // it is upright, along 2.83 r through a corner. The printed lower limit 2 r2 would refuse it.

@@ -1,6 +1,6 @@
 // Distance of a fingertip: the disparity of the middle of its cap. A block of pixels measures the front of a
 // sphere, not its middle, while a cap's outline belongs to its middle. So the fit models the cap as half a
-// sphere and the adjacent finger as a cylinder, and compares their pixels with the other image [Lucas and
+// sphere and the adjacent finger as a cylinder. It compares their pixels with the other image [Lucas and
 // Kanade]. The fit also gives the finger's slope.
 #pragma once
 

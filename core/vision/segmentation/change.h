@@ -3,12 +3,12 @@
 // Advantages over tiles of hue:
 // - Each pixel is judged by itself, so no result ends at a tile's edge.
 // - A pixel as bright and as coloured as the background times the light's gain is background, whatever its
-// hue, so a hand in front of wood shows by its brightness.
+// hue. A hand in front of wood shows by its brightness.
 // - The limits are the sensor's noise and the light's residual in this very frame, so they are narrow while
 // the light is steady.
 // - Skin is judged in the background's light, so a lamp of another colour does not shift its hue.
-// - A pixel with the hue of skin is also skin if most of its surroundings surely are (hysteresis), which
-// fills areas that look like the background.
+// - A pixel with the hue of skin is also skin if most of its surroundings surely are (hysteresis). This fills
+// areas that look like the background.
 // - A changed pixel too dim for a hue is judged together with its neighbours (hueless.h).
 //
 // It fails in these cases:

@@ -2,9 +2,8 @@
 // reports events, because the first may hang in a file.
 //
 // The due frame depends only on the time: in every run equal frames come at equal times, however fast it
-// runs. A run without a wall clock (`--pace free`) waits for a frame that is due but not read yet, so that it
-// can be repeated to the bit. A run on the wall clock never waits: the frame is then late, and that is
-// reported.
+// runs. A run without a wall clock (`--pace free`) waits for a frame that is due but not read yet. So it can
+// be repeated to the bit. A run on the wall clock never waits: the frame is then late, and that is reported.
 #pragma once
 
 #include <array>

@@ -27,7 +27,7 @@ class Session {
   Session(const Configuration& of, Duration least_delay, bool lockstep, double counter_rate = kNetBoxRate)
       : of_(of), tie_(least_delay), counter_rate_(counter_rate), lockstep_(lockstep) {}
 
-  // A record has no checksum. If its counter is far from the expected value, it is accepted only when the
+  // A record has no checksum. A record whose counter is far from the expected value is accepted only when the
   // next one continues from there, as after a restart of the box.
   void take(std::span<const std::byte> datagram, Time now) noexcept;
   // absent before the first record

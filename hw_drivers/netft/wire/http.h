@@ -27,7 +27,7 @@ class HttpAnswer {
 
   std::string all_, wrong_;
   std::size_t head_ = 0;                    // bytes before the body; 0: the head is not complete
-  std::size_t length_ = std::string::npos;  // of the body; npos: up to the end
+  std::size_t length_ = std::string::npos;  // length of the body; npos: up to the end
   bool complete_ = false;
 };
 

@@ -29,7 +29,7 @@ struct Request {
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Request& request) noexcept;
 
 struct Record {
-  std::uint32_t number = 0;  // from 1, restarts with each request
+  std::uint32_t number = 0;  // counts from 1, restarts with each request
   std::uint32_t sample = 0;  // counter of the sensor's own clock
   std::uint32_t status = 0;  // 0: no fault
   std::array<std::int32_t, kAxes> counts{};

@@ -37,8 +37,8 @@ struct Registration {
 };
 
 // Least squares over all pairs. Throws Error for fewer than `fewest` pairs (3 fix a pose, but reveal no
-// error), for a number that is not finite, and for points in one place or on one line. Points thinner than 1
-// % of their length determine the rotation about it a hundred times less accurately than the others.
+// error) or a number that is not finite. It also does for points in one place or on one line. Points thinner
+// than 1 % of their length determine the rotation about it a hundred times less accurately than the others.
 [[nodiscard]] Registration register_points(std::span<const PointPair> pairs,
                                            std::size_t fewest = kFewestPairs);
 

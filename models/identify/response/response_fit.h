@@ -48,7 +48,7 @@ struct StopsFit {
 
 // The stops by non-negative least squares. Each press is a separate path that begins at rest, in order of
 // time; held readings count only for the path. stiffest: N/m, upper limit of the object's stiffness in any
-// direction of motion, so that a tremor at rest does not become a large force (see kTremor in the .cpp).
+// direction of motion. It keeps a tremor at rest from becoming a large force (see kTremor in the .cpp).
 [[nodiscard]] StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit,
                                  double lowest_slope, double stiffest);
 

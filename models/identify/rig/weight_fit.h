@@ -4,8 +4,8 @@
 //   force(i) = X_HF^-1 X_WH(i)^-1 (0, 0, -m g) + zero(i),   zero: a random walk
 //
 // Generalised least squares. The ratio of the zero's walk to the error of a stand's mean is estimated from
-// the stands themselves (restricted maximum likelihood), so that a drifting zero makes the intervals wide and
-// not wrong. The machine's base is assumed level.
+// the stands themselves (restricted maximum likelihood). So a drifting zero makes the intervals wide and not
+// wrong. The machine's base is assumed level.
 #pragma once
 
 #include <span>
@@ -38,8 +38,8 @@ struct WeightFit {
 inline constexpr double kLeastWeightSwing = 0.05;
 
 // Throws Error if the poses rotate too little to separate weight and zero, or if the measured force does not
-// rotate as a weight does, because the tool touches something. end: s, not before the last stand; unset: the
-// last stand.
+// rotate as a weight does: the tool touches something. end: s, not before the last stand; unset: the last
+// stand.
 [[nodiscard]] WeightFit fit_weight(std::span<const WeightStand> stands, double end = kUnset);
 
 }  // namespace enc::models

@@ -1,5 +1,5 @@
 // Checks that a log of poses is what it claims. A wrong unit of time or a wrong convention of the pose may
-// leave no residual, so the checks use the limits of tools, trackers and hands.
+// leave no residual. So the checks use the limits of tools, trackers and hands.
 #pragma once
 
 #include <span>

@@ -1,12 +1,12 @@
 // Pivot calibration: the tip of a tool relative to its markers, from poses of a tool that is swung about its
-// tip. The tip p in T stays at one position c in C, so R p + t = c holds for each pose, which is linear in p
+// tip. The tip p in T stays at one position c in C. So R p + t = c holds for each pose, which is linear in p
 // and c.
 //
 // A constant error of t moves only c: a constant bias of the tracker does not reach the tip. An error of R
 // does more than scatter: least squares take it for rotation and place the tip too near to the markers, by
 // about 2 error^2 / swing^2 of its distance. So the equations of a pose are weighted with the rotation of its
-// neighbours in time, whose errors are independent (instrumental variables), if these rotate as the pose
-// does.
+// neighbours in time, if these rotate as the pose does. Their errors are independent (instrumental
+// variables).
 #pragma once
 
 #include <array>

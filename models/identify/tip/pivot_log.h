@@ -32,7 +32,7 @@ struct PivotLog {
 
 // True if columns of mm seem to hold metres: the tip is then within 5 mm of the markers' origin, and all
 // positions are within 20 mm of the tracker's, where it sees nothing. A tool with its origin at its tip, seen
-// in a frame with its origin at the dimple, looks alike, so this is a doubt and not an error.
+// in a frame with its origin at the dimple, looks alike. So this is a doubt and not an error.
 [[nodiscard]] bool looks_like_metres(const PivotLog& log, const PivotFit& fit);
 
 }  // namespace enc::models

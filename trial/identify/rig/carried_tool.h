@@ -1,5 +1,5 @@
-// A machine that carries a clamped tool from pose to pose, stands still at each, and reports the data of its
-// force sensor and the tracker there: in the twin or over real devices.
+// A machine that carries a clamped tool from pose to pose, stands still at each, and reports the data of
+// force sensor and tracker. It works in the twin or with real devices.
 #pragma once
 
 #include <cstddef>

@@ -9,23 +9,24 @@ namespace enc::trial::bounds {
 
 // Commands go out and poses come in once a cycle of 1 kHz: a smaller time is not visible.
 inline constexpr double kMachineTime = 1.0e-3;  // s
-// The twin has no protocol. If the driver sends set-points in its own cycles, one waits for up to a cycle,
-// and the answer is requested up to half a cycle later. Share of each cycle:
+// The twin has no protocol. If the driver sends set-points in its own cycles, one waits for up to a cycle.
+// The answer is requested up to half a cycle later. Share of each cycle:
 inline constexpr double kMachineCycles = 1.5;
 // Commands are rounded to 3 um, a move ends within some 0.5 um rms, and the numbers of a protocol are rounded
 // to 0.1 um: 10 um on each axis covers the worst case of all. The same amount covers a machine that was
 // commanded elsewhere in between.
 inline constexpr double kMachinePlace = 20e-6;  // m
 // The larger of moving and standing error, beyond the lag, which is a time. A set-point taken a cycle earlier
-// or later than its neighbours is 50 um at 50 mm/s. Steps are 3 um, and a servo of 15 Hz that is 5 % off lags
-// 7 um more or less while it accelerates with 0.41 m/s^2.
+// or later than its neighbours is 50 um at 50 mm/s. Steps are 3 um. A servo of 15 Hz that is 5 % off lags 7
+// um more or less while it accelerates with 0.41 m/s^2.
 inline constexpr double kMachineRest = 50e-6;  // m rms
-// A pose scatters by 0.02 mm. Bias that rotates with the direction, and the line between two round tips with
-// sideways positions known to a few tenths, add up to 0.1 mm in a single stop. The bound is twice that.
+// A pose scatters by 0.02 mm. Two more errors add up to 0.1 mm in a single stop: bias that rotates with the
+// direction, and the line between two round tips with sideways positions known to a few tenths. The bound is
+// twice that.
 inline constexpr double kRegistration = 0.2e-3;  // m
 // Cameras at 120 Hz and a server at 100 Hz, each with a random start, wait for each other by 1/600 s more or
-// less, constant in a run: 0.83 ms to either side of the mean. A packet is noticed at the next cycle, 0.5 ms
-// to either side. Together 1.33 ms.
+// less. That is constant in a run: 0.83 ms to either side of the mean. A packet is noticed at the next cycle,
+// 0.5 ms to either side. Together 1.33 ms.
 inline constexpr double kToolLatency = 1.5e-3;  // s
 // Stamps are compared with the machine's pose, which is queried: it may be a cycle older than its own stamp,
 // and so may the clock that reads the stamps of a protocol.

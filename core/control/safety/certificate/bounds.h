@@ -60,7 +60,7 @@ constexpr auto words(Row::Side) { return enum_words("at", "below", "above"); }
 // min(2b/T, 2 f_c/step) [Abbott and Okamura 2005]; holds for a spring without delay and damper.
 [[nodiscard]] double quantised_stiffness(const SampledLoop& loop, const Steps& steps);
 // (b + B) / (T/2 + t_d) [Gil et al. 2004; Hulin et al. 2006]. It holds for B <= b and delays that are short
-// for the device, b (2 T + t_d)/m <= kShort, and is then within 5 % of the boundary
+// for the device, b (2 T + t_d)/m <= kShort. It is then within 5 % of the boundary
 // (docs/reference/stability.md).
 inline constexpr double kShort = 0.1;
 [[nodiscard]] double delayed_stiffness(const SampledLoop& loop, const Damper& damper);
@@ -79,8 +79,8 @@ struct Plane {
 [[nodiscard]] Plane plane_of(const SampledLoop& loop, const Steps& steps, const Asked& asked);
 
 // True if dry friction stops an oscillation of that amplitude (m). By its describing function, friction is
-// one more damper of 4 f_c / (pi w amplitude), where w is the frequency at which the loop rings. Assumes
-// sinusoidal motion without encoder steps.
+// one more damper of 4 f_c / (pi w amplitude). w is the frequency at which the loop rings. Assumes sinusoidal
+// motion without encoder steps.
 [[nodiscard]] bool friction_stops(const SampledLoop& loop, double friction, double stiffness, double damper,
                                   double amplitude);
 // Largest stiffness below which friction stops every oscillation of that amplitude, N/m: the lowest of the

@@ -8,8 +8,8 @@
 // there the law always has something to correct. An encoder reads the middle of its count.
 //
 // The simulation lasts 100 oscillations, as long as an overdamped loop takes to creep to rest, plus 40
-// delays, in quarters, but at most 100,000 periods. If these are fewer than 20 oscillations, a release that
-// has not diverged is `unknown`, unless the loop is linear: then the eigenvalues decide.
+// delays. It runs in quarters, for at most 100,000 periods. If these are fewer than 20 oscillations, a
+// release that has not diverged is `unknown`, unless the loop is linear: then the eigenvalues decide.
 #pragma once
 
 #include <cstdint>

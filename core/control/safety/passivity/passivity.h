@@ -5,7 +5,7 @@
 //   left <- min(left - f_{n-1} (x_n - x_{n-1}), stored_n)
 //   f_n  =  the largest part of the law's push that keeps  f (u + g f) <= left,   g = T^2 / (2 m)
 //
-// Observer: a force held over a period does exactly the work f_{n-1} (x_n - x_{n-1}), so the observer needs
+// Observer: a force held over a period does exactly the work f_{n-1} (x_n - x_{n-1}). So the observer needs
 // no model and sees everything inside the law (filter, rates, late readings). The law may give out the energy
 // that was put in, but never more than its spring holds now. Energy that its dampers took is gone and cannot
 // hide what the law gives out later (reference energy following [Ryu et al. 2005]).

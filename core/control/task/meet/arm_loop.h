@@ -1,6 +1,6 @@
 // The loop of an arm's tip as a certificate needs it (core/control/safety/certificate). It has the effective
-// mass, friction and encoder step of a tip that is pushed along a normal and otherwise free, its motion in
-// all directions, and the law there. Used at set-up.
+// mass, friction and encoder step of a tip that is pushed along a normal and otherwise free. It also has the
+// tip's motion in all directions, and the law there. Used at set-up.
 //
 //   qd = M^-1 J^T n m,  m = 1 / (n^T J M^-1 J^T n)      joint rates for each m/s of the tip along n
 //   b = qd^T D qd,  f_c = sum of |qd_i| c_i             viscous damping and dry friction

@@ -2,8 +2,8 @@
 // machine's limits. Internal to the core.
 //
 // It observes the tip relative to the law's target, along the mean normal of two ticks. So the motion of a
-// target neither adds nor takes energy, whether an object carries the target, it follows its path or it runs
-// over a round object. The same holds for a normal that turns under a sliding tip.
+// target neither adds nor takes energy: an object may carry the target, or it follows its path or runs over a
+// round object. The same holds for a normal that turns under a sliding tip.
 #pragma once
 
 #include "core/control/stages/walk.h"

@@ -1,6 +1,6 @@
 // The hue of a pixel in exact integers: 0 to 1535 once around the circle, 256 to each of its six sextants,
-// with red at 0, yellow at 256, green at 512, blue at 1024. Within a sextant it is floor(256 d / chroma),
-// where chroma = most - least of R, G, B, and d is the distance of the middle one from the sextant's start.
+// with red at 0, yellow at 256, green at 512, blue at 1024. Within a sextant it is floor(256 d / chroma).
+// chroma = most - least of R, G, B; d is the distance of the middle one from the sextant's start.
 //
 // If the chroma or the brightest channel is below HueRule, the hue is that of the noise: the pixel has no
 // hue. It is then in no bin of hue, and not skin by itself (hueless.h). [VisHap 2.1.1] has no rule for it.
