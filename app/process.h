@@ -16,7 +16,7 @@ void check_output();
 
 // True if standard input is a terminal, and its user types for this process.
 [[nodiscard]] bool reads_terminal();
-// Shows progress on a line of standard error, if that is a terminal; text that it does not take at once is
+// Shows progress on a line of standard error, which must be a terminal; text that it does not take at once is
 // dropped.
 void show_progress(double share);
 void clear_progress();
