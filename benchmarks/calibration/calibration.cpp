@@ -11,7 +11,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "benchmarks/tracking/tracking_trial.h"
+#include "benchmarks/tracking/table1.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"

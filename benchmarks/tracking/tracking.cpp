@@ -1,6 +1,6 @@
 // Table 1, Fig 6 [VHMR 4.1]: the machine carries a clamped tool past the tracker. Three questions: what does
-// the twin print in that table; what do the columns at rest and at 20 mm/s alone say about 40 mm/s; and on
-// which side of the lag is the registration's bias?
+// the twin print in that table (table1.cpp); what do the columns at rest and at 20 mm/s alone say about 40
+// mm/s; and on which side of the lag is the registration's bias?
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,107 +14,12 @@
 #include "benchmarks/tracking/prediction_rows.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_plots.h"
-#include "benchmarks/tracking/tracking_trial.h"
 #include "sim/plants/tracker_plant.h"
 
 namespace enc::bench::tracking {
 namespace {
 
 using Set = std::vector<std::string>;
-
-// Runs of one kind: every axis, several seeds.
-struct Group {
-  std::array<models::Setup, 3> setup;  // for each axis
-  std::vector<TravelErrors> seeds;
-  [[nodiscard]] TravelErrors all() const {
-    TravelErrors sum;
-    for (const TravelErrors& one : seeds) sum.add(one);
-    return sum;
-  }
-};
-
-// Settings of the benchmark come before the user's, so that the user's win.
-Group group_of(const BenchContext& context, const Set& own, std::size_t seeds) {
-  Group group;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Set set{fmt::format("travel.axes=\"{}\"", kTableAxes[axis])};
-    set.insert(set.end(), own.begin(), own.end());
-    group.setup[axis] = load_scene(context, "tracking", set);
-  }
-  group.seeds.resize(seeds);
-  return group;
-}
-
-void run_all(const std::vector<Group*>& groups, const BenchContext& context, double& simulated) {
-  struct Job {
-    Group* group;
-    std::size_t seed, axis;
-    TravelErrors errors;
-  };
-  std::vector<Job> jobs;
-  for (Group* group : groups)
-    for (std::size_t seed = 0; seed < group->seeds.size(); ++seed)
-      for (std::size_t axis = 0; axis < 3; ++axis) jobs.push_back({group, seed, axis, {}});
-  const auto work = [&](std::size_t i) {
-    Job& job = jobs[i];
-    // Every axis has its own phase of tracker and server, as experiments one after another have.
-    job.errors =
-        run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
-  };
-  in_parallel(jobs.size(), work, context.progress);
-  for (const Job& job : jobs) {
-    job.group->seeds[job.seed].add(job.errors);
-    simulated += job.errors.simulated;
-  }
-}
-
-std::array<Cell, 4> moving_column(const TravelErrors& errors, BiasSide side) {
-  std::array<Cell, 4> column{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    ErrorSum sum;
-    if (side != BiasSide::adds) sum.add(errors.forward[a]);
-    if (side != BiasSide::opposes) sum.add(errors.back[a]);
-    const Errors e = sum.errors();
-    column[a] = {e.rmse, e.mae};
-  }
-  fill_norm(column);
-  return column;
-}
-
-std::array<Cell, 4> resting_column(const TravelErrors& errors) {
-  std::array<Cell, 4> column{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Errors e = errors.stopped[a].errors();
-    column[a] = {e.rmse, e.mae};
-  }
-  fill_norm(column);
-  return column;
-}
-
-Table1 table_of(const TravelErrors& slow, const TravelErrors& fast, BiasSide side) {
-  TravelErrors both = slow;
-  both.add(fast);
-  return {resting_column(both), moving_column(slow, side), moving_column(fast, side)};
-}
-
-// The twin's table, and the least and most over seeds.
-TwinTable twin_table(const Group& slow, const Group& fast, BiasSide side) {
-  TwinTable twin{table_of(slow.all(), fast.all(), side), {}, {}};
-  twin.least = twin.most = twin.table;
-  for (std::size_t i = 0; i < slow.seeds.size(); ++i) {
-    const Table1 one = table_of(slow.seeds[i], fast.seeds[i], side);
-    for (std::size_t s = 0; s < one.size(); ++s)
-      for (std::size_t a = 0; a < one[s].size(); ++a) {
-        const auto widen = [](double value, double& least, double& most) {
-          least = std::min(least, value);
-          most = std::max(most, value);
-        };
-        widen(one[s][a].rmse, twin.least[s][a].rmse, twin.most[s][a].rmse);
-        widen(one[s][a].mae, twin.least[s][a].mae, twin.most[s][a].mae);
-      }
-  }
-  return twin;
-}
 
 // What the theory says of a set-up: rig, truth and scene, whoever set them.
 Candidate theory_of(const models::Setup& setup) {
@@ -134,8 +39,6 @@ Set settings_of(const Candidate& c, const models::Setup& base) {
           fmt::format("truth.hexapod.acceleration_m_s2={}", most),
           fmt::format("rig.manipulator.acceleration_m_s2={}", most)};
 }
-
-void append(Set& set, const Set& more) { set.insert(set.end(), more.begin(), more.end()); }
 
 // Everything zero that Table 1 is made of. What remains is rounding.
 double exact_error(const BenchContext& context, double& simulated) {
@@ -176,44 +79,16 @@ struct Experiment {
   Group later, crawl;                // 40 mm/s with 5 ms more; 5 mm/s
 };
 
-void add_table_figures(BenchResult& result, const Table1& paper, const TwinTable& twin,
-                       const Table1& theory) {
-  const auto add = [&](const char* statistic, std::size_t s, std::size_t a, double Cell::*what) {
-    const double share = a == 3 ? 0.06 : s == 2 ? 0.13 : 0.12;
-    const double value = paper[s][a].*what * 1e3;
-    Figure f{fmt::format("tracking.{}.{}.{}", statistic, kTableAxes[a], kTableSpeeds[s]),
-             value,
-             twin.table[s][a].*what * 1e3,
-             "mm",
-             Role::calibrated,
-             (1.0 - share) * value,
-             (1.0 + share) * value,
-             fmt::format("theory {:.4f} mm", theory[s][a].*what * 1e3)};
-    if (s == 0 && a == 3 && what == &Cell::mae) {
-      f.low = f.high = kUnset;
-      f.note += fmt::format("; no target: the paper's norm does not follow from its components, {:.4f} mm",
-                            1e3 * std::hypot(paper[0][0].mae, paper[0][1].mae, paper[0][2].mae));
-    }
-    f.least = twin.least[s][a].*what * 1e3;
-    f.most = twin.most[s][a].*what * 1e3;
-    result.figures.push_back(std::move(f));
-  };
-  for (std::size_t s = 0; s < paper.size(); ++s)
-    for (std::size_t a = 0; a < 4; ++a) {
-      add("rmse", s, a, &Cell::rmse);
-      add("mae", s, a, &Cell::mae);
-    }
-}
-
 // Row 1: nothing of column 40 was used.
 void add_prediction_figures(BenchResult& result, const Table1& paper, const Predicted40& prediction) {
   int inside = 0;
-  const auto add = [&](const char* statistic, std::size_t a, double Cell::*what) {
+  const auto add = [&](const Statistic& statistic, std::size_t a) {
+    const auto what = statistic.what;
     const double value = paper[2][a].*what;
     const double low = prediction.low[2][a].*what;
     const double high = prediction.high[2][a].*what;
     inside += value >= low && value <= high ? 1 : 0;
-    Figure f{fmt::format("tracking.from_20.{}.{}.40", statistic, kTableAxes[a]),
+    Figure f{fmt::format("tracking.from_20.{}.{}.40", statistic.id, kTableAxes[a]),
              value * 1e3,
              prediction.median[2][a].*what * 1e3,
              "mm",
@@ -225,17 +100,15 @@ void add_prediction_figures(BenchResult& result, const Table1& paper, const Pred
     f.most = high * 1e3;
     result.figures.push_back(std::move(f));
   };
-  for (std::size_t a = 0; a < 4; ++a) {
-    add("rmse", a, &Cell::rmse);
-    add("mae", a, &Cell::mae);
-  }
+  for (std::size_t a = 0; a < kTableAxes.size(); ++a)
+    for (const Statistic& statistic : kStatistics) add(statistic, a);
   result.figures.push_back({"tracking.from_20.inside.40", kUnset, static_cast<double>(inside), "of 8",
                             Role::predicted, 8.0, kUnset, "the paper's figures in the 90 % interval"});
 }
 
-double norm_rmse(const TravelErrors& errors) { return moving_column(errors, BiasSide::opposes)[3].rmse; }
+double norm_rmse(const TravelErrors& errors) { return moving_column(errors)[3].rmse; }
 
-void add_check_figures(BenchResult& result, const Experiment& runs, const TwinTable& twin,
+void add_check_figures(BenchResult& result, const Experiment& runs, const SpannedTable& twin,
                        const Candidate& theory, double exact) {
   constexpr double kMore = 5e-3;  // s
   const double gain = norm_rmse(runs.later.all()) - twin.table[2][3].rmse;
@@ -277,12 +150,8 @@ void run(Bench& bench) {
   BenchResult& result = bench.result;
   const Table1 paper = table1_of(Reference::load(context.models, "table1.csv"));
 
-  // Stops as long as it takes to tell them from moves; under --full as long as the paper's.
   const auto at = [&](int speed, const char* ways, const Set& more, std::size_t seeds) {
-    Set set{fmt::format("travel.speed_mm_s={}", speed), fmt::format("travel.ways=\"{}\"", ways),
-            fmt::format("travel.dwell_s={}", context.full ? "5" : "0.6")};
-    append(set, more);
-    return group_of(context, set, seeds);
+    return travels_at(context, speed, ways, more, seeds);
   };
   Experiment runs;
   runs.slow = at(20, "one_way", {}, sizes.seeds);
@@ -320,7 +189,7 @@ void run(Bench& bench) {
           context, result.simulated);
   const double exact = exact_error(context, result.simulated);
 
-  const TwinTable twin = twin_table(runs.slow, runs.fast, BiasSide::opposes);
+  const SpannedTable twin = twin_table(runs.slow, runs.fast, BiasSide::opposes);
   const Candidate theory = theory_of(base);
   add_table_figures(result, paper, twin, theory.table[0]);
   add_prediction_figures(result, paper, fits.prediction[0]);

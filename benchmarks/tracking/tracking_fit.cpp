@@ -70,20 +70,20 @@ double student(sim::Stream& random, int n) {
 
 }  // namespace
 
-Table1 table1_of(const Reference& reference) {
-  Table1 table{};
-  for (std::size_t s = 0; s < kTableSpeeds.size(); ++s)
-    for (std::size_t a = 0; a < kTableAxes.size(); ++a) {
-      const std::string speed = std::to_string(kTableSpeeds[s]);
-      const std::size_t row = reference.row({{"speed_mm_s", speed}, {"axis", kTableAxes[a]}});
-      table[s][a] = {reference.number(row, "rmse_mm") * 1e-3, reference.number(row, "mae_mm") * 1e-3};
-    }
-  return table;
+ChainSpec chain_of(const models::Setup& setup) {
+  const sim::TrackerTruth& t = setup.twin.tracker;
+  return {t.rate, t.server_rate, t.latency + t.process, t.udp_delay, 1.0 / setup.rig.loop.rate};
 }
 
-void fill_norm(std::array<Cell, 4>& column) {
-  column[3] = {std::hypot(column[0].rmse, column[1].rmse, column[2].rmse),
-               std::hypot(column[0].mae, column[1].mae, column[2].mae)};
+MovesSpec moves_of(const models::Setup& setup) {
+  const sim::HexapodTruth& machine = setup.twin.hexapod;
+  return {setup.scene.travel->stops,
+          setup.scene.travel->speed,
+          std::min(machine.acceleration, setup.rig.manipulator.acceleration),
+          machine.servo,
+          machine.damping,
+          machine.speed,
+          setup.twin.stepping(setup.scene).timestep};
 }
 
 std::array<AxisError, 3> axis_errors(const Table1& paper) {

@@ -6,20 +6,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "benchmarks/tracking/table1.h"
 #include "benchmarks/tracking/tracking_theory.h"
-#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench::tracking {
 
-// Table 1 in m: [0, 20, 40 mm/s][x, y, z, norm].
-inline constexpr std::array<int, 3> kTableSpeeds{0, 20, 40};  // mm/s
-inline constexpr std::array<const char*, 4> kTableAxes{"x", "y", "z", "norm"};
-struct Cell {
-  double rmse = 0.0, mae = 0.0;  // m
-};
-using Table1 = std::array<std::array<Cell, 4>, 3>;
-[[nodiscard]] Table1 table1_of(const Reference& reference);
-void fill_norm(std::array<Cell, 4>& column);  // quadrature of the three axes
+// What rig, truth and scene of a set-up say to the theory.
+[[nodiscard]] ChainSpec chain_of(const models::Setup& setup);
+[[nodiscard]] MovesSpec moves_of(const models::Setup& setup);
 
 struct AxisError {
   double bias = 0.0, noise = 0.0;  // m
@@ -27,11 +21,7 @@ struct AxisError {
 // Whose mean size and root mean square the column at rest prints.
 [[nodiscard]] std::array<AxisError, 3> axis_errors(const Table1& paper);
 
-// The two named hypotheses of sources/tracking 6, and a third reading: motion along + of W, or along -, or
-// both.
-enum class BiasSide : std::uint8_t { opposes, adds, both_ways };
-inline constexpr std::array<const char*, 3> kSides{"opposes", "adds", "both_ways"};
-[[nodiscard]] int way_of(BiasSide side);
+[[nodiscard]] int way_of(BiasSide side);  // 1: along + of W, -1: along -, 0: both
 
 struct Candidate {
   double fixed = 0.0, jitter = 0.0, acceleration = 0.0;  // s, s, m/s^2

@@ -11,33 +11,6 @@
 namespace enc::bench::tracking {
 namespace {
 
-std::string fine_mm(double metres) { return fmt::format("{:.4f}", metres * kMmPerM); }
-std::string percent(double ratio) { return fmt::format("{:+.1f}", (ratio - 1.0) * 100.0); }
-
-struct Statistic {
-  const char* name;
-  double Cell::*what;
-};
-constexpr std::array<Statistic, 2> kStatistics{{{"RMSE", &Cell::rmse}, {"MAE", &Cell::mae}}};
-
-Table table1(const Pictures& p) {
-  Table table{"tracking_table1",
-              "Table 1: calibrated on all columns",
-              {"speed (mm/s)", "axis", "statistic", "paper (mm)", "twin (mm)", "difference (%)", "least (mm)",
-               "most (mm)", "theory (mm)"},
-              {}};
-  for (std::size_t s = 0; s < p.paper.size(); ++s)
-    for (std::size_t a = 0; a < kTableAxes.size(); ++a)
-      for (const auto& [name, what] : kStatistics)
-        table.rows.push_back({fmt::format("{}", kTableSpeeds[s]), kTableAxes[a], name,
-                              fine_mm(p.paper[s][a].*what), fine_mm(p.twin.table[s][a].*what),
-                              percent(p.twin.table[s][a].*what / p.paper[s][a].*what),
-                              fine_mm(p.twin.least[s][a].*what), fine_mm(p.twin.most[s][a].*what),
-                              fine_mm(p.theory.table[0][s][a].*what)});
-  table.note = "Least and most: over seeds, which are the phases of the tracker's and the server's clocks.";
-  return table;
-}
-
 Table from_20(const Pictures& p) {
   Table table{"tracking_from_20",
               "40 mm/s predicted from the columns 0 and 20 mm/s alone",
@@ -46,7 +19,7 @@ Table from_20(const Pictures& p) {
               {}};
   const Predicted40& prediction = p.fits.prediction[0];
   for (std::size_t a = 0; a < kTableAxes.size(); ++a)
-    for (const auto& [name, what] : kStatistics) {
+    for (const auto& [name, id, what] : kStatistics) {
       const double value = p.paper[2][a].*what;
       const bool inside = value >= prediction.low[2][a].*what && value <= prediction.high[2][a].*what;
       table.rows.push_back({kTableAxes[a], name, fine_mm(value), fine_mm(prediction.median[2][a].*what),
@@ -99,49 +72,12 @@ Table directions(const Pictures& p) {
   constexpr std::array<const char*, 3> kMotions{"along + (opposes)", "along - (adds)", "both"};
   for (std::size_t side = 0; side < twins.size(); ++side)
     for (std::size_t s = 1; s < p.paper.size(); ++s)
-      for (const auto& [name, what] : kStatistics)
+      for (const auto& [name, id, what] : kStatistics)
         table.rows.push_back({kMotions[side], fmt::format("{}", kTableSpeeds[s]), name,
                               fine_mm(p.paper[s][3].*what), fine_mm((*twins[side])[s][3].*what),
                               fine_mm(p.theory.table[side][s][3].*what),
                               side == 1 ? fine_mm(p.twin_adds[s][3].*what) : ""});
   return table;
-}
-
-Plot table_plot(const Pictures& p, const Statistic& statistic) {
-  Plot plot{fmt::format("tracking_{}", statistic.name == std::string("RMSE") ? "rmse" : "mae"),
-            fmt::format("Table 1, {}", statistic.name),
-            "axis and speed, mm/s",
-            fmt::format("{} (mm)", statistic.name),
-            false,
-            false,
-            {}};
-  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
-  Series twin{"twin, calibrated on all columns", {}, {}, {}, {}, Mark::bars};
-  Series predicted{"from columns 0 and 20: median, 90 %", {}, {}, {}, {}, Mark::bars};
-  const Predicted40& prediction = p.fits.prediction[0];
-  for (std::size_t s = 0; s < p.paper.size(); ++s)
-    for (std::size_t a = 0; a < kTableAxes.size(); ++a) {
-      const double x = static_cast<double>(4 * s + a);
-      plot.x_names.push_back(fmt::format("{} {}", kTableAxes[a], kTableSpeeds[s]));
-      const auto put = [&](Series& series, double at, double value) {
-        series.x.push_back(at);
-        series.y.push_back(value * kMmPerM);
-      };
-      put(paper, x, p.paper[s][a].*statistic.what);
-      put(twin, x, p.twin.table[s][a].*statistic.what);
-      twin.low.push_back(p.twin.least[s][a].*statistic.what * kMmPerM);
-      twin.high.push_back(p.twin.most[s][a].*statistic.what * kMmPerM);
-      if (s < 2) continue;
-      put(predicted, x, prediction.median[s][a].*statistic.what);
-      predicted.low.push_back(prediction.low[s][a].*statistic.what * kMmPerM);
-      predicted.high.push_back(prediction.high[s][a].*statistic.what * kMmPerM);
-    }
-  plot.series = {twin, predicted, paper};
-  plot.caption =
-      "Blue: the twin, its interval spans the seeds. Orange is a prediction: nothing at 40 mm/s was used for "
-      "it; "
-      "the interval holds 90 % of what the other columns leave open.";
-  return plot;
 }
 
 // One move of the paper's, from 20 to 40 mm along x.
@@ -234,11 +170,14 @@ Plot predictive_plot(const Pictures& p) {
 }  // namespace
 
 void add_tables(BenchResult& result, const Pictures& pictures) {
-  result.tables = {table1(pictures), from_20(pictures), hypotheses(pictures), directions(pictures)};
+  result.tables = {table1_table(pictures.paper, pictures.twin, pictures.theory.table[0]), from_20(pictures),
+                   hypotheses(pictures), directions(pictures)};
 }
 
 void add_plots(BenchResult& result, const Pictures& pictures) {
-  for (const Statistic& statistic : kStatistics) result.plots.push_back(table_plot(pictures, statistic));
+  const Predicted40& p = pictures.fits.prediction[0];
+  for (const Statistic& statistic : kStatistics)
+    result.plots.push_back(table1_plot(statistic, pictures.paper, pictures.twin, {p.median, p.low, p.high}));
   result.plots.push_back(move_plot(pictures));
   result.plots.push_back(posterior_plot(pictures));
   result.plots.push_back(predictive_plot(pictures));

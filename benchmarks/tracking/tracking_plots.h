@@ -6,13 +6,8 @@
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "benchmarks/tracking/tracking_trial.h"
 
 namespace enc::bench::tracking {
-
-struct TwinTable {
-  Table1 table{}, least{}, most{};  // over seeds
-};
 
 // For each BiasSide.
 struct Fits {
@@ -22,8 +17,8 @@ struct Fits {
 
 struct Pictures {
   const Table1& paper;
-  const TwinTable& twin;    // the default rig, bias opposing
-  const Candidate& theory;  // of the default rig
+  const SpannedTable& twin;  // the default rig, bias opposing
+  const Candidate& theory;   // of the default rig
   const Fits& fits;
   const std::vector<Candidate>& open;
   Table1 twin_from_20, twin_adds;           // whole loop with the best chains of the two

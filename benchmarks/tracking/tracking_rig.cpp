@@ -10,8 +10,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/over_rig.h"
-#include "benchmarks/tracking/tracking_fit.h"
-#include "benchmarks/tracking/tracking_trial.h"
+#include "benchmarks/tracking/table1.h"
 #include "core/base/units.h"
 #include "trial/assemble/prepare.h"
 
@@ -67,17 +66,6 @@ void run_travels(Bench& bench, std::vector<RigTravel>& travels) {
   for (const RigTravel& travel : travels) bench.result.simulated += travel.twin.simulated;
 }
 
-// In m; unset where an axis was not travelled, or nothing was measured.
-std::array<Cell, 4> column_at(const TravelErrors& errors, bool moving) {
-  std::array<Cell, 4> column{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Errors e = (moving ? errors.forward : errors.stopped)[a].errors();
-    column[a] = {e.rmse, e.mae};
-  }
-  fill_norm(column);
-  return column;
-}
-
 // The axes that were travelled, and their norm where all were.
 std::vector<std::size_t> table_rows(const std::string& axes) {
   std::vector<std::size_t> rows;
@@ -101,21 +89,19 @@ void add_column(Bench& bench, int speed, const std::vector<std::size_t>& rows, c
   const Table1 paper = table1_of(Reference::load(bench.context.models, "table1.csv"));
   const auto s = static_cast<std::size_t>(std::find(kTableSpeeds.begin(), kTableSpeeds.end(), speed) -
                                           kTableSpeeds.begin());
-  const std::array<Cell, 4> measured = column_at(rig, speed > 0), simulated = column_at(twin, speed > 0);
+  const Column measured = speed > 0 ? moving_column(rig) : resting_column(rig);
+  const Column simulated = speed > 0 ? moving_column(twin) : resting_column(twin);
   // What the fakes stand for was chosen by this table; of a real rig nothing was.
   const Role role = bench.context.fakes ? Role::calibrated : Role::predicted;
   for (const std::size_t a : rows) {
-    const auto figure = [&](const char* statistic, double Cell::*what) {
-      bench.figure(fmt::format("rig.{}.{}.{}", statistic, kTableAxes[a], speed), measured[a].*what * kMmPerM,
-                   "mm", Paper{paper[s][a].*what * kMmPerM, role},
+    for (const auto& [name, id, what] : kStatistics)
+      bench.figure(fmt::format("rig.{}.{}.{}", id, kTableAxes[a], speed), measured[a].*what * kMmPerM, "mm",
+                   Paper{paper[s][a].*what * kMmPerM, role},
                    bounds_of(bench.context, simulated[a].*what * kMmPerM),
                    fmt::format("of the rig; twin without wires {:.4f} mm", simulated[a].*what * kMmPerM));
-    };
-    figure("rmse", &Cell::rmse);
-    figure("mae", &Cell::mae);
-    const auto text = [](double metres) { return fmt::format("{:.4f}", metres * kMmPerM); };
-    table.add(kTableAxes[a], speed, text(paper[s][a].rmse), text(measured[a].rmse), text(simulated[a].rmse),
-              text(paper[s][a].mae), text(measured[a].mae), text(simulated[a].mae));
+    table.add(kTableAxes[a], speed, fine_mm(paper[s][a].rmse), fine_mm(measured[a].rmse),
+              fine_mm(simulated[a].rmse), fine_mm(paper[s][a].mae), fine_mm(measured[a].mae),
+              fine_mm(simulated[a].mae));
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "benchmarks/indentation/indent_run.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "benchmarks/tracking/tracking_trial.h"
+#include "benchmarks/tracking/table1.h"
 #include "benchmarks/wires/parts.h"
 #include "benchmarks/wires/wired_trial.h"
 #include "core/base/units.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/tracking/tracking_fit.h"
+#include "benchmarks/tracking/table1.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
 

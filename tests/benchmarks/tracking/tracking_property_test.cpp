@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/tracking/table1.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "benchmarks/tracking/tracking_trial.h"
 #include "sim/plants/tracker_plant.h"
 #include "tests/support/built.h"
 
