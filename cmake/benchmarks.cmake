@@ -2,7 +2,7 @@
 file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true RELATIVE ${PROJECT_SOURCE_DIR} benchmarks/*)
 list(FILTER folders EXCLUDE REGEX "(peers|reference|\\.cpp)$")
 if(NOT TARGET enc_vision OR NOT PNG_FOUND)
-  list(FILTER folders EXCLUDE REGEX "/(staged|segmentation|fingertip|finger_tracking|registration_images|rendering|vishap)$")
+  list(FILTER folders EXCLUDE REGEX "/(staged|segmentation|fingertip|registration_images|rendering|vishap)$")
 endif()
 enc_library(enc_bench "${folders}" enc_trial enc_fit enc_wires nlohmann_json::nlohmann_json fmt::fmt)
 if(TARGET enc_vision AND PNG_FOUND)

@@ -8,6 +8,7 @@
 
 #include "benchmarks/fingertip/factors.h"
 #include "benchmarks/fingertip/outline.h"
+#include "benchmarks/fingertip/race.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
 #include "core/base/units.h"
@@ -270,6 +271,7 @@ void run(Bench& bench) {
     judge_depth(bench, rig, found);
     tell_steps(bench, cells);
     factors::tell(bench, module, skin);
+    race(bench, module, skin);
     if (!bench.context.quick) {
       like.seed = kNeverSeen + 500;
       const std::vector<Found> fresh = all_of(bench.each(all_widths(like, stages / 2), look_at));

@@ -1,15 +1,18 @@
 // What a fine mesh costs: from its file to the first tick, and in each tick after that.
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/yardstick.h"
-#include "benchmarks/recording/scratch_file.h"
+#include "core/base/error.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_write.h"
@@ -18,6 +21,28 @@
 
 namespace enc::bench::mesh {
 namespace {
+
+// A place for one file, in a folder of its own that goes with it.
+class ScratchFile {
+ public:
+  explicit ScratchFile(const char* name) {
+    std::string folder = (std::filesystem::temp_directory_path() / "encounter_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw Error(folder + ": this folder cannot be made; set TMPDIR");
+    folder_ = folder;
+    path_ = (folder_ / name).string();
+  }
+  ~ScratchFile() {
+    std::error_code none;
+    std::filesystem::remove_all(folder_, none);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::string path_;
+};
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -47,14 +47,11 @@ constexpr auto kExceptions = std::to_array<Longer>({
 // Still to be shortened. None is added.
 constexpr auto kToShorten = std::to_array<std::string_view>({
     "ablation.cpp: run",
-    "add_safety.cpp: add_safety",
     "block_fit.cpp: BlockFit::solve",
     "calibrate_camera.cpp: calibrate_arm",
     "calibrate_rig.cpp: calibrate_rig",
     "calibrate_tracker.cpp: remarks_text",
     "carried_tool.cpp: CarriedTool::stand",
-    "cycles.cpp: add_cycles",
-    "cycles.cpp: with_cycle",
     "deformation_full.cpp: add_convergence",
     "device_removal.cpp: measure",
     "extremes_cost.cpp: add_error_over_time",
@@ -92,7 +89,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "registration.cpp: run",
     "registration.cpp: table_of_doubts",
     "registration_images.cpp: table_of_doubts",
-    "safety.cpp: react",
     "session.cpp: add_training",
     "shadow.cpp: meaning_of",
     "soak.cpp: hours",

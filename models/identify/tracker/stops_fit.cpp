@@ -127,7 +127,7 @@ double fit_ceiling(const ResponseSpec& curves) {
   // A tremor of +-30 um at rest is felt as 60 um times the stiffness (sources/ball 6). The faster the force
   // may turn from pressing to releasing, the closer are the minor loops, and the stiffer is a tremor: a
   // passive force turns fastest at once. This share of the steepest press is the least at which the tennis
-  // ball's minor loops stay within 0.08 N (benchmark `response`).
+  // ball's minor loops stay within 0.08 N (tests/property/response_property_test.cpp).
   constexpr double kTremor = 1.65;
   double steepest = 0.0;
   for (int i = 0; i <= 1000; ++i) {

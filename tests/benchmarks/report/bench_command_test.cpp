@@ -212,7 +212,7 @@ TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
   const test::TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
   // None of its figures hangs on the processor's speed.
-  ASSERT_EQ(run_program({"bench", "response", "--quick", "--out", out}).code, 0);
+  ASSERT_EQ(run_program({"bench", "deformation", "--quick", "--out", out}).code, 0);
   const std::string before = bytes_of(folder.path() / "out" / "results.json");
   const Result r = run({"bash", "-c",
                         "set -m; \"$1\" bench press --repeats 1000000 --out \"$2\" & sleep 1; "

@@ -87,15 +87,15 @@ TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
   EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), true, models, left)),
               ElementsAre("press", "registration"));
   try {
-    (void)settable(chosen({"press", "nearest", "response.energy_stop"}), true, models, left);
+    (void)settable(chosen({"press", "nearest", "impact.peak"}), true, models, left);
     ADD_FAILURE() << "not refused";
   } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, response read no scene"));
+    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, impact read no scene"));
   }
   left.clear();
   const std::size_t kept = settable(chosen({}), false, models, left).size();
   EXPECT_EQ(kept + left.size(), benchmarks().size());
-  EXPECT_THAT(left, IsSupersetOf({"footprint", "nearest", "response"}));
+  EXPECT_THAT(left, IsSupersetOf({"footprint", "impact", "nearest"}));
 }
 
 // Over devices only what needs no truth can be measured; what was named is not passed over.

@@ -1,5 +1,5 @@
 // The scene of the tennis ball through the wires of the laboratory, in virtual time.
-#include "benchmarks/wires/wired_trial.h"
+#include "tests/benchmarks/wires/wired_trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/session/session_measure.h"
-#include "benchmarks/wires/settling.h"
 #include "hw_drivers/wires/tight_times.h"
+#include "tests/benchmarks/wires/settling.h"
 #include "tests/support/built.h"
 
 namespace enc::bench::wires {
 namespace {
 
-constexpr double kStands = 1e-4;  // m/s
 const std::string kTennisBall = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
 models::Setup fakes(std::vector<std::string> set = {}) {

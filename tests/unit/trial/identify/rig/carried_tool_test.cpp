@@ -238,7 +238,7 @@ TEST(CalibrationPoses, FitASmallerMachine) {
   EXPECT_GT(most, 1.5 * M_PI / 180.0);
 }
 
-// The rest is the benchmark's: bench calibration.
+// The rest: tests/benchmarks/tracking/calibration_test.cpp.
 TEST(MachineCalibration, FindsWhatTheRigDoesNotKnow) {
   models::Setup setup =
       clamped({"truth.frames.W_C.position_mm=[3, -896, 599]", "truth.force.turned_deg=[1, 1, -1.4]",

@@ -9,6 +9,8 @@
 
 namespace enc::bench::wires {
 
+inline constexpr double kStands = 1e-4;  // m/s: a machine that is slower stands
+
 // s until it stays slower than `stands` (m/s). At first it has this speed, and its last point is ahead, no
 // farther than it needs to brake: set-points that a machine can follow leave no other. Infinite: after 5 s it
 // still moves. Found by following the law for every such point: a servo whose acceleration is clipped passes

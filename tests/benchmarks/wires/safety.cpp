@@ -1,4 +1,4 @@
-#include "benchmarks/wires/safety.h"
+#include "tests/benchmarks/wires/safety.h"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/wires/settling.h"
 #include "hw_drivers/gcs/drive/settings.h"
 #include "hw_drivers/wires/tight_times.h"
 #include "models/setup/driver_table.h"
 #include "sim/plants/hexapod_plant.h"
+#include "tests/benchmarks/wires/settling.h"
 
 namespace enc::bench::wires {
 namespace {
@@ -122,7 +122,6 @@ const std::array kFaults{
 };
 
 constexpr int kInjured = 700, kCured = 500;  // ticks
-constexpr double kStands = 1e-4;             // m/s
 constexpr double kSlack = 1e-4;              // m: steps and noise of a tip that stands
 
 // s: the points that the controller still has when it hears nothing more, and the machine's dead time.

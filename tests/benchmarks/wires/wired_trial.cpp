@@ -1,4 +1,4 @@
-#include "benchmarks/wires/wired_trial.h"
+#include "tests/benchmarks/wires/wired_trial.h"
 
 #include <algorithm>
 #include <cmath>

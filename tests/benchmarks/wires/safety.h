@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/wires/wired_trial.h"
 #include "core/devices/mode.h"
+#include "tests/benchmarks/wires/wired_trial.h"
 
 namespace enc::bench::wires {
 
