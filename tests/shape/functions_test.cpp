@@ -52,7 +52,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "calibrate_rig.cpp: calibrate_rig",
     "calibrate_tracker.cpp: remarks_text",
     "carried_tool.cpp: CarriedTool::stand",
-    "deformation_full.cpp: add_convergence",
     "device_removal.cpp: measure",
     "extremes_cost.cpp: add_error_over_time",
     "extremes_cost.cpp: studies",

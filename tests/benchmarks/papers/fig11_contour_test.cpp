@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/report/plot.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
@@ -43,17 +42,6 @@ TEST(Fig11Contour, TheCommittedFileStartsOnTheProbe) {
       EXPECT_NEAR(contour.front()[1], 0.033 - fig11_depths()[d], 1e-9);
       EXPECT_NEAR(contour.back().norm(), 0.033, 3e-6);  // at the mount the normal is one-sided
     }
-}
-
-TEST(Fig11Contour, WhatIsWrittenIsRead) {
-  const std::vector<PressedShell> probe = press_fig11(0.010, {2, 1e-3});
-  std::vector<PressedShell> states = press_fig11(0.010, {4, 0.25e-3});
-  const Fig11Contours read =
-      parse_fig11(table_csv(fig11_table(states, press_fig11(kStylus, {4, 0.25e-3}), 0.0)), "x");
-  ASSERT_EQ(read.probe[2].size(), states[2].contour.size());
-  for (std::size_t i = 0; i < read.probe[2].size(); ++i)
-    EXPECT_LT((read.probe[2][i] - states[2].contour[i]).norm(), 1e-7);
-  EXPECT_GT(own_error(probe, read.probe), 0.0);
 }
 
 TEST(Fig11Contour, ADamagedFileIsRefusedInOneLine) {
