@@ -42,7 +42,7 @@ RunSpread spread_of(const std::vector<IndentRun>& runs, Reading reading) {
   return spread;
 }
 
-void add_cells(const IndentStudy& study, const IndentRuns& runs, BenchResult& result) {
+void add_cells(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
   const std::vector<Cell> recorded = cells_of(runs, Reading::recorded);
   const std::vector<Cell> sensor = cells_of(runs, Reading::sensor), truth = cells_of(runs, Reading::truth);
   Table table{
@@ -56,45 +56,26 @@ void add_cells(const IndentStudy& study, const IndentRuns& runs, BenchResult& re
     const PaperCell& paper = study.paper[i];
     const Cell& c = recorded[i];
     const std::string where = paper.indentation + "." + paper.way;
-    Figure rmse{"indentation.rmse." + where,
-                paper.rmse,
-                c.rmse,
-                "N",
-                paper.consistent ? Role::calibrated : Role::predicted,
-                paper.consistent ? 0.6 * paper.rmse : kUnset,
-                paper.consistent ? 1.6 * paper.rmse : kUnset,
-                paper.consistent ? "one press time for all cells is calibrated"
-                                 : "the paper's RMSE is below its MAE and cannot be right"};
-    rmse.least = c.least;
-    rmse.most = c.most;
-    result.figures.push_back(std::move(rmse));
-    result.figures.push_back({"indentation.mae." + where, paper.mae, c.mae, "N", Role::predicted, kUnset,
-                              kUnset, "the paper's MAE read as mean |e|"});
-    result.figures.push_back({"indentation.bias." + where, paper.mae, c.bias, "N", Role::predicted, kUnset,
-                              kUnset, "the paper's MAE read as |mean e|"});
+    const double printed = paper.consistent ? paper.rmse : kUnset;
+    bench.figure("rmse." + where, {c.rmse, c.least, c.most}, "N",
+                 {paper.rmse, paper.consistent ? Role::calibrated : Role::predicted},
+                 between(0.6 * printed, 1.6 * printed),
+                 paper.consistent ? "one press time for all cells is calibrated"
+                                  : "the paper's RMSE is below its MAE and cannot be right");
+    bench.figure("mae." + where, c.mae, "N", predicted(paper.mae), {}, "the paper's MAE read as mean |e|");
+    bench.figure("bias." + where, c.bias, "N", predicted(paper.mae), {}, "the paper's MAE read as |mean e|");
     for (const auto& [name, cell, note] :
          {std::tuple{"sensor", sensor[i], "the force sensor before the filter, at the recorded deflection"},
-          std::tuple{"truth", truth[i], "true contact force at the true deflection"}}) {
-      Figure f{fmt::format("indentation.{}.rmse.{}", name, where),
-               kUnset,
-               cell.rmse,
-               "N",
-               Role::ours,
-               kUnset,
-               kUnset,
-               note};
-      f.least = cell.least;
-      f.most = cell.most;
-      result.figures.push_back(std::move(f));
-    }
+          std::tuple{"truth", truth[i], "true contact force at the true deflection"}})
+      bench.figure(fmt::format("{}.rmse.{}", name, where), {cell.rmse, cell.least, cell.most}, "N", note);
     const auto n = [](double x) { return fmt::format("{:.4f}", x); };
-    table.rows.push_back({paper.indentation, paper.way, n(paper.rmse), n(c.rmse), n(paper.mae), n(c.mae),
-                          n(c.bias), n(sensor[i].rmse), n(truth[i].rmse)});
+    table.add(paper.indentation, paper.way, n(paper.rmse), n(c.rmse), n(paper.mae), n(c.mae), n(c.bias),
+              n(sensor[i].rmse), n(truth[i].rmse));
   }
-  result.tables.push_back(std::move(table));
+  bench.result.tables.push_back(std::move(table));
 }
 
-void add_single_figures(const IndentStudy& study, const IndentRuns& runs, BenchResult& result) {
+void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
   const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
   const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
   const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
@@ -109,49 +90,31 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, BenchR
     return spread_of({first, first + static_cast<std::ptrdiff_t>(group)}, reading);
   };
   const RunSpread first = of_group(0, Reading::recorded), sensor = of_group(0, Reading::sensor);
-  Figure repeatability{
-      "indentation.repeatability_N",
-      within,
-      first.most,
-      "N",
-      Role::predicted,
-      kUnset,
-      kUnset,
-      fmt::format(
-          "greatest difference of {} runs of A at equal deflection: median and span over {} such groups; "
-          "of the first at {:.2f} mm",
-          group, a.size() / group, first.at * 1e3)};
   std::vector<double> of_groups;
   for (std::size_t g = 0; (g + 1) * group <= a.size(); ++g)
     of_groups.push_back(of_group(g, Reading::recorded).most);
-  repeatability.twin = median(of_groups);
-  repeatability.least = *std::min_element(of_groups.begin(), of_groups.end());
-  repeatability.most = *std::max_element(of_groups.begin(), of_groups.end());
   const auto usual = std::count_if(of_groups.begin(), of_groups.end(), [&](double x) { return x <= within; });
-  result.figures.push_back(std::move(repeatability));
-  result.figures.push_back({"indentation.repeatability.within.percent", kUnset,
-                            100.0 * static_cast<double>(usual) / static_cast<double>(of_groups.size()), "%",
-                            Role::predicted, 25.0, kUnset,
-                            "of these groups, those whose runs lie within the paper's 0.2 N"});
-  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, sensor.most, "N", Role::ours,
-                            kUnset, kUnset, "the same of the force before the filter: tremor is in it"});
-  Figure peak{
-      "indentation.peak_N",
-      kUnset,
-      0.0,
-      "N",
-      Role::ours,
-      11,
-      13,
-      "A: true force when the true deflection first comes within 0.05 mm of 6 mm; 12 +- 1 N in Fig 8"};
-  peak.least = INFINITY;
-  peak.most = -INFINITY;
+  bench.figure(
+      "repeatability_N", median_of(of_groups), "N", predicted(within), {},
+      fmt::format(
+          "greatest difference of {} runs of A at equal deflection: median and span over {} such groups; "
+          "of the first at {:.2f} mm",
+          group, a.size() / group, first.at * 1e3));
+  bench.figure("repeatability.within.percent",
+               100.0 * static_cast<double>(usual) / static_cast<double>(of_groups.size()), "%",
+               predicted(kUnset), at_least(25.0),
+               "of these groups, those whose runs lie within the paper's 0.2 N");
+  bench.figure("sensor.repeatability_N", sensor.most, "N",
+               "the same of the force before the filter: tremor is in it");
+  Value peak{0.0, INFINITY, -INFINITY};
   for (const IndentRun& run : a) {
-    peak.twin += run.force_at_limit / static_cast<double>(a.size());
+    peak.middle += run.force_at_limit / static_cast<double>(a.size());
     peak.least = std::min(peak.least, run.force_at_limit);
     peak.most = std::max(peak.most, run.force_at_limit);
   }
-  result.figures.push_back(std::move(peak));
+  bench.figure(
+      "peak_N", peak, "N", between(11, 13),
+      "A: true force when the true deflection first comes within 0.05 mm of 6 mm; 12 +- 1 N in Fig 8");
   double over = -INFINITY;
   std::int32_t contacts = 0, presses = 0;
   for (const std::vector<IndentRun>& of : runs)
@@ -159,27 +122,24 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, BenchR
       over = std::max(over, run.greatest - run.limit);
       contacts += run.contacts;
       presses += 1;
-      result.simulated += run.simulated;
+      bench.result.simulated += run.simulated;
     }
-  result.figures.push_back({"indentation.overshoot_mm", kUnset, over * 1e3, "mm", Role::ours, kUnset, 0.05,
-                            "true deflection beyond the limit of 6 mm, the worst of all runs"});
-  result.figures.push_back({"indentation.contacts_per_press.ratio", kUnset,
-                            static_cast<double>(contacts) / static_cast<double>(presses), "", Role::ours, 1,
-                            1, "a press is one contact"});
+  bench.figure("overshoot_mm", over * 1e3, "mm", at_most(0.05),
+               "true deflection beyond the limit of 6 mm, the worst of all runs");
+  bench.figure("contacts_per_press.ratio", static_cast<double>(contacts) / static_cast<double>(presses), "",
+               exactly(1), "a press is one contact");
 }
 
-void add_energy_stop(const IndentStudy& study, BenchResult& result) {
+void add_energy_stop(const IndentStudy& study, Bench& bench) {
   for (std::size_t i = 0; i < (study.context.quick ? 1 : indentations().size()); ++i) {
     const models::Setup setup = with_reversal(
         indent_setup(study.context.models, indentations()[i], {}, study.context.set), Reversal::energy_stop);
     const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 1);
     for (const bool press : {true, false})
-      result.figures.push_back(
-          {fmt::format("indentation.energy_stop.rmse.{}.{}", indentations()[i].name,
-                       press ? "press" : "release"),
-           kUnset, cell_of(runs, Reading::recorded, press).rmse, "N", Role::ours, kUnset, kUnset,
-           "the other law: its blend from one curve to the other takes 1.5 mm of travel"});
-    for (const IndentRun& run : runs) result.simulated += run.simulated;
+      bench.figure(fmt::format("energy_stop.rmse.{}.{}", indentations()[i].name, press ? "press" : "release"),
+                   cell_of(runs, Reading::recorded, press).rmse, "N",
+                   "the other law: its blend from one curve to the other takes 1.5 mm of travel");
+    for (const IndentRun& run : runs) bench.result.simulated += run.simulated;
   }
 }
 
@@ -245,9 +205,9 @@ void run(Bench& bench) {
   };
   const IndentRuns runs = study.all({}, study.runs);
   tell(0.3);
-  add_cells(study, runs, result);
-  add_single_figures(study, runs, result);
-  add_energy_stop(study, result);
+  add_cells(study, runs, bench);
+  add_single_figures(study, runs, bench);
+  add_energy_stop(study, bench);
   tell(0.4);
   const std::vector<Cell> standard = cells_of(runs, Reading::recorded);
   add_table2_plot(study, standard, add_accuracy(study, standard, result), result);

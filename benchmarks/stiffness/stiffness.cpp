@@ -18,11 +18,11 @@ namespace enc::bench::stiffness {
 namespace {
 
 // What the text of the paper says about Fig 3.
-struct Paper {
+struct PaperText {
   double softest, stiffest, within_from, within;  // N/mm, N/mm, N/mm, %
   std::size_t repeats;
 };
-Paper paper_of(const std::string& models) {
+PaperText paper_of(const std::string& models) {
   const Reference text = Reference::load(models, "fig3.csv");
   const auto value = [&](const char* quantity) {
     return text.number(text.row({{"quantity", quantity}}), "value");
@@ -37,7 +37,7 @@ struct Extent {
   std::size_t repeats, presses;       // at each level; for the boundary
   std::vector<std::string> set;
 };
-Extent extent_of(const BenchContext& context, const Paper& paper) {
+Extent extent_of(const BenchContext& context, const PaperText& paper) {
   Extent e;
   e.levels = {0.03, 0.04, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 1, 2, 5, 10, 20, 50, 100, 200};
   e.below = {0.010, 0.013, 0.016, 0.020, 0.025};
@@ -54,7 +54,7 @@ Extent extent_of(const BenchContext& context, const Paper& paper) {
 
 std::string name_of(double stiffness) { return fmt::format("{:g}", stiffness / kNewtonPerMillimetre); }
 
-void add_error_figures(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
+void add_error_figures(const std::vector<Level>& levels, const PaperText& paper, Bench& bench) {
   struct Way {
     const char* name;
     double Push::*felt;
@@ -68,16 +68,14 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
       const bool bound =
           way.felt == &Push::measured && level.stiffness >= paper.within_from * kNewtonPerMillimetre * 0.999;
       const auto add = [&](const char* what, double value, double high) {
-        Figure f{fmt::format("stiffness.{}.{}.{}", way.name, name_of(level.stiffness), what),
-                 std::isfinite(high) ? paper.within : kUnset, value, "%",
-                 // The threshold was assumed such that the knee lies where the paper has it.
-                 !bound                                                               ? Role::ours
-                 : level.stiffness < paper.within_from * kNewtonPerMillimetre * 1.001 ? Role::calibrated
-                                                                                      : Role::predicted,
-                 kUnset, high, way.note};
-        f.least = s.least;
-        f.most = s.most;
-        result.figures.push_back(std::move(f));
+        // The threshold was assumed such that the knee lies where the paper has it.
+        const Role role = !bound ? Role::ours
+                          : level.stiffness < paper.within_from * kNewtonPerMillimetre * 1.001
+                              ? Role::calibrated
+                              : Role::predicted;
+        bench.figure(fmt::format("{}.{}.{}", way.name, name_of(level.stiffness), what),
+                     {value, s.least, s.most}, "%", {std::isfinite(high) ? paper.within : kUnset, role},
+                     at_most(high), way.note);
       };
       add("worst", s.worst(), bound ? paper.within : kUnset);
       add("mean", s.mean, kUnset);
@@ -87,60 +85,46 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
   }
 }
 
-void add_slope(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
+void add_slope(const std::vector<Level>& levels, const PaperText& paper, Bench& bench) {
   constexpr double kTolerance = 0.15;  // sources/twin 6
   const auto add = [&](const char* id, double Push::*felt, double tolerance, const char* note) {
     const double slope = error_slope(levels, felt, paper.softest * kNewtonPerMillimetre * 0.999,
                                      paper.within_from * kNewtonPerMillimetre * 1.001);
-    result.figures.push_back({id, kUnset, slope, "", Role::ours, -1.0 - tolerance, -1.0 + tolerance, note});
+    bench.figure(id, slope, "", between(-1.0 - tolerance, -1.0 + tolerance), note);
   };
-  add("stiffness.error.slope", &Push::measured, kTolerance,
+  add("error.slope", &Push::measured, kTolerance,
       "log-log, mean error over stiffness from 0.03 to 0.3 N/mm: -1 is an absolute force error over k times "
       "depth");
-  add("stiffness.load_error.slope", &Push::load, kUnset, "likewise, without the error of the force's zero");
+  add("load_error.slope", &Push::load, kUnset, "likewise, without the error of the force's zero");
 }
 
 // Force error gone, the error is gone. Near the boundary the tip never quite rests, so that takes a long hold
 // and the mean of the repetitions.
-void add_no_threshold(const BenchContext& context, const Extent& extent, BenchResult& result) {
+void add_no_threshold(const BenchContext& context, const Extent& extent, Bench& bench) {
   std::vector<std::string> variant = no_threshold_no_drift();
   if (!context.quick) variant.emplace_back("pusher.hold_s=30");
   const models::Setup setup = push_setup(context.models, extent.set, variant);
   const std::vector<double> stiffnesses =
       context.quick ? std::vector<double>{300, 1000} : std::vector<double>{30, 50, 100, 300, 2000};
-  Figure paper_way{
-      "stiffness.no_threshold_no_drift.error_percent.max", kUnset, 0.0, "%", Role::ours, kUnset, 0.05, ""};
-  Figure load{"stiffness.no_threshold_no_drift.load_error_percent.max",
-              kUnset,
-              0.0,
-              "%",
-              Role::ours,
-              kUnset,
-              0.05,
-              ""};
-  paper_way.least = load.least = INFINITY;
-  paper_way.most = load.most = -INFINITY;
-  const auto widen = [](Figure& f, const Spread& s) {
-    f.twin = std::max(f.twin, std::abs(s.mean));
-    f.least = std::min(f.least, s.least);
-    f.most = std::max(f.most, s.most);
+  Value paper_way{0.0, INFINITY, -INFINITY}, load = paper_way;
+  const auto widen = [](Value& f, const Spread& s) {
+    f = {std::max(f.middle, std::abs(s.mean)), std::min(f.least, s.least), std::max(f.most, s.most)};
   };
   for (const Level& level : levels_of(setup, stiffnesses, extent.repeats, context.seed + 500)) {
     widen(paper_way, spread(level, &Push::measured));
     widen(load, spread(level, &Push::load));
-    result.simulated += static_cast<double>(level.pushes.size()) * push_time(setup);
+    bench.result.simulated += static_cast<double>(level.pushes.size()) * push_time(setup);
   }
-  paper_way.note = load.note = fmt::format(
+  const std::string note = fmt::format(
       "mean of the repetitions, the worst from {} to {} N/mm; noise and steps of the readings stay. Above, "
-      "the "
-      "machine's 3 um step shows: up to 1 % of the deflection at 200 N/mm",
+      "the machine's 3 um step shows: up to 1 % of the deflection at 200 N/mm",
       name_of(stiffnesses.front()), name_of(stiffnesses.back()));
-  result.figures.push_back(std::move(paper_way));
-  result.figures.push_back(std::move(load));
+  bench.figure("no_threshold_no_drift.error_percent.max", paper_way, "%", at_most(0.05), note);
+  bench.figure("no_threshold_no_drift.load_error_percent.max", load, "%", at_most(0.05), note);
 }
 
-void add_boundary(const BenchContext& context, const Extent& extent, const Paper& paper,
-                  BenchResult& result) {
+void add_boundary(const BenchContext& context, const Extent& extent, const PaperText& paper, Bench& bench) {
+  BenchResult& result = bench.result;
   const models::Setup setup = push_setup(context.models, extent.set);
   constexpr double kShare = 22.0 / 24.0;  // sources/twin 6
   StabilityMap map(setup, context.seed + 1000, extent.presses, kShare);
@@ -149,28 +133,19 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   const double lowest = map.lowest_stable(paper.softest * kNewtonPerMillimetre);
   const std::string note =
       fmt::format("of {} seeded pushes; the pusher's stiffness was chosen for this", extent.presses);
-  result.figures.push_back(
-      {"stiffness.unstable.0.02.percent", 100.0, 100.0 * at_20, "%", Role::calibrated, 100, 100, note});
-  result.figures.push_back(
-      {"stiffness.unstable.0.035.percent", 0.0, 100.0 * at_35, "%", Role::calibrated, 0, 0, note});
-  Figure boundary{"stiffness.lowest_stable_N_per_mm",
-                  paper.softest,
-                  lowest / kNewtonPerMillimetre,
-                  "N/mm",
-                  Role::calibrated,
-                  0.026,
-                  0.034,
-                  "from here up 22 of 24 pushes come to rest; calibrated by the pusher's stiffness. "
-                  "Interval: from where all are unstable to where none is"};
+  bench.figure("unstable.0.02.percent", 100.0 * at_20, "%", calibrated(100.0), exactly(100), note);
+  bench.figure("unstable.0.035.percent", 100.0 * at_35, "%", calibrated(0.0), exactly(0), note);
+  Value boundary = lowest / kNewtonPerMillimetre;
   for (const auto& [point, ways] : map.seen()) {  // in rising order
     const double k = static_cast<double>(point) * map.grid();
     if (map.unstable_share(k) == 1.0) boundary.least = k / kNewtonPerMillimetre;
     if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kNewtonPerMillimetre;
   }
-  result.figures.push_back(std::move(boundary));
-  result.figures.push_back(
-      {"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kNewtonPerMillimetre, "N/mm", Role::ours,
-       kUnset, kUnset, "of the loop without limits of speed and acceleration (core/machine/loop_model.h)"});
+  bench.figure("lowest_stable_N_per_mm", boundary, "N/mm", calibrated(paper.softest), between(0.026, 0.034),
+               "from here up 22 of 24 pushes come to rest; calibrated by the pusher's stiffness. "
+               "Interval: from where all are unstable to where none is");
+  bench.figure("linear.lowest_stable_N_per_mm", linear / kNewtonPerMillimetre, "N/mm",
+               "of the loop without limits of speed and acceleration (core/machine/loop_model.h)");
   Plot plot{"stiffness_instability",
             "Which stiffness makes the machine unstable",
             "commanded stiffness, N/mm",
@@ -207,23 +182,21 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
 }
 
 // Small signals and a stiff pusher: there the linear theory has to hold.
-void add_firm(const BenchContext& context, const Extent& extent, BenchResult& result) {
+void add_firm(const BenchContext& context, const Extent& extent, Bench& bench) {
   std::vector<std::string> variant = unlimited_acceleration();
   variant.emplace_back("truth.pusher.stiffness_N_per_mm=1");
   const models::Setup setup = push_setup(context.models, extent.set, variant);
   const double linear = lowest_stable_stiffness(pushed_loop(setup));
   StabilityMap map(setup, context.seed + 2000, context.quick ? 1 : 4, 1.0, context.quick ? 4.0 : 1.0);
   const double lowest = map.lowest_stable(linear);
-  result.figures.push_back({"stiffness.firm.lowest_stable_N_per_mm", kUnset, lowest / kNewtonPerMillimetre,
-                            "N/mm", Role::ours, kUnset, kUnset,
-                            "pusher of 1 N/mm, acceleration unlimited in core and machine"});
-  result.figures.push_back({"stiffness.firm.linear_N_per_mm", kUnset, linear / kNewtonPerMillimetre, "N/mm",
-                            Role::ours, kUnset, kUnset, "the linear loop's prediction of it"});
-  result.figures.push_back(
-      {"stiffness.firm.boundary_over_linear.ratio", kUnset, lowest / linear, "", Role::ours, 0.9, 1.1,
-       "dead time: the machine's 4 cycles, one of the command limiter, less half a cycle of "
-       "the sampled filter"});
-  result.simulated += map.simulated();
+  bench.figure("firm.lowest_stable_N_per_mm", lowest / kNewtonPerMillimetre, "N/mm",
+               "pusher of 1 N/mm, acceleration unlimited in core and machine");
+  bench.figure("firm.linear_N_per_mm", linear / kNewtonPerMillimetre, "N/mm",
+               "the linear loop's prediction of it");
+  bench.figure("firm.boundary_over_linear.ratio", lowest / linear, "", between(0.9, 1.1),
+               "dead time: the machine's 4 cycles, one of the command limiter, less half a cycle of "
+               "the sampled filter");
+  bench.result.simulated += map.simulated();
 }
 
 void add_motion_plot(const BenchContext& context, const Extent& extent, BenchResult& result) {
@@ -268,7 +241,7 @@ Series bars_of(const std::vector<Level>& levels, double Push::*felt, const char*
   return s;
 }
 
-void add_error_plots(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
+void add_error_plots(const std::vector<Level>& levels, const PaperText& paper, BenchResult& result) {
   Plot error{"stiffness_error",
              "Error of the rendered stiffness (VHMR Fig 3b)",
              "commanded stiffness, N/mm",
@@ -354,7 +327,7 @@ void run(Bench& bench) {
   BenchResult& result = bench.result;
   BenchContext context = given;
   context.seed = (given.seed - 1) * 10'000 + 1;  // each push has a seed of its own: seeds 1 and 2 share none
-  const Paper paper = paper_of(context.models);
+  const PaperText paper = paper_of(context.models);
   const Extent extent = extent_of(context, paper);
   const double share = context.full ? 0.3 : 1.0;  // of the bar
   const auto tell = [&](double done) {
@@ -368,13 +341,13 @@ void run(Bench& bench) {
                                            [&](double done) { tell(0.3 * share * done); });
   result.simulated += static_cast<double>(all.size() * extent.repeats) * push_time(setup);
   const std::vector<Level> levels(all.begin() + static_cast<std::ptrdiff_t>(extent.below.size()), all.end());
-  add_boundary(context, extent, paper, result);
+  add_boundary(context, extent, paper, bench);
   tell(0.7 * share);
-  add_slope(levels, paper, result);
-  add_no_threshold(context, extent, result);
+  add_slope(levels, paper, bench);
+  add_no_threshold(context, extent, bench);
   tell(0.8 * share);
-  add_firm(context, extent, result);
-  add_error_figures(levels, paper, result);
+  add_firm(context, extent, bench);
+  add_error_figures(levels, paper, bench);
   add_error_plots(all, paper, result);
   add_level_table(all, result);
   add_motion_plot(context, extent, result);

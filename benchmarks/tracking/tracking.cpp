@@ -80,35 +80,25 @@ struct Experiment {
 };
 
 // Row 1: nothing of column 40 was used.
-void add_prediction_figures(BenchResult& result, const Table1& paper, const Predicted40& prediction) {
+void add_prediction_figures(Bench& bench, const Table1& paper, const Predicted40& prediction) {
   int inside = 0;
-  const auto add = [&](const Statistic& statistic, std::size_t a) {
-    const auto what = statistic.what;
-    const double value = paper[2][a].*what;
-    const double low = prediction.low[2][a].*what;
-    const double high = prediction.high[2][a].*what;
-    inside += value >= low && value <= high ? 1 : 0;
-    Figure f{fmt::format("tracking.from_20.{}.{}.40", statistic.id, kTableAxes[a]),
-             value * 1e3,
-             prediction.median[2][a].*what * 1e3,
-             "mm",
-             Role::predicted,
-             kUnset,
-             kUnset,
-             "median and 90 % interval of what columns 0 and 20 leave open"};
-    f.least = low * 1e3;
-    f.most = high * 1e3;
-    result.figures.push_back(std::move(f));
-  };
   for (std::size_t a = 0; a < kTableAxes.size(); ++a)
-    for (const Statistic& statistic : kStatistics) add(statistic, a);
-  result.figures.push_back({"tracking.from_20.inside.40", kUnset, static_cast<double>(inside), "of 8",
-                            Role::predicted, 8.0, kUnset, "the paper's figures in the 90 % interval"});
+    for (const auto& [name, id, what] : kStatistics) {
+      const double value = paper[2][a].*what;
+      const Value span{prediction.median[2][a].*what, prediction.low[2][a].*what,
+                       prediction.high[2][a].*what};
+      inside += value >= span.least && value <= span.most ? 1 : 0;
+      bench.figure(fmt::format("from_20.{}.{}.40", id, kTableAxes[a]), span * 1e3, "mm",
+                   predicted(value * 1e3), {},
+                   "median and 90 % interval of what columns 0 and 20 leave open");
+    }
+  bench.figure("from_20.inside.40", inside, "of 8", predicted(kUnset), at_least(8.0),
+               "the paper's figures in the 90 % interval");
 }
 
 double norm_rmse(const TravelErrors& errors) { return moving_column(errors)[3].rmse; }
 
-void add_check_figures(BenchResult& result, const Experiment& runs, const SpannedTable& twin,
+void add_check_figures(Bench& bench, const Experiment& runs, const SpannedTable& twin,
                        const Candidate& theory, double exact) {
   constexpr double kMore = 5e-3;  // s
   const double gain = norm_rmse(runs.later.all()) - twin.table[2][3].rmse;
@@ -118,23 +108,18 @@ void add_check_figures(BenchResult& result, const Experiment& runs, const Spanne
     for (std::size_t a = 0; a < 4; ++a)
       off = std::max({off, std::abs(twin.table[s][a].rmse / theory.table[0][s][a].rmse - 1.0),
                       std::abs(twin.table[s][a].mae / theory.table[0][s][a].mae - 1.0)});
-  const auto ours = [&](const char* id, double value, const char* unit, double low, double high,
-                        std::string note) {
-    result.figures.push_back({id, kUnset, value, unit, Role::ours, low, high, std::move(note)});
-  };
-  ours("tracking.latency_gain.norm.40", gain / expected, "", 0.9, 1.1,
-       fmt::format("+5 ms latency: RMSE grows by {:.4f} mm per ms, by theory {:.4f}", gain / kMore,
-                   expected / kMore));
-  ours("tracking.theory.max", 100.0 * off, "%", kUnset, 5.0,
-       "largest difference of twin and theory in Table 1");
-  ours("tracking.exact.max", exact, "m", kUnset, 1e-9,
-       "no bias, noise, delay, sample wait and position step");
+  bench.figure("latency_gain.norm.40", gain / expected, "", between(0.9, 1.1),
+               fmt::format("+5 ms latency: RMSE grows by {:.4f} mm per ms, by theory {:.4f}", gain / kMore,
+                           expected / kMore));
+  bench.figure("theory.max", 100.0 * off, "%", at_most(5.0),
+               "largest difference of twin and theory in Table 1");
+  bench.figure("exact.max", exact, "m", at_most(1e-9),
+               "no bias, noise, delay, sample wait and position step");
   const double crawl = norm_rmse(runs.crawl.all());
-  result.figures.push_back({"tracking.rmse.norm.5", kUnset, crawl * 1e3, "mm", Role::predicted, kUnset,
-                            kUnset, "at 5 mm/s, which nobody has measured"});
-  result.figures.push_back({"tracking.rmse_over_static.norm.5", kUnset, crawl / twin.table[0][3].rmse, "",
-                            Role::predicted, kUnset, 1.0,
-                            "below 1 where the bias opposes the lag: the sharpest test of its side"});
+  bench.figure("rmse.norm.5", crawl * 1e3, "mm", predicted(kUnset), {},
+               "at 5 mm/s, which nobody has measured");
+  bench.figure("rmse_over_static.norm.5", crawl / twin.table[0][3].rmse, "", predicted(kUnset), at_most(1.0),
+               "below 1 where the bias opposes the lag: the sharpest test of its side");
 }
 
 models::Setup later(models::Setup setup) {
@@ -192,12 +177,12 @@ void run(Bench& bench) {
   const SpannedTable twin = twin_table(runs.slow, runs.fast, BiasSide::opposes);
   const Candidate theory = theory_of(base);
   add_table_figures(result, paper, twin, theory.table[0]);
-  add_prediction_figures(result, paper, fits.prediction[0]);
-  add_check_figures(result, runs, twin, theory, exact);
+  add_prediction_figures(bench, paper, fits.prediction[0]);
+  add_check_figures(bench, runs, twin, theory, exact);
   for (std::size_t side = 0; side < kSides.size(); ++side)
-    result.figures.push_back({fmt::format("tracking.misfit.{}.20", kSides[side]), kUnset,
-                              100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%", Role::ours,
-                              kUnset, kUnset, "rms of the six figures at 20 mm/s, best chain"});
+    bench.figure(fmt::format("misfit.{}.20", kSides[side]),
+                 100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%",
+                 "rms of the six figures at 20 mm/s, best chain");
 
   const Pictures pictures{paper,
                           twin,

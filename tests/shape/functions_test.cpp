@@ -70,7 +70,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "indent_accuracy.cpp: add_trade_off",
     "indent_plots.cpp: add_loops",
     "indent_press_time.cpp: add_sweep",
-    "indentation.cpp: add_cells",
     "indentation.cpp: add_single_figures",
     "indentation.cpp: run",
     "ledger.cpp: run",
