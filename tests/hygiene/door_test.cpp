@@ -21,7 +21,7 @@ std::string build_dir() { return fs::path(program_file()).parent_path().string()
 
 // The elementary functions of core/math come with the core, so a step has the same bits outside.
 TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string prefix = folder.file("prefix"), made = folder.file("made");
   const Result installed =
       run({"cmake", "--install", build_dir(), "--prefix", prefix, "--component", "core"}, {}, 120.0);
@@ -50,7 +50,7 @@ TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
 }
 
 TEST(Door, TheCoreConfiguresWithEigenAlone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<std::string> command{
       "cmake", "-S", source_dir(), "-B", folder.file("core"), "-DENCOUNTER_CORE_ONLY=ON"};
   for (const char* other : {"fmt", "tomlplusplus", "CLI11", "nlohmann_json", "pugixml", "TinyGLTF", "MuJoCo",
@@ -61,7 +61,7 @@ TEST(Door, TheCoreConfiguresWithEigenAlone) {
 }
 
 TEST(Door, TwinAndReplayRunInTheTree) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Result pressed = run({build_dir() + "/example_twin", shipped_scene("tennis_ball")}, kShipped);
   EXPECT_EQ(pressed.code, 0) << pressed.err;
   EXPECT_THAT(pressed.out, ContainsRegex("\n[0-9.]+,5\\.[0-9]+,1[01]\\.[0-9]+\n"))
