@@ -108,7 +108,6 @@ TEST_F(ShadowInput, SaysWhatOfARecordIsMissing) {
 TEST_F(ShadowInput, CalibrateAndFitSayHowACutRecordIsRead) {
   const std::string bytes = test::bytes_of(run_of("plane", {"--for-s", "0.5"}));
   write("cut.encrec", bytes.substr(0, bytes.size() / 2));
-  using Words = std::vector<std::string>;
   for (Words words : {Words{"calibrate", "tracker"}, Words{"calibrate", "tip"}, Words{"calibrate", "camera"},
                       Words{"fit"}}) {
     words.push_back(path("cut.encrec"));
