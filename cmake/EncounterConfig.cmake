@@ -1,7 +1,8 @@
 # find_package(Encounter): the haptic core, and modules for an installed program.
 #   Encounter::core                        a library with its headers: #include "core/control/step.h"
 #   encounter_driver(name sources...)      encounter_name.so, a driver that `driver = "name"` in a rig file loads.
-#                                          The program looks for it in bin/modules/, or where ENCOUNTER_MODULES says.
+#                                          Copy it to bin/modules/. Where ENCOUNTER_MODULES names a folder, the program
+#                                          looks for all drivers there.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)
 include(${CMAKE_CURRENT_LIST_DIR}/EncounterTargets.cmake)

@@ -18,7 +18,7 @@ target_include_directories(encounter_core INTERFACE $<BUILD_INTERFACE:${PROJECT_
 
 install(TARGETS encounter_core EXPORT EncounterTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
 install(EXPORT EncounterTargets NAMESPACE Encounter:: DESTINATION ${package_dir} COMPONENT core)
-install(DIRECTORY core DESTINATION include/encounter COMPONENT core FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY core DESTINATION include/encounter COMPONENT core FILES_MATCHING PATTERN "*.h" PATTERN "core/vision" EXCLUDE)
 install(FILES ${generated}/encounter_version.h ${border} DESTINATION include/encounter COMPONENT core)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/EncounterConfigVersion.cmake COMPATIBILITY ExactVersion)
 install(FILES cmake/EncounterConfig.cmake ${PROJECT_BINARY_DIR}/EncounterConfigVersion.cmake DESTINATION ${package_dir}

@@ -59,7 +59,7 @@ set(long_loops unit/core/control/safety/certificate/)
 set(slow ${draws} ${runs_scenes} ${long_loops})
 list(TRANSFORM slow PREPEND "/tests/")
 list(JOIN slow "|" slow)
-set(needs_vision "/tests/.*(/(vision|images)/|/(app|sim|trial)/camera/|camera_test)") # what is not built without it
+set(needs_vision "/tests/.*(/(vision|images)/|/(app|benchmarks|sim|trial)/camera/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
@@ -90,7 +90,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     list(FILTER sources EXCLUDE REGEX "/tests/.*/(calibrate/images|identify/stereo)/")
   endif()
   if(NOT TARGET enc_camera)
-    list(FILTER sources EXCLUDE REGEX "/tests/.*(/(app|sim|trial)/camera/|faulty_camera_test)")
+    list(FILTER sources EXCLUDE REGEX "/tests/.*(/(app|benchmarks|sim|trial)/camera/|faulty_camera_test)")
   endif()
   if(NOT sources)
     return()

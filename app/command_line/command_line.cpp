@@ -300,8 +300,13 @@ int command_line(int argc, char** argv) {
   CLI::App app("Encounter: a digital twin of encounter-type haptic displays", "encounter");
   app.set_version_flag("--version", trial::program_words());
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& e) {
-    return "encounter: " + enc::models::printable(e.what()) + "; see encounter --help\n";
+  app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
+    std::string command = "encounter";
+    for (const CLI::App* at = failed; !at->get_subcommands().empty();) {
+      at = at->get_subcommands().front();
+      command += " " + at->get_name();
+    }
+    return "encounter: " + enc::models::printable(e.what()) + "; see " + command + " --help\n";
   });
   try {
     return whole(answered(app, argc, argv));

@@ -355,7 +355,10 @@ class GltfReader {
     SurfaceMaterial material;
     for (std::size_t i = 0; i < 3; ++i)  // the file's are linear in light
       material.colour[i] = std::pow(share(colour[i]), 1.0F / 2.2F);
-    material.opacity = share(colour[3]);
+    // OPAQUE, the default, ignores the fourth number; MASK shows what is above its cut-off.
+    const tinygltf::Material& whole = model_.materials[static_cast<std::size_t>(most->first)];
+    if (whole.alphaMode == "BLEND") material.opacity = share(colour[3]);
+    if (whole.alphaMode == "MASK" && colour[3] < whole.alphaCutoff) return {};
     material.metallic = share(pbr.metallicFactor);
     material.roughness = share(pbr.roughnessFactor);
     return material;

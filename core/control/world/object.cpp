@@ -30,6 +30,9 @@ Mesh scaled_mesh(const ObjectSpec& spec) {
   for (auto& vertex : mesh.vertices)
     for (double& x : vertex) {
       x *= spec.scale;
+      if (!(std::abs(x) <= kFarthestVertex) && spec.shape == ShapeKind::box)
+        throw Error("this box reaches beyond 1000 km; expected less; make it smaller",
+                    "object." + spec.name + ".size");
       if (!(std::abs(x) <= kFarthestVertex))
         throw Error("with this scale the mesh reaches beyond 1000 km; expected less; make it smaller",
                     "object." + spec.name + ".scale");

@@ -240,7 +240,7 @@ TEST_F(MeshFiles, TheMaterialOfAGltfIsThatOfMostTriangles) {
   };
   const std::string both =
       "[{},{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0,0.25],\"metallicFactor\":0.5,"
-      "\"roughnessFactor\":0.75}}]";
+      "\"roughnessFactor\":0.75},\"alphaMode\":\"BLEND\"}]";
   const std::optional<SurfaceMaterial> second = with(both, 1);
   ASSERT_TRUE(second);
   EXPECT_FLOAT_EQ(second->colour[0], 1.0F);
@@ -249,6 +249,8 @@ TEST_F(MeshFiles, TheMaterialOfAGltfIsThatOfMostTriangles) {
   EXPECT_FLOAT_EQ(second->metallic, 0.5F);
   EXPECT_FLOAT_EQ(second->roughness, 0.75F);
   EXPECT_FLOAT_EQ(second->opacity, 0.25F);
+  const std::string opaque = "[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0,0,0]}}]";
+  EXPECT_FLOAT_EQ(with(opaque, 0)->opacity, 1.0F) << "OPAQUE, the default, ignores it";
   EXPECT_FALSE(with(both, 7)) << "a picture is no reason to refuse a mesh";
   EXPECT_FALSE(
       load_faces(file("b.gltf", gltf_json(data.size(), 5121, true, "[{\"mesh\":0}]", "data.bin"))).material);
