@@ -22,7 +22,7 @@ std::string build_dir() { return fs::path(program_file()).parent_path().string()
 
 // The elementary functions of core/math come with the core, so a step has the same bits outside.
 TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
-  if (!kCanTally) GTEST_SKIP() << "what is installed has no sanitizers";
+  if (!test::kCanTally) GTEST_SKIP() << "what is installed has no sanitizers";
   const test::TemporaryFolder folder;
   const std::string prefix = folder.file("prefix"), made = folder.file("made");
   const Result installed =
