@@ -54,7 +54,7 @@ void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
       "sees points");
   command->add_option("--out", options.out, "of a rig: CSV to write the points to")->check(unnamed);
   force_option(command, options.force);
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] {
     check_camera(options);
     code = fit_module().camera(options, module_for_pictures);

@@ -52,7 +52,7 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
   command->add_option("--out", options.out, "TOML to write, which the rig's [calibration] reads")
       ->check(unnamed);
   force_option(command, options.force);
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] { code = run_rig(options); });
 }
 

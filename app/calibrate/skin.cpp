@@ -17,7 +17,7 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
       ->check(unnamed);
   command->add_option("--out", options.out, "TOML to write, the lines of a rig's [vision]")->check(unnamed);
   force_option(command, options.force);
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] {
     check_folder(options.folder);
     code = calibration_module().skin(options);

@@ -15,7 +15,7 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
   command->add_option("--picture", options.picture, "PNG of rectified pairs to write")->check(unnamed);
   command->add_option("--out", options.out, "TOML to write, which a rig's [camera] reads")->check(unnamed);
   force_option(command, options.force);
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] {
     check_folder(options.folder);
     code = calibration_module().stereo(options);

@@ -14,7 +14,7 @@ void add_tip(CLI::App& calibrate, TipOptions& options, int& code) {
                    "CSV with time_s, tool_x_mm.., tool_qx.. or, as export writes, with time_s, "
                    "markers_x_mm.., markers_qx..; or a record of run")
       ->required();
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] { code = fit_module().tip(options); });
 }
 

@@ -15,7 +15,7 @@ void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
                    "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes, or a record of run")
       ->required();
   command->add_option("--rate-Hz", options.rate, "refuse logs with any other sample rate (Hz)");
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   command->callback([&] { code = fit_module().tracker(options); });
 }
 

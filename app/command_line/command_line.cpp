@@ -44,7 +44,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->add_option("--hand", options.hand,
                    "record of a view: the hand that was steered there moves, for as long as it did")
       ->check(unnamed);
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   device_options(command, options);
   force_option(command, options.force);
   return command;
@@ -228,7 +228,7 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
                    "results.json of a bench run: shows its figures beside the items")
       ->check(unnamed);
   command->add_flag("--date", options.date, "keep the date, too");
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   force_option(command, options.force);
   return command;
 }

@@ -78,7 +78,7 @@ CLI::App* add_shadow(CLI::App& app, ShadowOptions& options) {
   command->add_option("--set", options.set,
                       "override of the record's own set-up: the twin, e.g. truth.tracker.latency_ms=3.5");
   command->add_flag("--partial", options.partial, "what a cut-off record still holds");
-  command->add_flag("--json", options.json, "one JSON object instead of text");
+  json_option(command, options.json);
   return command;
 }
 

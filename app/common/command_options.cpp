@@ -23,6 +23,10 @@ void force_option(CLI::App* command, bool& force) {
   command->add_flag("--force", force, "replace files that are there");
 }
 
+void json_option(CLI::App* command, bool& json) {
+  command->add_flag("--json", json, "one JSON object instead of text");
+}
+
 void scene_options(CLI::App* command, SceneOptions& options) {
   command->add_option("scene", options.scene, "scene file, or the name of a shipped scene (encounter scenes)")
       ->required();

@@ -14,6 +14,7 @@ std::string bad_seed(const std::string& text);
 std::string unnamed(const std::string& text);
 
 void force_option(CLI::App* command, bool& force);
+void json_option(CLI::App* command, bool& json);
 // The options of a command that may move real devices: armed, lockstep, yes, not_real_time.
 template <class Options>
 void device_options(CLI::App* command, Options& options) {
