@@ -258,10 +258,8 @@ void name_objects(const Moment& m, sim::ViewRequest& request) {
   if (m.scene.objects.size() < 2) return;
   constexpr std::size_t kMostSigns = 4;  // more would cover each other
   for (std::size_t i = 0; i < m.scene.objects.size(); ++i) {
-    const Object& object = m.scene.objects[i];
     if (m.scene.objects.size() > kMostSigns && m.out.object != static_cast<std::int32_t>(i)) continue;
-    const Vec<'W'> shift = shift_of(object, moved_in(m.state));
-    request.signs.push_back({m.setup.scene.objects[i].name, object.X_WO.origin() + shift});
+    request.signs.push_back({m.setup.scene.objects[i].name, flank(m, i)});
   }
 }
 
@@ -301,7 +299,7 @@ sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_u
 
 sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up) {
   sim::ViewRequest request = depict(m, camera, close_up);
-  name_objects(m, request);
+  request.labels.clear();
   const char* gap = close_up ? "\n" : "     ";  // a close-up has the tool in its middle
   const std::string force = touching(m) ? fmt::format("{}{:.1f} N", gap, m.truth.contact_force.norm()) : "";
   request.title = fmt::format("{}{:.2f} s{}{}{}", close_up ? "" : m.setup.scene.title + "\n",

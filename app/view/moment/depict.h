@@ -13,7 +13,7 @@ namespace enc::app {
 // Replaces the labels, which would jump from frame to frame. With several objects, each has its name on it;
 // with more than four, only the object at the machine.
 void name_objects(const Moment& m, sim::ViewRequest& request);
-// A frame of a film: a line with time, mode and force, and name_objects().
+// A frame of a film: a line with time, mode and force.
 [[nodiscard]] sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up);
 
 // Sets the poses of a run in a request, with dynamic objects at their present places and the touched surface
