@@ -1,0 +1,19 @@
+# `cpack --config build/release/CPackConfig.cmake -B build` makes encounter_VERSION_amd64.deb of what install.cmake installs, with the
+# modules that are built by then. It goes to /opt/encounter, and /usr/bin/encounter leads there. Needs dpkg-dev.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME encounter)
+set(CPACK_PACKAGE_CONTACT "Encounter <encounter@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Digital twin of encounter-type haptic displays")
+set(CPACK_PACKAGE_FILE_NAME encounter_${PROJECT_VERSION}_amd64)
+set(CPACK_PACKAGING_INSTALL_PREFIX /opt/encounter)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${mujoco_folder}) # MuJoCo comes with us
+# Loaded only by who draws or plots.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libosmesa6, gnuplot-nox")
+file(CONFIGURE OUTPUT ${generated}/postinst CONTENT "#!/bin/sh\nset -e\nln -sf /opt/encounter/bin/encounter /usr/bin/encounter\n")
+file(CONFIGURE OUTPUT ${generated}/prerm CONTENT "#!/bin/sh\nset -e\nrm -f /usr/bin/encounter\n")
+file(CHMOD ${generated}/postinst ${generated}/prerm FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${generated}/postinst;${generated}/prerm")
+include(CPack)
