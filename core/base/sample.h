@@ -2,15 +2,19 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/frames.h"
-#include "core/base/joints.h"
 #include "core/base/time.h"
 #include "core/base/tip.h"
 #include "core/base/words.h"
 
 namespace enc {
+
+inline constexpr std::size_t kMostJoints = 3;
+// One number for each joint of an arm: rad or m, N m or N. Entries beyond the machine's joints are 0.
+using PerJoint = std::array<double, kMostJoints>;
 
 enum class Health : std::uint8_t { absent, ok, stale, saturated, out_of_range, fault };
 constexpr auto words(Health) {

@@ -1,7 +1,5 @@
 #include "core/control/step.h"
 
-#include "core/control/carry.h"
-#include "core/control/guide.h"
 #include "core/control/stages/walk.h"
 
 namespace enc {

@@ -1,8 +1,14 @@
-// The part that every device reports, whatever its role.
+// The devices of a rig: what each reports, whatever its role, and what each role adds.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "core/base/image.h"
+#include "core/base/sample.h"
+#include "core/devices/signals.h"
+#include "core/machine/hexapod.h"
+#include "core/spec/rendering_rig.h"
 
 namespace enc {
 
@@ -22,6 +28,83 @@ class Device {
   // Reasons for refused data, with counts; empty if the driver accepts all data. `devices` prints this when
   // it ends.
   [[nodiscard]] virtual std::string refused() const { return {}; }
+};
+
+// A position-controlled machine that carries the haptic-tip: the hexapod [VHMR 2].
+class Manipulator : public Device {
+ public:
+  [[nodiscard]] virtual Reach reach() const = 0;           // called once, before anything moves
+  virtual Stamped<TipSample> read(Time now) noexcept = 0;  // newest; never blocks
+  // Set-point for the coming period, computed from the last read().
+  virtual void command(const Pose<'R', 'H'>& X_RH) noexcept = 0;
+  // Brings the machine to rest where it is. The run calls this when it ends, however it ends, and maybe more
+  // than once; a command afterwards starts anew.
+  virtual void stop() noexcept = 0;
+};
+
+struct PropCommand {
+  double surface_speed = 0.0;  // object's surface against the prop, m/s
+  Vec<'R'> facing;             // commanded direction of the prop's front, unit; unset: keep it
+};
+
+// A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
+class HapticArm : public Device {
+ public:
+  [[nodiscard]] virtual ArmAbility ability() const = 0;    // called once, before anything moves
+  virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
+  // Commanded force of the tip on its surroundings, including gravity compensation; stays in force until the
+  // next command. The device converts it to joint torques (J^T F) and limits these to its motors.
+  virtual void command(const Vec<'R'>& force) noexcept = 0;
+  virtual void stop() noexcept = 0;  // Ends all force and stops every driven part; see Manipulator.
+  // Only for a prop with its own motors; other props do nothing.
+  virtual void move_prop([[maybe_unused]] const PropCommand& prop) noexcept {}
+};
+
+// A six-axis force/torque sensor between the machine and its haptic-tip [VHMR 2].
+class ForceSensor : public Device {
+ public:
+  // The newest sample; never blocks. It is raw: weight, inertia and zero error are still in it.
+  virtual Stamped<Wrench> read(Time now) noexcept = 0;
+};
+
+// Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
+class PoseTracker : public Device {
+ public:
+  // Returns true for a new pose; otherwise leaves `newest` alone.
+  virtual bool poll(Time now, Stamped<TrackedTool>& newest) noexcept = 0;
+};
+
+// A raw pair of equal size. The camera keeps its pixels until the next poll().
+struct StereoFrame {
+  ImageView left, right;
+};
+
+// Two cameras with the same view and the same exposure time [VisHap 2]. The loop never polls them: they
+// belong to the tracker that uses them.
+class StereoCamera : public Device {
+ public:
+  // Size of each image; empty if it is known only from a frame.
+  [[nodiscard]] virtual ImageSize size() const { return {}; }
+  // Returns true for a newer pair, stamped with its exposure time; otherwise leaves `newest` alone.
+  virtual bool poll(Time now, Stamped<StereoFrame>& newest) noexcept = 0;
+};
+
+// The headset or window that shows the scene to the user. It also reports, late, which deformed surface it
+// drew [VHMR 3.5].
+class Display : public Device {
+ public:
+  virtual void show(const View& view) noexcept = 0;  // newest only; never blocks
+  // Returns true if a new drawn surface came back.
+  virtual bool poll(Time now, Stamped<DentSample>& newest) noexcept = 0;
+};
+
+// A gripper between force sensor and tip that clamps a tool [VHMR 4.1].
+class Gripper : public Device {
+ public:
+  virtual Stamped<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
+  // Stays in force until the next command; the device limits the force to its range.
+  virtual void command(const Grip& grip) noexcept = 0;
+  virtual void stop() noexcept = 0;  // Keeps its grip and opens nothing; see Manipulator.
 };
 
 }  // namespace enc

@@ -5,13 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/devices/display.h"
-#include "core/devices/force_sensor.h"
-#include "core/devices/gripper.h"
-#include "core/devices/haptic_arm.h"
-#include "core/devices/manipulator.h"
-#include "core/devices/pose_tracker.h"
-#include "core/devices/stereo_camera.h"
+#include "core/devices/device.h"
 #include "core/spec/rig_spec.h"
 #include "core/spec/settings.h"
 

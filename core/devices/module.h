@@ -18,6 +18,12 @@ namespace enc {
 // another number, border or version, and never tries it.
 inline constexpr std::uint32_t kModuleInterface = 4;
 
+// Export of the images module besides playback: writing an image to a file.
+struct FrameFiles {
+  // The bytes of a PNG without loss of pixels. Throws Error.
+  std::string (*png)(const ImageView& image) = nullptr;
+};
+
 struct ModuleInfo {
   std::uint32_t interface = kModuleInterface;
   std::uint64_t border = ENCOUNTER_BORDER;  // hash of all declarations that cross (cmake/border.cmake)

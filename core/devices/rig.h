@@ -1,20 +1,35 @@
-// The devices of an experiment, one slot for each role of the loop. A slot is empty if the scene does not
-// need the device. Commands to the devices go through the gate (trial/gate.h).
+// The devices of an experiment, one slot for each role of the loop, and the clock that drives it.
 #pragma once
 
 #include <memory>
 
-#include "core/devices/clock.h"
-#include "core/devices/display.h"
-#include "core/devices/force_sensor.h"
-#include "core/devices/gripper.h"
-#include "core/devices/haptic_arm.h"
-#include "core/devices/manipulator.h"
-#include "core/devices/pose_tracker.h"
+#include "core/base/time.h"
+#include "core/devices/device.h"
 #include "core/devices/signals.h"
 
 namespace enc {
 
+// Lag of a wall-time clock, counted from one cycle on.
+struct Lateness {
+  std::int64_t times = 0;             // number of late ticks
+  double total = 0.0, longest = 0.0;  // s
+};
+
+// The clock drives the loop: a simulated clock advances its world by one period, a machine's clock waits for
+// the cycle.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual Tick next() = 0;
+  // Cycles without a tick since the last next(); the index of that tick is higher by this number. A lockstep
+  // clock is never late: 0.
+  [[nodiscard]] virtual std::int64_t missed() const noexcept { return 0; }
+  // Totals since the start.
+  [[nodiscard]] virtual Lateness lateness() const noexcept { return {}; }
+};
+
+// The devices of an experiment, one slot for each role of the loop. A slot is empty if the scene does not
+// need the device. Commands to the devices go through the gate (trial/gate.h).
 struct Rig {
   std::unique_ptr<Clock> clock;
   std::unique_ptr<Manipulator> manipulator;

@@ -3,11 +3,22 @@
 
 #include <cstdint>
 
+#include "core/base/frames.h"
 #include "core/base/sample.h"
+#include "core/base/time.h"
 #include "core/devices/mode.h"
-#include "core/devices/view.h"
 
 namespace enc {
+
+// What the display needs of a tick: the tools' poses and the mode.
+struct View {
+  Time t{};
+  std::int32_t tool = -1;    // index in the scene; -1: no tool seen
+  std::int32_t object = -1;  // nearest object; -1: no object
+  Pose<'W', 'T'> X_WT;       // the tool's markers, as tracked
+  Point<'W'> tip;            // centre of the tool's tip
+  Mode mode = Mode::away;
+};
 
 // The newest sample of each existing device; the others stay absent.
 struct Inputs {

@@ -2,16 +2,241 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "core/base/error.h"
-#include "core/machine/chain.h"
-#include "core/machine/phantom.h"
 
 namespace enc {
 namespace {
+
+// The PHANToM Premium in closed form: kinematics, statics [VisHap eq. 5] and mass matrix, after Cavusoglu,
+// Feygin and Tendick (2002). Angles, lengths and bodies are those of PhantomGeometry.
+namespace phantom {
+
+// How far from the turret's axis the tip is, m; negative where the arm leans over backwards.
+double reach(const PhantomGeometry& g, const PerJoint& q) {
+  return g.l1 * std::cos(q[1]) + g.l2 * std::sin(q[2]);
+}
+
+// The tip in R, m.
+Vec3 tip(const PhantomGeometry& g, const PerJoint& q) noexcept {
+  const double r = reach(g, q);
+  return {std::cos(q[0]) * r, std::sin(q[0]) * r, g.l1 * std::sin(q[1]) - g.l2 * std::cos(q[2])};
+}
+
+// d tip / d q
+Mat3 jacobian(const PhantomGeometry& g, const PerJoint& q) noexcept {
+  const double c1 = std::cos(q[0]), s1 = std::sin(q[0]);
+  const double c2 = std::cos(q[1]), s2 = std::sin(q[1]);
+  const double c3 = std::cos(q[2]), s3 = std::sin(q[2]);
+  const double r = g.l1 * c2 + g.l2 * s3;
+  Mat3 J;
+  J << -s1 * r, -g.l1 * c1 * s2, g.l2 * c1 * c3,  //
+      c1 * r, -g.l1 * s1 * s2, g.l2 * s1 * c3,    //
+      0.0, g.l1 * c2, g.l2 * s3;
+  return J;
+}
+
+// Joints that place the tip at p. Upper arm and forearm fold only one way, q2 - q3 in [-90, 90] deg. `ahead`
+// selects one of the two remaining turret angles: the one that faces p, or the one that leans over backwards
+// to it. Returns false if p is out of reach.
+bool inverse(const PhantomGeometry& g, const Vec3& p, bool ahead, PerJoint& q) noexcept {
+  const double side = ahead ? 1.0 : -1.0;
+  const double r = side * std::hypot(p.x(), p.y());
+  const double square = p.squaredNorm();
+  const double least = g.l1 - g.l2, most = g.l1 + g.l2;
+  const double slack = 1e-12 * most * most;  // what rounding may push out of a stretched arm's reach
+  if (!(square <= most * most + slack && square >= least * least - slack && square > slack)) return false;
+  const auto angle = [](double cosine) { return std::acos(std::fmin(1.0, std::fmax(-1.0, cosine))); };
+  const double straight = std::sqrt(square);
+  const double lift = (g.l1 * g.l1 + square - g.l2 * g.l2) / (2.0 * g.l1 * straight);
+  const double fold = (g.l1 * g.l1 + g.l2 * g.l2 - square) / (2.0 * g.l1 * g.l2);
+  const double q2 = std::remainder(angle(lift) + std::atan2(p.z(), r), 2.0 * M_PI);
+  q = {std::atan2(side * p.y(), side * p.x()), q2, q2 - M_PI / 2.0 + angle(fold)};
+  return true;
+}
+
+PerJoint gravity(const PhantomGeometry& g, const PerJoint& q, double payload, Payload form) noexcept {
+  // On its way to the tip the forearm's half counts; what hangs at the tip counts in full.
+  const double m_a = g.m_a + (form == Payload::published ? payload : 0.0);
+  const double at_tip = form == Payload::exact ? payload : 0.0;
+  const double second = (m_a + at_tip + 0.5 * g.m_c) * g.l1 + g.m_be * g.l5;
+  const double third = (0.5 * m_a + at_tip) * g.l2 + g.m_c * g.l3 - g.m_df * g.l6;
+  return {0.0, kStandardGravity * second * std::cos(q[1]), kStandardGravity * third * std::sin(q[2])};
+}
+
+// Excludes the rotors; the payload acts at the tip.
+Mat3 mass(const PhantomGeometry& g, const PerJoint& q, double payload) noexcept {
+  const double c2 = std::cos(q[1]), s2 = std::sin(q[1]);
+  const double c3 = std::cos(q[2]), s3 = std::sin(q[2]);
+  // Forearm and link c as if their masses were at their middles; be and df turn about the origin of R.
+  const double elbow = g.m_a + 0.25 * g.m_c;  // mass that moves as the elbow does
+  const double crank = 0.25 * g.m_a * g.l2 * g.l2 + g.m_c * g.l3 * g.l3;
+  const double both = 0.5 * g.l1 * (g.m_a * g.l2 + g.m_c * g.l3);  // couples upper arm and forearm
+  const double turning = g.I_base + elbow * g.l1 * g.l1 * c2 * c2 + crank * s3 * s3 + 2.0 * both * c2 * s3 +
+                         (g.I_be.y() + g.I_c.y()) * c2 * c2 + (g.I_be.z() + g.I_c.z()) * s2 * s2 +
+                         (g.I_a.y() + g.I_df.y()) * c3 * c3 + (g.I_a.z() + g.I_df.z()) * s3 * s3;
+  const double between = -both * std::sin(q[1] - q[2]);
+  Mat3 M;
+  M << turning, 0.0, 0.0,                                          //
+      0.0, g.I_be.x() + g.I_c.x() + elbow * g.l1 * g.l1, between,  //
+      0.0, between, g.I_a.x() + g.I_df.x() + crank;
+  const Mat3 J = jacobian(g, q);
+  return M + payload * J.transpose() * J;
+}
+
+}  // namespace phantom
+
+// A serial chain of hinges and slides (ChainLink): kinematics, statics and mass matrix of an arm that is not
+// a PHANToM. It reads ArmMachine::links; Arm ensures 1 to kMostJoints links with unit axes.
+namespace chain {
+
+// Poses of the links: each joint's place and axis, and the link's orientation behind it, in R.
+struct Placed {
+  std::array<Vec3, kMostJoints> joint, axis;
+  std::array<Mat3, kMostJoints> R;
+  std::size_t count = 0;
+
+  // Of a point that is fixed to link `last`.
+  [[nodiscard]] Vec3 point(std::size_t last, const Vec3& p) const { return joint[last] + R[last] * p; }
+};
+
+Placed place(const ArmMachine& machine, const PerJoint& q) {
+  Placed placed;
+  placed.count = std::min(machine.links.size(), kMostJoints);
+  Mat3 R = Mat3::Identity();
+  Vec3 at = Vec3::Zero();
+  for (std::size_t i = 0; i < placed.count; ++i) {
+    const ChainLink& link = machine.links[i];
+    at += R * link.origin;
+    placed.axis[i] = R * link.axis;
+    if (link.kind == JointKind::slide)
+      at += q[i] * placed.axis[i];
+    else
+      R *= Eigen::AngleAxisd(q[i], link.axis).toRotationMatrix();
+    placed.joint[i] = at;
+    placed.R[i] = R;
+  }
+  return placed;
+}
+
+// d p / d q of a point p of link `last`.
+Mat3 moves(const ArmMachine& machine, const Placed& placed, std::size_t last, const Vec3& p) {
+  Mat3 J = Mat3::Zero();
+  for (std::size_t i = 0; i <= last; ++i)
+    J.col(static_cast<int>(i)) = machine.links[i].kind == JointKind::slide
+                                     ? placed.axis[i]
+                                     : Vec3(placed.axis[i].cross(p - placed.joint[i]));
+  return J;
+}
+
+// d omega / d q of link `last`.
+Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
+  Mat3 J = Mat3::Zero();
+  for (std::size_t i = 0; i <= last; ++i)
+    if (machine.links[i].kind == JointKind::hinge) J.col(static_cast<int>(i)) = placed.axis[i];
+  return J;
+}
+
+// Levenberg-Marquardt whose damping is the squared distance [Sugihara 2011]: far away it is careful, near
+// the end it is Newton's. Kept within the limits.
+bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
+  constexpr double kThere = 1e-10;  // m
+  for (int step = 0; step < 60; ++step) {
+    const Placed placed = place(machine, q);
+    const Vec3 at = placed.point(placed.count - 1, machine.tip);
+    const Vec3 apart = p - at;
+    if (!std::isfinite(apart.squaredNorm())) return false;
+    if (apart.norm() < kThere) return true;
+    const Mat3 J = moves(machine, placed, placed.count - 1, at);
+    // A machine with fewer joints than ways goes to where it is nearest.
+    if (placed.count < kMostJoints && (J.transpose() * apart).norm() < 1e-2 * kThere) return true;
+    Mat3 gram = J.transpose() * J;
+    gram.diagonal().array() += apart.squaredNorm() + 1e-12;
+    const Vec3 change = gram.inverse() * (J.transpose() * apart);
+    for (std::size_t i = 0; i < placed.count; ++i)
+      q[i] = std::clamp(q[i] + change(static_cast<int>(i)), machine.drives[i].low, machine.drives[i].high);
+  }
+  return false;
+}
+
+// The tip in R, m.
+Vec3 tip(const ArmMachine& machine, const PerJoint& q) noexcept {
+  const Placed placed = place(machine, q);
+  return placed.point(placed.count - 1, machine.tip);
+}
+
+// d tip / d q
+Mat3 jacobian(const ArmMachine& machine, const PerJoint& q) noexcept {
+  const Placed placed = place(machine, q);
+  const std::size_t last = placed.count - 1;
+  return moves(machine, placed, last, placed.point(last, machine.tip));
+}
+
+// Joints within the drives' limits that place the tip within 1e-9 m of p. With fewer joints than directions,
+// they place the tip nearest to p, as far as the search finds it. The search starts from `q` and from
+// positions spread over the limits. Returns false and keeps q if no search ends within the limits. Takes at
+// most about 0.2 ms.
+bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept {
+  const std::size_t joints = std::min(machine.links.size(), kMostJoints);
+  // From where the caller is; then from the quarters of the limits, one for each way to fold. The nearest of
+  // what is found counts: a machine with few joints may end where it is only nearer than round about.
+  constexpr double kThere = 1e-9;  // m
+  double least = std::numeric_limits<double>::infinity();
+  PerJoint best = q;
+  for (std::size_t start = 0; start <= std::size_t{1} << joints && least > kThere; ++start) {
+    PerJoint trial = q;
+    for (std::size_t i = 0; i < joints; ++i) {
+      const ArmDrive& drive = machine.drives[i];
+      const double share = ((start - 1) >> i & 1U) != 0 ? 0.75 : 0.25;
+      const double from =
+          start == 0 && std::isfinite(q[i]) ? q[i] : drive.low + share * (drive.high - drive.low);
+      trial[i] = std::clamp(from, drive.low, drive.high);
+    }
+    if (!search(machine, p, trial)) continue;
+    const double apart = (tip(machine, trial) - p).norm();
+    if (apart >= least) continue;
+    least = apart;
+    best = trial;
+  }
+  if (!std::isfinite(least)) return false;
+  q = best;
+  return true;
+}
+
+// The payload acts at the tip.
+PerJoint gravity(const ArmMachine& machine, const PerJoint& q, double payload) noexcept {
+  const Placed placed = place(machine, q);
+  const std::size_t last = placed.count - 1;
+  // Each mass is lifted by d z / d q.
+  Vec3 torque = payload * moves(machine, placed, last, placed.point(last, machine.tip)).row(2).transpose();
+  for (std::size_t i = 0; i <= last; ++i) {
+    const ChainLink& link = machine.links[i];
+    torque += link.mass * moves(machine, placed, i, placed.point(i, link.centre)).row(2).transpose();
+  }
+  torque *= kStandardGravity;
+  return {torque.x(), torque.y(), torque.z()};
+}
+
+// Excludes the rotors.
+Mat3 mass(const ArmMachine& machine, const PerJoint& q, double payload) noexcept {
+  const Placed placed = place(machine, q);
+  const std::size_t last = placed.count - 1;
+  const Mat3 tip_moves = moves(machine, placed, last, placed.point(last, machine.tip));
+  Mat3 M = payload * tip_moves.transpose() * tip_moves;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const ChainLink& link = machine.links[i];
+    const Mat3 linear = moves(machine, placed, i, placed.point(i, link.centre));
+    const Mat3 angular = placed.R[i].transpose() * turns(machine, placed, i);  // in the link's axes
+    M += link.mass * linear.transpose() * linear + angular.transpose() * link.inertia.asDiagonal() * angular;
+  }
+  return M;
+}
+
+}  // namespace chain
 
 constexpr double kNear = 0.05;   // dexterity below which the inverse of eq. 4 is damped
 constexpr double kSlack = 1e-9;  // rad or m that rounding may put a joint beyond its limit

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/frames.h"
-#include "core/base/joints.h"
+#include "core/base/sample.h"
 #include "core/base/words.h"
 
 namespace enc {

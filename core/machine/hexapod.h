@@ -1,5 +1,5 @@
-// A six-strut parallel machine: geometry, inverse and forward kinematics, Jacobian. Geometry is data
-// (default: H-840).
+// A six-strut parallel machine: geometry, inverse and forward kinematics, Jacobian, and what it can do.
+// Geometry is data (default: H-840).
 #pragma once
 
 #include <array>
@@ -69,5 +69,42 @@ class Hexapod {
   double zero_length_ = 0.0;
   double least_upright_ = -1.0;  // cosine of the tilt limit
 };
+
+// The parts below the haptic-tip: bodies of revolution about H's z axis, each from its depth below H down to
+// the next one. A tool that comes from below meets them first.
+struct Mount {
+  double stem_radius = 0.0;                               // starts at H, m
+  double gripper_depth = kUnset, gripper_radius = 0.0;    // m
+  double platform_depth = kUnset, platform_radius = 0.0;  // m
+};
+
+struct Reach {
+  double speed = kUnset;         // tip speed, m/s [VHMR 2]
+  double acceleration = kUnset;  // tip acceleration, m/s^2
+  Hexapod machine{HexapodGeometry{}};
+  Mount mount{};
+
+  [[nodiscard]] bool contains(const Pose<'R', 'H'>& X_RH) const noexcept {
+    return machine.limit(X_RH) == ReachLimit::none;
+  }
+};
+
+// The farthest reachable pose on the straight path to the wanted one, for a device that limits its commands
+// so.
+[[nodiscard]] inline Pose<'R', 'H'> clamped(const Reach& reach, const Pose<'R', 'H'>& from,
+                                            const Pose<'R', 'H'>& wanted) noexcept {
+  if (reach.contains(wanted)) return wanted;
+  Pose<'R', 'H'> best = from;
+  double low = 0.0, high = 1.0;  // shares of the path
+  for (int i = 0; i < 30; ++i) {
+    const double share = 0.5 * (low + high);
+    const Pose<'R', 'H'> between(from.q().slerp(share, wanted.q()),
+                                 Vec3(from.p() + share * (wanted.p() - from.p())));
+    const bool reached = reach.contains(between);
+    if (reached) best = between;
+    (reached ? low : high) = share;
+  }
+  return best;
+}
 
 }  // namespace enc

@@ -36,8 +36,6 @@ double ratio(double z) {
 // What |x| >= 1 gives, for asin and acos: at = the value at |x| = 1.
 double at_the_end(double x, double at) { return std::fabs(x) == 1.0 ? at : (x - x) / (x - x); }
 
-}  // namespace
-
 double arc_tangent(double x) {
   constexpr Sum kAtan[] = {{4.63647609000806093515e-01, 2.26987774529616870924e-17},   // of 0.5
                            {7.85398163397448278999e-01, 3.06161699786838301793e-17},   // of 1
@@ -75,6 +73,8 @@ double arc_tangent(double x) {
   if (near < 0) return y - y * (s + t);
   return std::copysign(kAtan[near].hi - (y * (s + t) - kAtan[near].lo - y), x);
 }
+
+}  // namespace
 
 extern "C" {
 

@@ -1,4 +1,4 @@
-// Helpers of the elementary functions: a double as its bits, and a number as a sum of two.
+// Helpers of the elementary functions: a double as its bits, a number as a sum of two, and tables.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -21,19 +21,22 @@ struct Sum {
   double hi, lo;
 };
 
-// x = quadrant pi/2 + rest, |rest| <= pi/4; only the quadrant's last two bits matter.
-struct Reduced {
-  Sum rest;
-  unsigned quadrant;
+// Tables of exp, log and pow (tables.cpp: Copyright (c) 2018, Arm Limited, MIT). c is the middle of a piece
+// of [0.7, 1.4], chosen for small errors of its entries.
+
+// 2^(i/128): error of the nearest double, and that double's bits with i subtracted from the exponent.
+extern const std::uint64_t kExpTable[256];
+
+// 1/c, log(c), and c itself as two doubles.
+struct LogRow {
+  double inverse, log, c, c_tail;
 };
-Reduced reduce(double x);
+extern const LogRow kLogTable[128];
 
-// log(x) with 15 bits more than a double holds. Input: x's bits, with an exponent below zero if x is
-// subnormal.
-Sum long_log(std::uint64_t bits);
-
-// Functions that other functions here use.
-double exp_m1(double x);
-double arc_tangent(double x);
+// 1/c with few bits, log(c) as two doubles.
+struct PowRow {
+  double inverse, log, log_tail;
+};
+extern const PowRow kPowTable[128];
 
 }  // namespace enc::math

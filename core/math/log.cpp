@@ -15,7 +15,6 @@
 #include <limits>
 
 #include "core/math/bits.h"
-#include "core/math/tables.h"
 
 namespace enc::math {
 namespace {

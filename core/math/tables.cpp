@@ -3,7 +3,7 @@
 //
 // Copyright (c) 2018, Arm Limited.
 // SPDX-License-Identifier: MIT
-#include "core/math/tables.h"
+#include "core/math/bits.h"
 
 // clang-format off
 namespace enc::math {

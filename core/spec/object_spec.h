@@ -1,6 +1,8 @@
-// Objects of a scene and the behaviours that they name. Parts of the scene file (scene_spec.h); SI.
+// Objects of a scene, their looks, and the behaviours that they name. Parts of the scene file (scene_spec.h);
+// SI.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,9 +14,31 @@
 #include "core/shape/response/response.h"
 #include "core/shape/surface/mesh.h"
 #include "core/spec/interaction.h"
-#include "core/spec/surface_material.h"
 
 namespace enc {
+
+// The look of an object: one of a small library by name, or the material of a glTF file [VHMR 3.5]. Only
+// pictures use it.
+enum class MaterialName : std::uint8_t {
+  unnamed,  // the mesh file's material, else by shape
+  felt,
+  rubber,
+  plastic,
+  wood,
+  steel,
+  brass,
+  glass
+};
+constexpr auto words(MaterialName) {
+  return enum_words("unnamed", "felt", "rubber", "plastic", "wood", "steel", "brass", "glass");
+}
+
+// Values as in glTF 2.0, each from 0 to 1.
+struct SurfaceMaterial {
+  std::array<float, 3> colour{1, 1, 1};  // red, green, blue, in the screen's encoding
+  float metallic = 0.0F, roughness = 1.0F;
+  float opacity = 1.0F;
+};
 
 enum class ShapeKind : std::uint8_t { plane, sphere, mesh, button, box };
 constexpr auto words(ShapeKind) { return enum_words("plane", "sphere", "mesh", "button", "box"); }
@@ -55,7 +79,7 @@ struct ObjectSpec {
   std::string behaviour;                   // name; empty: a real thing, only for [probe]
   double limit = kUnset;                   // deflection limit, m; unset: the behaviour's
   // Alternative to `limit`, m: contact k of the experiment takes limit k; the last limit stays
-  // (contact_limits.h).
+  // (ContactLimits).
   std::vector<double> limits{};
   MaterialName material = MaterialName::unnamed;
 

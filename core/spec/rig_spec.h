@@ -10,13 +10,10 @@
 #include "core/base/frames.h"
 #include "core/base/words.h"
 #include "core/machine/hexapod.h"
-#include "core/spec/admittance_rig.h"
-#include "core/spec/arm_rig.h"
-#include "core/spec/display_rig.h"
+#include "core/spec/optics_rig.h"
+#include "core/spec/rendering_rig.h"
 #include "core/spec/settings.h"
-#include "core/spec/tracker_rig.h"
-#include "core/spec/vision/stereo_rig.h"
-#include "core/spec/vision/vision_rig.h"
+#include "core/spec/vision_rig.h"
 
 namespace enc {
 

@@ -1,6 +1,6 @@
 // A scene: the definition of the experiment. These structs are the file format (models/scenes/*.toml), with
 // its defaults; SI here, units in the file's keys. A device that the scene does not name is not built, not
-// ticked and gets no thread. Keys of a single task are a part of their own (probe_spec.h, travel_spec.h).
+// ticked and gets no thread. Keys of a single task are a part of their own (task_spec.h).
 #pragma once
 
 #include <array>
@@ -13,8 +13,7 @@
 #include "core/base/tip.h"
 #include "core/base/words.h"
 #include "core/spec/object_spec.h"
-#include "core/spec/probe_spec.h"
-#include "core/spec/travel_spec.h"
+#include "core/spec/task_spec.h"
 #include "core/spec/user_spec.h"
 
 namespace enc {

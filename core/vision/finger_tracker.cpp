@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/spec/vision/vision_check.h"
-#include "core/vision/finger/cap_match.h"
+#include "core/spec/vision_check.h"
+#include "core/vision/finger/cap.h"
 #include "core/vision/hand/hand_scene.h"
 
 namespace enc {

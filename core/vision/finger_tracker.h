@@ -2,13 +2,15 @@
 // fingertip, filter [VisHap 2.1].
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
+#include "core/base/frames.h"
+#include "core/base/time.h"
 #include "core/base/words.h"
-#include "core/devices/stereo_camera.h"
-#include "core/spec/vision/stereo_rig.h"
-#include "core/vision/finger/finger.h"
+#include "core/devices/device.h"
+#include "core/spec/optics_rig.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/finger/triplet_filter.h"
 #include "core/vision/hand/certainty.h"
@@ -16,6 +18,28 @@
 #include "core/vision/stereo/match.h"
 
 namespace enc {
+
+enum class FingerState : std::uint8_t {
+  learning,  // learning the background, at every start
+  away,      // no finger in view
+  seen,
+  // Not detected in this frame, but shortly before: the filter's prediction.
+  predicted,
+};
+
+// The fingertip of one frame, as vision measures it [VisHap 2.1.2].
+struct Finger {
+  FingerState state = FingerState::learning;
+  Time exposed{};
+  Point<'C'> tip;                            // centre of the fingertip's cap, m
+  Vec<'C'> velocity;                         // m/s
+  Mat3 covariance = Mat3::Constant(kUnset);  // covariance of the tip, m^2
+  // The tip from this frame alone, before the filter. Unset unless the state is seen.
+  Point<'C'> shown;
+  Mat3 shown_covariance = Mat3::Constant(kUnset);
+  double column = kUnset, row = kUnset, disparity = kUnset;  // px, in the rectified left image
+  double score = kUnset;                                     // share of skin in the circle, 0 to 1
+};
 
 // Reason for refusing a frame.
 enum class Refused : std::uint8_t { no, size, missing, stamp, exchanged };

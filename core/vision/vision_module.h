@@ -5,15 +5,27 @@
 #include <memory>
 #include <span>
 
-#include "core/devices/pose_tracker.h"
-#include "core/devices/stereo_camera.h"
-#include "core/spec/vision/stereo_rig.h"
-#include "core/spec/vision/vision_rig.h"
+#include "core/devices/device.h"
+#include "core/spec/optics_rig.h"
+#include "core/spec/vision_rig.h"
 #include "core/vision/augment/augmented_view.h"
 #include "core/vision/ball/ball_finder.h"
-#include "core/vision/seen_painter.h"
 
 namespace enc {
+
+struct SeenPair {
+  Image left, right;  // rectified
+};
+
+// The results of vision drawn into a pair of images: skin, candidates, fingertip [VisHap Figs 2 and 3].
+class SeenPainter {
+ public:
+  virtual ~SeenPainter() = default;
+  // `frame`: the tracker's last frame. The left image has a green tint on skin within the searched region,
+  // and yellow dots on candidates. The fingertip is a red circle, or a grey one if it is doubtful. The images
+  // are plain if the tracker is not from this module.
+  [[nodiscard]] virtual SeenPair draw(const StereoFrame& frame, const PoseTracker& tracker) const = 0;
+};
 
 // Time at which a position is released.
 enum class Release : std::uint8_t {

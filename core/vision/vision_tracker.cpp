@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/spec/vision/vision_check.h"
+#include "core/spec/vision_check.h"
 
 namespace enc {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "core/devices/pose_tracker.h"
+#include "core/devices/device.h"
 #include "core/vision/finger_tracker.h"
 #include "core/vision/vision_module.h"
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/control/safety/braking.h"
-
 namespace enc::stages {
 namespace {
 

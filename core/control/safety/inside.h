@@ -1,10 +1,41 @@
-// The set of tip positions with the whole tip inside an object: its centre is `margin` deep or deeper, from
-// every side. On a ball or a plane that is one wall; beside an edge or in a corner it is several, and the
-// nearest one changes with the path. Internal to the core.
+// Limits of a tip's motion: speeds from which it stops in time, and places with the whole tip inside an
+// object.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/frames.h"
 #include "core/control/world/common_scene.h"
 #include "core/control/world/object.h"
+
+namespace enc {
+
+// Speed limits of something that must stop in time.
+
+// Largest speed from which a machine still stops within `distance` (m), in steps of dt.
+[[nodiscard]] inline double braking_speed(double distance, double acceleration, double dt) {
+  const double unit = acceleration * dt;
+  return unit * (std::sqrt(0.25 + 2.0 * distance / (unit * dt)) - 0.5);
+}
+
+// Largest speed towards something `distance` (m) away from which a machine can still stop in front of it.
+[[nodiscard]] inline double approach_speed(double distance, double acceleration, double dt) {
+  return std::min(0.5 * distance / dt, braking_speed(distance, acceleration, dt));
+}
+
+// Straight displacement to standstill: one more tick at `velocity`, then braking.
+[[nodiscard]] inline Vec3 braking_way(const Vec3& velocity, double acceleration, double dt) {
+  return dt * velocity + velocity * (velocity.norm() / (2.0 * acceleration));
+}
+
+// The velocity with its magnitude reduced by `less`, not below zero.
+[[nodiscard]] inline Vec3 slowed(const Vec3& velocity, double less) {
+  const double size = velocity.norm();
+  return size > less ? Vec3(velocity * (1.0 - less / size)) : Vec3(Vec3::Zero());
+}
+
+}  // namespace enc
 
 namespace enc::stages {
 
@@ -16,6 +47,9 @@ struct Brake {
   double dt = 0.0;                         // s
 };
 
+// The set of tip positions with the whole tip inside an object: its centre is `margin` deep or deeper, from
+// every side. On a ball or a plane that is one wall; beside an edge or in a corner it is several, and the
+// nearest one changes with the path. Internal to the core.
 class Inside {
  public:
   // `shift`: displacement of an object that moves. `hint` as in surface.h; this class keeps it up to date.

@@ -1,5 +1,3 @@
-#include "core/control/scene/arm_scene.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,7 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
-#include "core/control/task/meet/arm_loop.h"
+#include "core/control/scene/scene.h"
+#include "core/control/task/meet/impedance.h"
 
 namespace enc {
 namespace {

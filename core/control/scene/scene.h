@@ -9,8 +9,8 @@
 #include "core/base/rotation.h"
 #include "core/control/task/tasks.h"
 #include "core/control/world/common_scene.h"
+#include "core/machine/hexapod.h"
 #include "core/machine/loop_model.h"
-#include "core/machine/reach.h"
 #include "core/spec/rig_spec.h"
 #include "core/spec/scene_spec.h"
 
@@ -41,6 +41,17 @@ struct Scene : CommonScene {
 // press out of reach, a response that is not monotone or too soft, a missing role.
 [[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
 
+// prepare() of machines that take a force and report a position. Throws Error: an object out of reach or near
+// a singular pose, a gain that is negative or under-damped, a missing role.
+[[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
+
+// Copies the parts that a scene of any machine takes unchanged from both files: frames, settings and the
+// tracker's pose.
+void keep_settings(const SceneSpec& spec, const RigSpec& rig, Scene& scene);
+
+// Damping ratio of a tip of `mass` (kg) under f = K_p e + K_v de/dt.
+[[nodiscard]] double damping_ratio(const ArmRig& rig, double mass);
+
 [[nodiscard]] Tool made_tool(const ToolSpec& spec);
 
 // The loop of hand, filter, machine and dead time, by the rig file (loop_model.h).
@@ -57,7 +68,7 @@ template <char A, char B>
 [[nodiscard]] const ToolSpec* clamped_tool(const SceneSpec& spec);
 
 // Largest residual of the chains of the frame graph [VHMR Fig 4], m (N, rad): tool, tip, force and objects
-// from the stages of a tick, against plain matrices of the same specs (chains.cpp).
+// from the stages of a tick, against plain matrices of the same specs.
 [[nodiscard]] double chain_residual(const SceneSpec& spec, const RigSpec& rig, const Scene& scene);
 // The surface point that the scene's user presses, with its outward normal, in W.
 struct PressPoint {

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <vector>
 
-#include "core/control/safety/braking.h"
+#include "core/control/safety/inside.h"
 #include "core/control/scene/scene.h"
 #include "core/control/stages/walk.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 #include "core/spec/rig_spec.h"
 
 namespace enc {

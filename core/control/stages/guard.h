@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "core/control/safety/braking.h"
 #include "core/control/safety/inside.h"
 #include "core/control/stages/displacing.h"
 #include "core/control/stages/walk.h"

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "core/control/stages/common_state.h"
-#include "core/control/stages/contact.h"
 #include "core/control/world/common_scene.h"
 #include "core/control/world/moving.h"
 #include "core/devices/signals.h"

@@ -3,9 +3,11 @@
 // core/spec.
 #pragma once
 
+#include <span>
 #include <type_traits>
 #include <variant>
 
+#include "core/control/stages/common_state.h"
 #include "core/control/task/carry/travel.h"
 #include "core/control/task/measure/probe.h"
 #include "core/control/task/push/push.h"
@@ -28,5 +30,52 @@ using Tasks = TaskList<Render,  // admittance rendering: the tip gives way under
                        >;
 
 static_assert(std::is_trivially_copyable_v<Tasks::Memory>);
+
+// The whole state of the core: the common part and the part of the scene's task.
+struct State : CommonState {
+  Tasks::Memory task;
+};
+static_assert(std::is_trivially_copyable_v<State>);
+
+// State of the scene's task; a default one for another task or before the first tick.
+template <class Memory>
+[[nodiscard]] const Memory& recall(const State& state) noexcept {
+  static const Memory kNothing{};
+  const Memory* found = std::visit(
+      [](const auto& memory) -> const Memory* {
+        if constexpr (std::is_base_of_v<Memory, std::remove_cvref_t<decltype(memory)>>)
+          return &memory;
+        else
+          return nullptr;
+      },
+      state.task);
+  return found != nullptr ? *found : kNothing;
+}
+
+// The present or last contact of a scene that renders a contact.
+[[nodiscard]] inline const Contact& contact_of(const State& state) noexcept {
+  const auto* rendering = std::get_if<Rendering>(&state.task);
+  return rendering != nullptr ? rendering->contact : recall<Meeting>(state).contact;
+}
+
+// State of the objects that move, in the order of Push::movers.
+[[nodiscard]] inline std::span<const Moved> moved_in(const State& state) noexcept {
+  const auto* pushing = std::get_if<Pushing>(&state.task);
+  return pushing != nullptr ? std::span<const Moved>(pushing->moved) : std::span<const Moved>();
+}
+
+// Bytes of State that a scene of this task uses.
+template <class Task>
+[[nodiscard]] constexpr std::size_t remembered() {
+  return sizeof(State) - sizeof(Tasks::Memory) + sizeof(typename Task::Memory);
+}
+
+template <class F>
+void fields(F&, std::monostate&) {}
+template <class F>
+void fields(F& f, State& s) {
+  fields(f, static_cast<CommonState&>(s));
+  std::visit([&f](auto& memory) { fields(f, memory); }, s.task);
+}
 
 }  // namespace enc

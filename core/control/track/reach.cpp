@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/control/track/minimum_jerk.h"
-
 namespace enc {
 namespace {
 

@@ -5,13 +5,25 @@
 // these reaches.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
 #include "core/base/frames.h"
-#include "core/spec/tracker_rig.h"
+#include "core/spec/optics_rig.h"
 
 namespace enc {
+
+// Minimum-jerk motion, as people move between two points: from 0 to 1 in unit time [Flash and Hogan 1985].
+struct MinimumJerk {
+  double x, v, a;  // position, velocity, acceleration
+  constexpr explicit MinimumJerk(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    x = s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+    v = 30.0 * s * s * (1.0 - s) * (1.0 - s);
+    a = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+  }
+};
 
 // A fingertip in one picture, m, in axes whose z is the surface's normal; z = 0 where the tip touches.
 struct Sighting {

@@ -8,7 +8,7 @@
 #include "core/base/frames.h"
 #include "core/base/tip.h"
 #include "core/control/world/object.h"
-#include "core/machine/reach.h"
+#include "core/machine/hexapod.h"
 #include "core/machine/servo.h"
 #include "core/spec/rig_spec.h"
 #include "core/spec/scene_spec.h"

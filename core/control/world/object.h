@@ -1,18 +1,45 @@
-// A prepared object of a scene: its surface, pose and response.
+// A prepared object of a scene: its surface, pose, response and deflection limits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/base/frames.h"
-#include "core/control/world/contact_limits.h"
 #include "core/shape/response/response.h"
 #include "core/shape/surface/surface.h"
 #include "core/spec/object_spec.h"
 
 namespace enc {
+
+// Deflection limits that change from contact to contact [VHMR 4.3: 6, 4 and 2 mm]: contact k of an experiment
+// takes limit k; the last limit stays.
+class ContactLimits {
+ public:
+  static constexpr std::size_t kMost = 16;
+
+  ContactLimits() = default;
+  // Uses the first kMost of `limits`, m. An empty list gives no contact a limit of its own.
+  explicit ContactLimits(std::span<const double> limits) : count_(std::min(limits.size(), kMost)) {
+    std::copy_n(limits.begin(), count_, limits_.begin());
+  }
+  // Limit of a contact, m, counted from 1 as State::contacts is; `otherwise` if the contact has no limit of
+  // its own.
+  [[nodiscard]] double at(std::int32_t contact, double otherwise) const {
+    if (count_ == 0) return otherwise;
+    const auto index = static_cast<std::size_t>(std::max(contact, 1) - 1);
+    return limits_[std::min(index, count_ - 1)];
+  }
+
+ private:
+  std::array<double, kMost> limits_{};
+  std::size_t count_ = 0;
+};
 
 struct Object {
   Surface surface;

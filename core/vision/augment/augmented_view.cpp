@@ -6,9 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/arm_shape.h"
-#include "core/vision/augment/clean_background.h"
-#include "core/vision/augment/facets.h"
-#include "core/vision/augment/part_mask.h"
+#include "core/vision/augment/view_parts.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
 

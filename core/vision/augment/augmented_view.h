@@ -9,8 +9,8 @@
 #include "core/base/image.h"
 #include "core/control/world/object.h"
 #include "core/machine/arm.h"
-#include "core/spec/vision/segmentation_spec.h"
-#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/optics_rig.h"
+#include "core/spec/vision_rig.h"
 
 namespace enc {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/spec/vision/vision_check.h"
+#include "core/spec/vision_check.h"
 
 namespace enc {
 namespace {

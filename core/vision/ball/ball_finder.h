@@ -7,10 +7,9 @@
 #include <cstdint>
 
 #include "core/base/words.h"
-#include "core/devices/stereo_camera.h"
-#include "core/vision/ball/blob.h"
+#include "core/devices/device.h"
 #include "core/vision/ball/outline.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/stereo/rectify.h"
 
 namespace enc {
 

@@ -1,16 +1,18 @@
 // Finds a fingertip in a mask of skin: steps 1 to 10 of the published pseudo-code, then a fit of the cap's
-// circle to the mask's edge [VisHap 2.1.2].
+// circle to the mask's edge [VisHap 2.1.2]; and where it may be in the right image.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/image.h"
 #include "core/base/words.h"
-#include "core/spec/vision/finger_spec.h"
-#include "core/vision/stereo/disparity_map.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/spec/vision_rig.h"
+#include "core/vision/stereo/match.h"
+#include "core/vision/stereo/rectify.h"
 
 namespace enc {
 
@@ -25,7 +27,7 @@ struct Fingertip {
   int x = -1, y = -1;                    // px, the chosen candidate
   double column = kUnset, row = kUnset;  // px, the tip's centre
   double radius = kUnset;                // px, r of step 3 at the candidate
-  // Seen by a virtual camera that looks straight at the tip, core/vision/finger/tangent.h:
+  // Seen by a virtual camera that looks straight at the tip (Tangent of cap.h):
   double outline = kUnset;              // px, radius of the fitted circle
   double along_x = 0.0, along_y = 0.0;  // unit vector, from the tip to the knuckle
   double score = kUnset;                // share of skin in the circle
@@ -91,5 +93,20 @@ class FingertipFinder {
   std::array<Candidate, kMost> tops_{};
   std::size_t top_count_ = 0;
 };
+
+// Disparities of the cap's middle, px.
+struct ShiftRange {
+  int least = 0, most = 0;
+};
+
+// Region of the right image that is compared.
+[[nodiscard]] Region opposite(const Fingertip& tip, const ShiftRange& range, const Region& image);
+// Possible positions of a fingertip in the right image, by its shape alone: the skin around the tip of the
+// left image is shifted over the pixels with the hue of skin in the right one. This needs no detail within
+// the finger, which looks the same along its length if it lies along the rows. It fails if the background has
+// the hue of skin. Writes the best-fitting shifts, best first, at most as many as `shifts` holds; returns
+// their number.
+std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const ShiftRange& range,
+                         std::span<float> shifts);
 
 }  // namespace enc

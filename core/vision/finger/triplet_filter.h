@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/base/time.h"
-#include "core/spec/vision/finger_spec.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/spec/vision_rig.h"
+#include "core/vision/stereo/rectify.h"
 
 namespace enc {
 

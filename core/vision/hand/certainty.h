@@ -6,7 +6,7 @@
 
 #include "core/base/frames.h"
 #include "core/base/words.h"
-#include "core/vision/hand/finger_form.h"
+#include "core/vision/hand/hand_form.h"
 
 namespace enc {
 

@@ -6,13 +6,13 @@
 #include <memory>
 #include <span>
 
-#include "core/devices/stereo_camera.h"
-#include "core/vision/finger/cap_match.h"
-#include "core/vision/finger/exchanged.h"
+#include "core/devices/device.h"
+#include "core/vision/finger/cap.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/hand/certainty.h"
-#include "core/vision/hand/palm.h"
+#include "core/vision/hand/hand_form.h"
 #include "core/vision/segmentation/segmenter.h"
+#include "core/vision/stereo/match.h"
 #include "core/vision/stereo/rectify.h"
 
 namespace enc {
@@ -75,7 +75,7 @@ class HandScene {
   [[nodiscard]] CapDisparity match_from(const Fingertip& tip, double middle) const;
   void measure(Seen& seen, const StereoFrame& frame, double expected);
 
-  // hand_evidence.cpp
+  // The evidence of a detection.
   void segment_too(const StereoFrame& frame, const Region& wanted);
   void make_ready(const StereoFrame& frame, const Region& part);
   [[nodiscard]] Vec3 in_image(const Triplet& to, const Triplet& from) const;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/image.h"
-#include "core/vision/segmentation/grid.h"
 #include "core/vision/segmentation/kernels/kernels.h"
+#include "core/vision/segmentation/tiles.h"
 
 namespace enc::segmentation {
 

@@ -5,11 +5,9 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/spec/vision/vision_check.h"
-#include "core/vision/segmentation/background.h"
+#include "core/spec/vision_check.h"
 #include "core/vision/segmentation/change.h"
-#include "core/vision/segmentation/grid.h"
-#include "core/vision/segmentation/kernels/arc.h"
+#include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/kernels/majority.h"
 #include "core/vision/segmentation/tiles.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/base/image.h"
-#include "core/spec/vision/segmentation_spec.h"
+#include "core/spec/vision_rig.h"
 
 namespace enc {
 

@@ -1,12 +1,13 @@
 #include "core/vision/stereo/match.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 
-#include "core/spec/vision/vision_check.h"
+#include "core/spec/vision_check.h"
 
 namespace enc {
 namespace {
@@ -90,6 +91,109 @@ bool Matcher::mutual(const Grey& left, const Block& block, int column, int y, in
   compare(block, left.at(column + least_, y), left.stride, most - least_ + 1);
   const int back = least_ + kernel_.least(cost_.data(), most - least_ + 1);
   return std::abs(back - disparity) <= spec_.agreement;
+}
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+std::size_t cells(int pixels) {
+  return static_cast<std::size_t>((pixels + DisparityMap::kCell - 1) / DisparityMap::kCell);
+}
+
+}  // namespace
+
+DisparityMap::DisparityMap(int width, int height)
+    : columns_(cells(width)),
+      rows_(cells(height)),
+      raw_(columns_ * rows_, kNone),
+      smooth_(columns_ * rows_, kNone) {}
+
+void DisparityMap::fill(float disparity) {
+  std::fill(raw_.begin(), raw_.end(), disparity);
+  std::fill(smooth_.begin(), smooth_.end(), disparity);
+}
+
+void DisparityMap::match(Matcher& matcher, const Grey& left, const Grey& right, const Mask& mask,
+                         const Region& wanted) {
+  const int last_column = static_cast<int>(columns_) - 1, last_row = static_cast<int>(rows_) - 1;
+  const Region inner{wanted.x0 / kCell, wanted.y0 / kCell, (wanted.x1 - 1) / kCell, (wanted.y1 - 1) / kCell};
+  sought_ = found_ = 0;
+  if (wanted.empty()) return;
+  for (int row = std::max(0, inner.y0 - 1); row <= std::min(last_row, inner.y1 + 1); ++row)
+    for (int column = std::max(0, inner.x0 - 1); column <= std::min(last_column, inner.x1 + 1); ++column) {
+      const int x = column * kCell + kCell / 2, y = row * kCell + kCell / 2;
+      float& value = raw_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+      value = kNone;
+      if (x >= mask.width || y >= mask.height || !mask.at(x, y)) continue;
+      value = matcher.at(left, right, x, y, &mask).pixels;
+      ++sought_;
+      found_ += std::isfinite(value) ? 1 : 0;
+    }
+  for (int row = inner.y0; row <= inner.y1; ++row)
+    for (int column = inner.x0; column <= inner.x1; ++column) {
+      const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row);
+      smooth_[r * columns_ + c] = median_round(c, r);
+    }
+}
+
+// The lower of the two in the middle, so that it is a value that was found.
+float DisparityMap::median_round(std::size_t column, std::size_t row) const {
+  std::array<float, 9> values{};
+  std::size_t count = 0;
+  for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(rows_ - 1, row + 1); ++r)
+    for (std::size_t c = column == 0 ? 0 : column - 1; c <= std::min(columns_ - 1, column + 1); ++c) {
+      const float value = raw_[r * columns_ + c];
+      if (!std::isfinite(value)) continue;
+      std::size_t i = count++;
+      for (; i > 0 && values[i - 1] > value; --i) values[i] = values[i - 1];
+      values[i] = value;
+    }
+  return count == 0 ? kNone : values[(count - 1) / 2];
+}
+
+namespace {
+
+// Large blocks: a room has little that is like itself elsewhere, and its depth does not matter. Farther than
+// a person works, too, for that is where the walls are.
+constexpr int kColumnsOfBlock = 16, kRowsOfBlock = 15;  // px
+constexpr int kSteps = 5;                               // frames after which the places are the same again
+
+MatchSpec blocks(const RectifiedPair& pair) {
+  constexpr double kNearest = 0.4, kFarthest = 20.0;  // m
+  const double nearest = std::max(kNearest, pair.focal * pair.baseline / (kMostDisparity - 1));
+  return {kColumnsOfBlock, kRowsOfBlock, nearest, std::max(kFarthest, 2.0 * nearest)};
+}
+
+}  // namespace
+
+Exchanged::Exchanged(const RectifiedPair& pair, int width, int height)
+    : matcher_(blocks(pair), pair), width_(width), height_(height) {}
+
+Region Exchanged::strip(int row) const {
+  const int y = (2 * row + 1) * height_ / (2 * kRows);
+  return Region{0, y - kRowsOfBlock / 2, width_, y + kRowsOfBlock / 2 + 1}.cut({0, 0, width_, height_});
+}
+
+// Every frame looks at other columns, so that one bare patch of wall is not all that is ever asked.
+int Exchanged::matched(const Grey& left, const Grey& right) {
+  int count = 0;
+  for (int row = 0; row < kRows; ++row) {
+    const int y = (2 * row + 1) * height_ / (2 * kRows);
+    for (int column = 0; column < kColumns; ++column) {
+      const int x = (kSteps * column + frame_ % kSteps) * width_ / (kSteps * kColumns);
+      count += matcher_.at(left, right, x, y).matched == Matched::yes ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+bool Exchanged::see(const Grey& left, const Grey& right) {
+  const int ahead = matched(left, right), behind = matched(right, left);
+  ++frame_;
+  if (behind >= kLeast && behind > kClear * ahead) exchanged_ = true;
+  if (ahead >= kLeast && ahead > kClear * behind) exchanged_ = false;
+  return exchanged_;
 }
 
 }  // namespace enc

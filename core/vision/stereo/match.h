@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
-#include "core/spec/vision/match_spec.h"
+#include "core/spec/vision_rig.h"
 #include "core/vision/stereo/grey.h"
 #include "core/vision/stereo/match_kernel.h"
 #include "core/vision/stereo/rectify.h"
@@ -51,6 +53,62 @@ class Matcher {
   int least_ = 0, most_ = 0;
   match_kernel::Kernel kernel_;
   std::array<std::uint16_t, match_kernel::kMost + 16> cost_{};
+};
+
+// Disparity of the pixels of a mask. It is matched at the middles of small cells of one grid, so that a
+// window gives the same result as the whole frame.
+class DisparityMap {
+ public:
+  // px, side; 1 px of the image is 0.8 mm at 600 mm.
+  static constexpr int kCell = 4;
+  // px: a pixel's value depends on the mask up to this distance, including half of the widest block.
+  static constexpr int kReach = 2 * kCell + 8;
+
+  DisparityMap(int width, int height);
+
+  // Matches the cells that touch `wanted` or are next to those, if their middle is in the mask.
+  void match(Matcher& matcher, const Grey& left, const Grey& right, const Mask& mask, const Region& wanted);
+  // Sets one disparity everywhere.
+  void fill(float disparity);
+  // Median of the nine cells around the pixel; NaN if no cell has a value.
+  [[nodiscard]] float at(int x, int y) const {
+    return smooth_[static_cast<std::size_t>(y / kCell) * columns_ + static_cast<std::size_t>(x / kCell)];
+  }
+  // Cells searched and matched by the last match().
+  [[nodiscard]] std::int64_t sought() const { return sought_; }
+  [[nodiscard]] std::int64_t found() const { return found_; }
+
+ private:
+  [[nodiscard]] float median_round(std::size_t column, std::size_t row) const;
+
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<float> raw_, smooth_;
+  std::int64_t sought_ = 0, found_ = 0;
+};
+
+// Detects exchanged images: the left image is from the right camera. Everything in both images would then lie
+// behind the cameras, where no camera can see.
+class Exchanged {
+ public:
+  static constexpr int kRows = 5, kColumns = 8;  // places examined in a frame
+  static constexpr int kLeast = 6;               // fewest matched places for a decision
+  static constexpr double kClear = 4.0;          // factor over the matches of the other order
+
+  Exchanged(const RectifiedPair& pair, int width, int height);
+
+  // Rows of both images that see() reads; `row` is below kRows.
+  [[nodiscard]] Region strip(int row) const;
+  // True if the left image is the right camera's. The grey images must be up to date in all strips. If a
+  // frame has too few matches, the last answer stays.
+  bool see(const Grey& left, const Grey& right);
+
+ private:
+  [[nodiscard]] int matched(const Grey& left, const Grey& right);
+
+  Matcher matcher_;
+  int width_ = 0, height_ = 0;
+  int frame_ = 0;
+  bool exchanged_ = false;
 };
 
 }  // namespace enc

@@ -1,5 +1,4 @@
-// Rectifies two raw images: the result is the pair of two parallel, side-by-side cameras without distortion,
-// in which a point has the same row in both images [Bouguet; Hartley and Zisserman 11.12].
+// The geometry of the stereo head: lenses, rectification, and points by their disparity.
 #pragma once
 
 #include <array>
@@ -7,9 +6,24 @@
 #include <vector>
 
 #include "core/base/image.h"
-#include "core/vision/stereo/lens.h"
+#include "core/spec/optics_rig.h"
 
 namespace enc {
+
+struct Pixel {
+  double column = kUnset, row = kUnset;  // px
+};
+
+// A ray from the camera's centre, given by its intersection with the plane z = 1 of the camera's frame.
+struct Ray {
+  double x = kUnset, y = kUnset;
+};
+
+// A lens: from a ray to its pixel, and back. OpenCV's convention: k1, k2, p1, p2, k3 [calib3d, "Detailed
+// Description"].
+[[nodiscard]] Pixel project(const Lens& lens, const Ray& ray);
+// NaN if no ray meets that pixel: far outside of the image, a strong distortion folds back.
+[[nodiscard]] Ray ray_of(const Lens& lens, const Pixel& pixel);
 
 enum class Side : std::uint8_t { left, right };
 
@@ -21,6 +35,8 @@ struct RectifiedPair {
   Mat3 turn = Mat3::Identity();                 // axes of the rectified cameras, in C
 };
 
+// Rectifies two raw images: the result is the pair of two parallel, side-by-side cameras without distortion,
+// in which a point has the same row in both images [Bouguet; Hartley and Zisserman 11.12].
 class Rectifier {
  public:
   // Throws Error if the rig is not a stereo pair: a size or focal length that is not positive, a right camera
@@ -55,5 +71,21 @@ class Rectifier {
   RectifiedPair pair_;
   std::array<std::vector<From>, 2> map_;
 };
+
+// A position or a rate in (column, row, disparity), px or px/s. Matching noise is uniform in these
+// coordinates.
+struct Triplet {
+  double column = kUnset, row = kUnset, disparity = kUnset;
+  [[nodiscard]] Vec3 e() const { return {column, row, disparity}; }
+};
+
+// Converts a position in the rectified left image and a disparity to a point in C, with its uncertainty. NaN
+// if the disparity is not positive.
+[[nodiscard]] Point<'C'> triangulate(const RectifiedPair& pair, const Triplet& at);
+// NaN if the point is not in front of the camera.
+[[nodiscard]] Triplet seen_at(const RectifiedPair& pair, const Point<'C'>& point);
+// Derivative of the point with respect to (column, row, disparity), m/px. Along the view it is -Z^2 / (f B)
+// for the disparity.
+[[nodiscard]] Mat3 slope_of(const RectifiedPair& pair, const Triplet& at);
 
 }  // namespace enc

@@ -1,6 +1,6 @@
 // A spring and a damper that a computer renders through a device along a normal: the exact eigenvalues of the
 // sampled loop and its critical stiffness. Used at set-up; linear, without friction and encoder steps
-// (release.h has them). If the device moves sideways too, all directions form one loop.
+// (release() has them). If the device moves sideways too, all directions form one loop.
 //
 //   (m + m_h) x'' + (b + b_h) x' + k_h x = F       device with a rigidly attached hand
 //   F = -(K e_i + B r_i)  from  iT + t_d  until  (i + 1)T + t_d                     held, and t_d late

@@ -9,7 +9,7 @@
 
 #include "core/base/frames.h"
 #include "core/control/stages/displacing.h"
-#include "core/spec/travel_spec.h"
+#include "core/spec/task_spec.h"
 
 namespace enc {
 

@@ -1,13 +1,157 @@
-// The machine as a test rig: it waits for its force zero, goes above the object, and pushes and returns at a
-// steady speed, again and again [VHMR 4.2].
 #include "core/control/task/measure/probe.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
+#include "core/base/error.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
+#include "core/control/stages/walk.h"
+
+namespace enc {
+
+// ---- Checks, before anything moves, whether the machine can carry out a programme of pushes.
+
+namespace {
+
+// m: the probe is thought to come from so far, and to pass the object after so much (assumed: objects are
+// smaller).
+constexpr double kAfar = 0.5, kFar = 1.0;
+// s: speeding up and slowing down, for each way (assumed: programme_time() is a little more than it takes).
+constexpr double kSettling = 0.1;
+
+// Polar angle and azimuth of the axis, as columns: towards growing polar, across, outward.
+Mat3 axes_of(const ProbeSpec& spec) {
+  const double cp = std::cos(spec.polar), sp = std::sin(spec.polar);
+  const double ca = std::cos(spec.azimuth), sa = std::sin(spec.azimuth);
+  Mat3 axes;
+  axes.col(0) = Vec3(cp * ca, cp * sa, -sp);
+  axes.col(1) = Vec3(-sa, ca, 0.0);
+  axes.col(2) = Vec3(sp * ca, sp * sa, cp);
+  return axes;
+}
+
+// Centre of a sphere that comes in along `inward` from afar, when it first touches the object. A step as long
+// as the gap never goes through a surface.
+Point<'W'> first_touch(const Object& object, Point<'W'> centre, const Vec<'W'>& inward, double radius) {
+  constexpr int kSteps = 100'000;  // one that grazes it comes nearer and nearer, or goes on by little
+  const double touching = std::max(1e-12, 1e-15 * centre.e().norm());  // m; no place is known better
+  double way = 0.0;
+  for (int i = 0; i < kSteps && way < kFar; ++i) {
+    const double gap = stages::nearest(object, centre).distance - radius;
+    if (gap <= touching) return centre;
+    centre = centre + gap * inward;
+    way += gap;
+  }
+  throw Error("the probe goes past the object; expected a smaller offset_mm", "probe.offset");
+}
+
+// The nobody and nothing else that a test rig is made of.
+void check_parts(const SceneSpec& spec) {
+  if (!spec.force) throw Error("[probe] measures force, but the scene has no [force]; add it", "probe");
+  if (spec.user)
+    throw Error("either the machine presses ([probe]) or a user does ([user]); remove one of them", "user");
+  if (spec.tracker)
+    throw Error("[probe] uses no tool, so there is nothing to track; remove [tracker]", "tracker");
+  if (spec.display)
+    throw Error("[probe] presses a real object, so there is nothing to show; remove [display]", "display");
+}
+
+void check_sizes(const ProbeSpec& spec, const CommonScene& scene) {
+  if (!(spec.radius > 0.0)) throw Error("the probe needs a radius", "probe.radius");
+  if (!(spec.depth > 0.0) || spec.depth > spec.radius)
+    throw Error("a push goes no deeper than the radius of the probe, or its stem would touch; lower depth_mm",
+                "probe.depth");
+  if (!(spec.speed > 0.0) || spec.speed > scene.reach.speed)
+    throw Error("the machine cannot push that fast; lower speed_mm_s", "probe.speed");
+  // The probe stands on the machine: from above, the object would be where the machine is.
+  if (!(spec.polar >= 0.5 * M_PI - 1e-9))
+    throw Error("the probe stands on the machine and pushes upwards; expected polar_deg from 90 to 180",
+                "probe.polar");
+}
+
+// The machine's zero, then straight to above the object, then straight in.
+void check_way(const Probe& probe, const CommonScene& scene) {
+  const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
+  const auto gap = [&](const Point<'W'>& p) {
+    return stages::nearest(object, p).distance - scene.tip_radius;
+  };
+  const auto reached = [&](const Point<'W'>& p) {
+    return scene.reach.contains(Pose<'R', 'H'>(scene.X_WR.q().conjugate(), scene.X_WR.inverse() * p));
+  };
+  const Point<'W'> start(0, 0, 0), above = probe.at(-probe.clear), end = probe.at(probe.depth);
+  if (gap(start) <= scene.force.tare_clearance)
+    throw Error(
+        "the object is in the way of the probe at the machine's zero, where the force zero is found; "
+        "move position_mm away from it",
+        "probe.object");
+  constexpr int kSteps = 200;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    const Point<'W'> going = start + share * (above - start), pushing = above + share * (end - above);
+    if (!reached(going) || !reached(pushing))
+      throw Error(
+          "the push is outside the machine's reach; the probe's centre gets +-50, +-50 and +-25 (x, y, z "
+          "of W, in millimetres) around the origin, straight axes; move position_mm",
+          "probe.object");
+    if (gap(going) <= 0.0)
+      throw Error(
+          "the way from the machine's zero to the start of the push leads through the object; move "
+          "position_mm",
+          "probe.object");
+  }
+}
+
+}  // namespace
+
+const ObjectSpec& probed_object(const SceneSpec& spec) {
+  if (spec.objects.empty()) throw Error("[probe] needs an object to press", "probe.object");
+  if (spec.probe->object.empty()) return spec.objects.front();
+  const auto named = std::find_if(spec.objects.begin(), spec.objects.end(),
+                                  [&](const ObjectSpec& o) { return o.name == spec.probe->object; });
+  if (named == spec.objects.end())
+    throw Error("no object '" + spec.probe->object + "' in the scene", "probe.object");
+  return *named;
+}
+
+std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scene) {
+  if (!spec.probe) return {};
+  const ProbeSpec& from = *spec.probe;
+  check_parts(spec);
+  check_sizes(from, scene);
+  Probe probe;
+  probe.object = static_cast<std::int32_t>(&probed_object(spec) - spec.objects.data());
+  const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
+  const Mat3 axes = axes_of(from);
+  const Point<'W'> afar(Vec3(object.X_WO.p() + from.offset * axes.col(0) + kAfar * axes.col(2)));
+  const Point<'W'> touch = first_touch(object, afar, Vec<'W'>(Vec3(-axes.col(2))), from.radius);
+  probe.X_WN = {Quat(axes), touch};
+  probe.depth = from.depth;
+  probe.clear = from.clear;
+  probe.speed = from.speed;
+  probe.dwell = from.dwell;
+  probe.rest = from.rest;
+  probe.repeats = static_cast<std::int32_t>(from.repeats);
+  check_way(probe, scene);
+  return probe;
+}
+
+double programme_time(const CommonScene& scene, const Probe& probe) {
+  const Reach& reach = scene.reach;
+  const double approach =
+      probe.at(-probe.clear).e().norm() / reach.speed + 2.0 * reach.speed / reach.acceleration;
+  const double push = 2.0 * ((probe.depth + probe.clear) / probe.speed + kSettling) + probe.dwell;
+  return scene.force.tare_time + approach + kSettling + probe.rest + probe.repeats * (push + probe.rest);
+}
+
+}  // namespace enc
 
 namespace enc::stages {
+
+// ---- The machine as a test rig: it waits for its force zero, goes above the object, and pushes and returns
+// at a steady speed, again and again [VHMR 4.2].
+
 namespace {
 
 // m: less than the machine's step of 3 um (assumed).

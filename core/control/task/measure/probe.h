@@ -8,7 +8,7 @@
 
 #include "core/base/frames.h"
 #include "core/control/stages/displacing.h"
-#include "core/spec/probe_spec.h"
+#include "core/spec/task_spec.h"
 
 namespace enc {
 

@@ -2,25 +2,135 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/task/meet/arm_loop.h"
+#include "core/control/stages/walk.h"
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/impedance.h"
+#include "core/control/task/meet/meet.h"
 #include "core/control/task/meet/meet_spec.h"
-#include "core/control/task/meet/tame.h"
 
 namespace enc::stages {
 namespace {
 
-// While the finger is far the arm is motionless [VisHap 2]: the law does no more, and friction holds it. One
-// count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
-// the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
-// only turns round, friction would not hold what then pushes it.
+// The passivity controller of an arm, along the normal of the touched object: it acts between the law and the
+// machine's limits. Internal to the core.
+//
+// It observes the tip relative to the law's target, along the mean normal of two ticks. So the motion of a
+// target neither adds nor takes energy: an object may carry the target, or it follows its path or runs over a
+// round object. The same holds for a normal that turns under a sliding tip.
+struct Tame {
+  // Limits the force that the law asks for.
+  Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept;
+  // Stores the push after all limits.
+  void held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept;
+  Vec3 wanted;
+  double taken = 0.0;  // N, outward force taken from the law's
+};
+
+// J, in the law's spring: far more than the spring of a prop on its way holds while no finger presses it.
+// Chosen.
+constexpr double kPressed = 2e-3;
+
+// m and N: what the law's spring along the normal is, at this tick.
+struct Spring {
+  double depth, push;
+};
+Spring spring_of(const Walk& walk, const Impedance& law, const CommonState& state, const Meeting& now,
+                 const Object& object) {
+  if (const Moved* ball = hit_now(walk, state)) {
+    const double depth = std::isnan(ball->depth) ? 0.0 : std::max(0.0, ball->depth);
+    return {depth, object.stiffness * ball->firmness * depth};
+  }
+  const double depth = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
+  return {depth, now.aim.gain * law.rig.stiffness * (depth - now.aim.sunk)};
+}
+
+// m: how far the tip has gone outwards, against its target; that of a ball goes with the tip, so against the
+// ball.
+double moved(const Walk& walk, const CommonState& state, const Meeting& memory) {
+  const Tamed& now = memory.tamed;
+  const double dt = walk.scene.dt;
+  const bool on = now.energy.on;
+  const Vec3 way = on ? Vec3((walk.X_WH.origin() - now.tip).e()) : Vec3(dt * walk.tip_velocity.e());
+  const Vec3 normal = on ? Vec3(0.5 * (walk.normal.e() + now.normal.e())) : Vec3(walk.normal.e());
+  Vec3 other = on ? Vec3((memory.aim.target - now.target).e()) : Vec3(dt * memory.aim.velocity.e());
+  if (const Moved* ball = hit_now(walk, state)) other = dt * ball->velocity.e();
+  return normal.dot(way - other);
+}
+
+// A contact that is lost while the tip is inside, and found again, keeps the energy that was left: the law
+// gets no new credit by beginning anew. Once the tip has been outside, no debt remains.
+void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
+  if (now.energy.on) now.kept = now.energy.left;
+  now.energy = Passivity{};
+  const bool known = !holding(walk) && walk.normal.finite() && memory.aim.target.finite();
+  if (known && dot(memory.aim.target - walk.X_WH.origin(), walk.normal) <= 0.0) {
+    now.kept = 0.0;
+    now.pressed = false;
+  }
+}
+
+// A law whose force is not sent gives out no energy. A prop that is still on its way to the touch renders
+// nothing either; a prop that leaps under the finger that presses it has been there already.
+const Object* tamed_object(const Walk& walk, const CommonState& state, const Meeting& memory) {
+  if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
+  const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
+  if (!memory.aim.caught_up && !met) return nullptr;
+  const Object* object = nearest_object(walk, state);
+  const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
+  const bool known = walk.along_mass > 0.0 && walk.wanted_force.finite() && walk.normal.finite();
+  return renders && known ? object : nullptr;
+}
+
+Tame::Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept
+    : wanted(walk.wanted_force.e()) {
+  if (law.rig.passivity == PassivityForm::none) return;
+  Tamed& now = memory.tamed;
+  const Object* object = tamed_object(walk, state, memory);
+  if (object == nullptr) {
+    lose(walk, memory, now);
+    return;
+  }
+  if (now.energy.on && now.object != state.object) lose(walk, memory, now);
+  const Spring spring = spring_of(walk, law, state, memory, *object);
+  const Yielded tick{moved(walk, state, memory), spring.depth, spring.push};
+  if (!now.energy.on) {
+    begin(now.energy, tick, now.kept);
+    now.kept = 0.0;
+  } else {
+    if (dot(walk.normal, now.normal) < MeetSpec::kTurned) renew(now.energy, tick);
+    observe(now.energy, tick, law.count);
+  }
+  now.pressed = (now.pressed && now.object == state.object) || now.energy.stored > kPressed;
+  now.object = state.object;
+  now.tip = walk.X_WH.origin();
+  now.target = memory.aim.target;
+  now.normal = walk.normal;
+  const double dt = walk.scene.dt, asked = wanted.dot(walk.normal.e());
+  const double given = passive(now.energy, asked, dt * dt / (2.0 * walk.along_mass), law.count);
+  if (given == asked) return;
+  walk.why |= kPassive;
+  wanted += (given - asked) * walk.normal.e();
+  taken = std::clamp(asked, -law.rig.peak, law.rig.peak) - std::clamp(given, -law.rig.peak, law.rig.peak);
+}
+
+void Tame::held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept {
+  if (!memory.tamed.energy.on) return;
+  const double push = pushed.dot(walk.normal.e());
+  hold(memory.tamed.energy, push, push + taken);
+}
+
+// While the finger is far, the arm is motionless [VisHap 2]: the law does no more, and friction holds the
+// arm. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would
+// keep the tip dithering. The arm must have stood before: the filtered rate dies out in 40 ms without a
+// count. If the arm only turns round, friction would not hold the push that follows.
 bool resting(const CommonState& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
   return state.mode == Mode::away && error.norm() < RestSpec::kNear && velocity.norm() < RestSpec::kCounts &&
          now.velocity.norm() < RestSpec::kTargetStill && now.error_rate.norm() < RestSpec::kStood;
 }
 
-// It rests, and stays where it came to rest. Where it does not although nothing moves its target, the law
-// goes on until it stands again with all of its push: a count that changes then is no reason to go on.
+// The arm rests, and stays at its resting place. If it leaves that place although its target does not move,
+// the law goes on until the arm stands again with all of its push: a count that changes then is no reason to
+// go on.
 bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
   if (state.mode != Mode::away) now.slipped = false;
   const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > RestSpec::kSlips);
@@ -36,16 +146,16 @@ bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Ve
   return stands;
 }
 
-// What is left in a tick of what pushes an arm that rests. Friction may just hold that, and the same push
-// turns a joint more where the tip has crept; less of it friction holds surely. So it fades, where the weight
-// is held beside it. Where the tip has slipped then, the weight is another one, and friction does not hold
-// the difference: then the push stays.
+// Share of a resting arm's push that remains after a tick. Friction may just hold that push, and the same
+// push turns a joint more once the tip has crept; friction surely holds less of it. So the push fades if the
+// weight is held beside it. If the tip has slipped meanwhile, the weight is another one and friction does not
+// hold the difference: then the push stays.
 double fading(const Impedance& law, const Aim& now, double dt) {
   return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / RestSpec::kFades) : 1.0;
 }
 
-// Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
-// It is no measurement, and needs no filter: behind that of eq. 3 it would come late and overshoot.
+// The second derivative of e [eq. 2] is known only for the target: this is the force that the arm needs to go
+// along. It is no measurement and needs no filter: behind that of eq. 3 it would come late and overshoot.
 Vec3 going_along(const Walk& walk, const Arm& arm, const Mat3& mass) {
   if (walk.target_acceleration.isZero()) return Vec3::Zero();
   const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
@@ -97,8 +207,8 @@ Vec<'R'> against_gravity(const Walk& walk, const Impedance& law) {
   return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
 }
 
-// What the law asks for, as far as the machine can. Gravity is held in full; of the rest each motor gives
-// what it has, and the direction stays.
+// The law's force, as far as the machine can exert it. Gravity is held in full; each motor gives what it has
+// of the rest, and the direction stays.
 Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& force) {
   if (!force.allFinite()) {
     walk.why |= kNotFinite;
@@ -121,7 +231,7 @@ Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& for
 }  // namespace
 
 void guard(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory) noexcept {
-  // Where nothing is known of the machine nothing is said to it; what is withheld warms nothing, either.
+  // Without a valid pose, command nothing. A withheld command does not heat the motors either.
   PerJoint torque{};
   if (walk.X_WH.valid()) {
     walk.arm_force = against_gravity(walk, law);

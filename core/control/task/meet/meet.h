@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/control/safety/following.h"
-#include "core/control/stages/contact.h"
+#include "core/control/stages/common_state.h"
 #include "core/control/task/meet/impedance.h"
 #include "core/control/task/meet/tamed.h"
 #include "core/control/track/reach.h"

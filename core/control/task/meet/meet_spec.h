@@ -1,5 +1,5 @@
 // The fixed settings of impedance rendering: each with its unit, its meaning and its confidence (published,
-// derived or assumed). User settings are in the rig file (arm_rig.h).
+// derived or assumed). User settings are in the rig file (rendering_rig.h).
 #pragma once
 
 namespace enc {
@@ -55,7 +55,7 @@ struct RestSpec {
   static constexpr double kFades = 0.05;
 };
 
-// Predicted touch of an approaching finger (coming.cpp, finger.h).
+// Predicted touch of an approaching finger (aim.cpp, finger.h).
 struct ComingSpec {
   // Factor on the vaguest noise up to which pictures stay clear enough (assumed: a hysteresis of a tenth).
   static constexpr double kStaysClear = 1.1;
@@ -65,7 +65,8 @@ struct ComingSpec {
   static constexpr double kPushedBack = 0.2;
 };
 
-// Valid samples, growth of damping with the mass, and the touched side (meet.cpp, arm_loop.cpp, tame.cpp).
+// Valid samples, growth of damping with the mass, and the touched side (meet.cpp, impedance.cpp,
+// control_law.cpp).
 struct MeetSpec {
   // m, m/s and rad: larger values of such an arm are invalid (assumed: well beyond the limits of motors and
   // links).

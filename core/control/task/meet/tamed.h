@@ -1,4 +1,4 @@
-// State of an arm's passivity controller (tame.h).
+// State of an arm's passivity controller (control_law.cpp).
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 
 #include "core/base/frames.h"
 #include "core/shape/response/response.h"
-#include "core/spec/admittance_rig.h"
+#include "core/spec/rendering_rig.h"
 
 namespace enc {
 

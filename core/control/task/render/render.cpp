@@ -1,12 +1,315 @@
 #include "core/control/task/render/render.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/base/rotation.h"
+#include "core/control/safety/inside.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
+#include "core/control/stages/walk.h"
+#include "core/shape/deformation/dent.h"
 
 namespace enc::stages {
+
+// ---- Checks that the tip is inside the object [VHMR 3.3], and inside the surface that the user sees [VHMR
+// 3.5].
+
+namespace {
+
+// m: play and overshoot of a machine take no more before it is a fault (assumed: no source).
+constexpr double kPlay = 50e-6;
+// m: no tip and no dent of a display is larger, and no object farther (assumed: well beyond a machine's
+// reach).
+constexpr double kWidestTip = 0.1, kLongestTip = 1.0, kDeepestDent = 0.1, kFarthestTip = 10.0;
+// The axis of a tip is a unit vector to this (assumed: no source).
+constexpr double kUnit = 1e-3;
+// Share of the margin within which what was outside the seen surface is inside again (assumed: no source).
+constexpr double kWellInside = 0.7;
+
+bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
+  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
+  const Brake brake = brake_of(walk, now);
+  const double here = inside.depth(brake.at);
+  return here >= walk.scene.tip_radius && inside.can_stop(brake, here, brake.velocity);
+}
+
+// `distance`: of the tip's outermost point to the undeformed surface, m.
+void check_undeformed(Walk& walk, double distance, CommonState& state, const Commanded& now) {
+  // On the way in the tip is rightly outside, and so is what it is told.
+  if (!state.entered && distance <= -kSkin) state.entered = command_stays(walk, state, now);
+  if (state.entered && distance > kPlay) walk.why |= kOutsideObject;
+}
+
+bool possible(const Tip<'O'>& tip) {
+  return tip.centre.finite() && tip.centre.e().norm() < kFarthestTip && tip.radius >= 0.0 &&
+         tip.radius < kWidestTip && tip.shape <= TipShape::edge && std::abs(tip.axis.norm() - 1.0) < kUnit &&
+         tip.half_angle >= 0.0 && tip.half_angle < 0.5 * std::numbers::pi && tip.length >= 0.0 &&
+         tip.length < kLongestTip;
+}
+
+bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
+  const DentSample& dent = sample.value;
+  if (sample.t > walk.tick.t + walk.tick.dt) return false;
+  if (dent.object == -1) return true;
+  return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) &&
+         possible(dent.tip) && dent.depth >= 0.0 && dent.depth < kDeepestDent;
+}
+
+// The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
+void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance,
+                CommonState& state, Rendering& now) {
+  if (walk.in.dent.health == Health::fault ||
+      (walk.in.dent.health == Health::ok && !possible(walk, walk.in.dent))) {
+    walk.why |= kDentWrong;
+    return;
+  }
+  if (walk.in.dent.health == Health::ok && (now.dent.health == Health::absent || walk.in.dent.t > now.dent.t))
+    now.dent = walk.in.dent;
+  const DisplayRig& rig = walk.scene.display;
+  // Before the first surface the time runs from the start of the experiment.
+  const double old = age(walk.tick.t, now.dent.t);
+  if (old > rig.overdue) {
+    if (state.mode != Mode::away) walk.why |= kDentOverdue;
+    return;
+  }
+  if (now.dent.value.object != state.object) {
+    now.outside_dent = false;
+    return;
+  }
+  // A fused tip is drawn ahead by the lead: tool and tip may stop or turn in that time, too.
+  const double unsure = old + (rig.tip == SeenTip::fused ? rig.lead : 0.0);
+  // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
+  const double margin = (rig.margin + rig.margin_speed * unsure) * (now.outside_dent ? kWellInside : 1.0);
+  // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
+  // answer enough.
+  const bool maybe = state.entered && distance + now.dent.value.depth > margin;
+  now.outside_dent =
+      maybe && dented_distance(object.surface, now.dent.value, outer, walk.at_tip.feature) > margin;
+  if (now.outside_dent) walk.why |= kOutsideDent;
+}
+
+}  // namespace
+
+void check_tip(Walk& walk, CommonState& state, Rendering& now) noexcept {
+  if (!walk.X_WH.valid() || state.object < 0) return;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const Point<'O'> centre = object.X_OW * walk.X_WH.origin();
+  ObjectHint& hint = state.hints.tip;
+  walk.at_tip = object.surface.nearest(centre, hint.object == state.object ? hint.feature : -1);
+  hint = {state.object, walk.at_tip.feature};
+  // The point of the tip that is nearest to the outside of the object.
+  const Point<'O'> outer = centre + walk.scene.tip_radius * walk.at_tip.normal;
+  const double distance = object.surface.nearest(outer, walk.at_tip.feature).distance;
+  check_undeformed(walk, distance, state, now);
+  if (walk.scene.has_display) check_dent(walk, object, outer, distance, state, now);
+}
+
+// ---- Force in, displacement out [VHMR 3.4], and the position of the tip that follows from it.
+
+namespace {
+
+// Sideways give of the contact point, never more than the deflection limit.
+Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) {
+  if (object.tangential == Tangential::stick) return Vec3::Zero();
+  Vec3 give(force.xyz[0] / object.tangential_stiffness, force.xyz[1] / object.tangential_stiffness, 0.0);
+  const double size = give.norm();
+  return size > limit ? Vec3(give * (limit / size)) : give;
+}
+
+// m: by so much below it the tip comes to a tool that is inside already. The machine is late by some 2 mm of
+// a tool that goes on at 30 mm/s.
+constexpr double kBelow = 3e-3;
+
+// What the object carries of the pressing force; the rest is the damper's.
+double carried(const Walk& walk, const Render& task, const Object& object, Rendering& now, double force,
+               double pressed, double limit) {
+  if (!task.damping) return pressed;
+  const DampingLaw& law = *task.damping;
+  Swing& swing = now.swing;
+  const double depth = -(now.contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
+  if (std::isnan(swing.depth)) {
+    const double near = 1e-3 * limit;
+    swing = law.begin(object.response.press(near) / near, force, depth);
+  }
+  const double damping = law.observe(swing, force, depth);
+  swing.carried = law.carry(object.response, now.response, swing.carried, pressed, damping, limit);
+  return swing.carried;
+}
+
+// Beside an edge the tip cannot be right under the tool: it waits as near as the whole of it is inside.
+Point<'W'> inside(const Walk& walk, CommonState& state, std::int32_t object, double margin,
+                  const Point<'W'>& wanted) {
+  return Inside(walk.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
+}
+
+// Straight under the surface point: of what is round or flat that is inside, of a mesh it may be another
+// side.
+Point<'W'> under_surface(const Walk& walk, CommonState& state, double margin) {
+  const Point<'W'> under = walk.surface_point - margin * walk.normal;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const bool mesh = std::holds_alternative<MeshSurface>(object.surface.shape());
+  return mesh ? inside(walk, state, state.object, margin, under) : under;
+}
+
+}  // namespace
+
+void model(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
+  const Contact& contact = now.contact;
+  if (state.mode != Mode::contact || now.contact.below) {
+    rest(now);
+    return;
+  }
+  if (!walk.force.finite()) return;  // no zero yet: stay at the surface
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
+  const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
+  const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
+  const double limit = object.limit_at(state.contacts);
+  const double deflection = object.response.deflection(
+      now.response, carried(walk, task, object, now, -force.xyz[2], pressed, limit), limit);
+  if (deflection >= limit) walk.why |= kAtLimit;
+  // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
+  if (pressed > walk.scene.strength) walk.why |= kOverload;
+  const Vec3 sideways = tangential_give(object, force, limit);
+  now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
+}
+
+void target(Walk& walk, CommonState& state, const Rendering& now) noexcept {
+  const double radius = walk.scene.tip_radius;
+  switch (state.mode) {
+    case Mode::follow:
+      walk.target = under_surface(walk, state, radius + walk.scene.follow.inset);
+      break;
+    case Mode::contact:
+    case Mode::restore: {
+      const double below = now.contact.below ? kBelow + std::max(0.0, -walk.gap) : 0.0;
+      const Vec3 d = now.displacement.e() - below * Vec3::UnitZ();
+      // Sideways along the tangent plane would lead out of a round object.
+      walk.target = inside(walk, state, now.contact.object, radius + kSkin,
+                           now.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
+      break;
+    }
+    case Mode::away:
+    case Mode::hold:
+    case Mode::probe:
+    case Mode::travel:
+      walk.target = walk.scene.X_WR * now.command;
+      break;
+  }
+}
+
+// ---- The passivity controller of a machine that measures force and takes positions: between its law and its
+// limits, along the normal of the contact.
+//
+// The hand pushes with p while the tip moves outwards by dx: that gives p dx to the hand, by the machine's
+// own readings; no model is needed. The energy left of what the hand has put in, and never more than the
+// object would hold where the tip is (its press curve), limits how far out the tip may be sent. It is spent
+// against the push that is measured now, or against the push with which a hand that is met at once begins,
+// and which grows on the way as the hand comes. So everything that is still under way (dead time, servo) is
+// paid before it is sent, and the limits have room to stop there.
+
+namespace {
+
+// m: farther from the tool the tip meets nothing. Covers the tracker's delay and error, and the tip's
+// stopping distance.
+constexpr double kNearHand = 3e-3;
+constexpr double kMet = 0.8;    // N, first push of a hand that meets the tip. Chosen.
+constexpr double kComes = 2.0;  // times the hand's stiffness: it comes as fast as the tip goes. Chosen.
+// m, way of the hand while the tip is being stopped (dead time, servo): 20 mm/s for 55 ms. Chosen.
+constexpr double kComesOn = 1.1e-3;
+
+// Out along the normal, from the last tick on; depth and push of the object where the tip is.
+Yielded yielded(const Walk& walk, const Rendering& now) {
+  const Contact& contact = now.contact;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
+  const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double height = (contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2];
+  const double depth = -(height + walk.scene.tip_radius + kSkin);
+  const double moved = now.spent.energy.on ? dot(walk.X_WH.origin() - now.spent.tip, normal) : 0.0;
+  return {moved, depth, depth > 0.0 ? object.response.press(std::min(depth, object.response.limit())) : 0.0};
+}
+
+// m, outwards: free way of the tip, because the tool is seen farther away.
+double free_way(const Walk& walk, double depth, double push) {
+  if (!walk.tool_known || !walk.tool_fresh || push >= walk.scene.force.contact) return 0.0;
+  return std::max(0.0, walk.gap + depth - kNearHand);
+}
+
+// N, push of a hand, which cannot pull. If the force is unknown for a moment, the last push holds. If the tip
+// can meet nothing, the force is the sensor's error.
+double pressed(const Walk& walk, const Rendering& now, double depth) {
+  if (!walk.felt.finite()) return now.spent.pressed;
+  const double push = -dot(walk.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
+  return free_way(walk, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
+}
+
+// A contact, and the way back from it, until the tip is where it waits.
+bool engaged(const Walk& walk, const CommonState& state, const Rendering& now) {
+  if (state.mode == Mode::contact || state.mode == Mode::restore) return true;
+  return now.spent.energy.on && state.mode == Mode::follow &&
+         now.spent.energy.depth > walk.scene.follow.inset;
+}
+
+}  // namespace
+
+void weigh(const Walk& walk, const Render&, const CommonState& state, Rendering& now) noexcept {
+  Spent& spent = now.spent;
+  if (!spent.energy.on) return;
+  if (!engaged(walk, state, now)) {
+    spent = Spent{};
+    return;
+  }
+  if (!walk.X_WH.valid()) return;
+  const Yielded tick = yielded(walk, now);
+  const double push = pressed(walk, now, tick.depth);
+  const auto [least, most] = std::minmax(spent.pressed, push);
+  // The hand's force goes on between two ticks: the trapezoid rule. It is unknown when within a tick a touch
+  // began or ended: the hand may have got all of the energy that came out and put in none.
+  const bool whole = least >= walk.scene.force.contact;
+  spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
+  // The sensor's error belongs to neither side: inwards the hand is credited with so much less, outwards it
+  // is charged with so much more.
+  if (whole) spent.energy.pushed += std::copysign(walk.scene.force.threshold, tick.moved);
+  observe(spent.energy, tick, 0.0);
+  // A debt ends with its contact: a tip that no hand pushes any more does not wait.
+  if (state.mode == Mode::follow && push < walk.scene.force.contact)
+    spent.energy.left = std::max(0.0, spent.energy.left);
+  spent.pressed = push;
+  spent.tip = walk.X_WH.origin();
+}
+
+void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept {
+  if (task.passivity == PassivityForm::none || !engaged(walk, state, now) || !walk.X_WH.valid()) return;
+  Spent& spent = now.spent;
+  if (!spent.energy.on) {
+    // The hand has put in no energy yet, and meeting an object deep inside gives no credit.
+    const Yielded tick = yielded(walk, now);
+    begin(spent.energy, tick, 0.0);
+    spent.pressed = pressed(walk, now, tick.depth);
+    spent.tip = walk.X_WH.origin();
+  }
+  const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double wanted = dot(walk.target - walk.X_WH.origin(), normal);
+  // Noise alone causes a small debt, too, and no hand can pay it.
+  const bool pushed = spent.pressed >= walk.scene.force.contact;
+  const double comes_on = state.mode == Mode::follow ? 0.0 : kComesOn * task.hand_stiffness;
+  const double push = std::max(kMet, spent.pressed) + comes_on;
+  const double most = free_way(walk, spent.energy.depth, spent.pressed) +
+                      way_left(spent.energy, pushed ? 0.0 : kForgiven, push, kComes * task.hand_stiffness);
+  if (!(wanted > most)) return;
+  walk.why |= kPassive;
+  if (!pushed || spent.energy.left >= 0.0) {
+    walk.target = walk.target - (wanted - most) * normal;
+    return;
+  }
+  // While the energy balance is negative, hold the tip still in every direction: deep inside a round object
+  // the side of one normal is outwards by the next. Take back how far the tip was sent out already, or it
+  // would go there.
+  const double ahead = dot(walk.scene.X_WR * now.command - walk.X_WH.origin(), normal);
+  walk.target = walk.X_WH.origin() - std::max(0.0, ahead) * normal;
+}
+
 namespace {
 
 bool engaged(const CommonState& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }

@@ -5,17 +5,17 @@
 
 #include "core/base/sample.h"
 #include "core/control/safety/passivity/passivity.h"
-#include "core/control/stages/contact.h"
+#include "core/control/stages/common_state.h"
 #include "core/control/stages/displacing.h"
 #include "core/control/task/render/damping.h"
 #include "core/shape/response/response.h"
-#include "core/spec/passivity_form.h"
+#include "core/spec/rendering_rig.h"
 
 namespace enc {
 
 struct Outputs;
 
-// State of the passivity controller (spare.cpp); unused without one.
+// State of the passivity controller (render.cpp); unused without one.
 struct Spent {
   Passivity energy;  // energy of the present contact
   // N, along the normal, and tip position: both at the last tick.

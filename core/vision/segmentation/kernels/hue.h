@@ -3,16 +3,17 @@
 // chroma = most - least of R, G, B; d is the distance of the middle one from the sextant's start.
 //
 // If the chroma or the brightest channel is below HueRule, the hue is that of the noise: the pixel has no
-// hue. It is then in no bin of hue, and not skin by itself (hueless.h). [VisHap 2.1.1] has no rule for it.
-// The chroma decides the accuracy of a hue, however dark the pixel: skin with a brightest channel of 20 has a
-// chroma of 12.
+// hue. It is then in no bin of hue, and not skin by itself (Hueless of change.h). [VisHap 2.1.1] has no rule
+// for it. The chroma decides the accuracy of a hue, however dark the pixel: skin with a brightest channel of
+// 20 has a chroma of 12.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
 
-#include "core/spec/vision/segmentation_spec.h"
+#include "core/spec/vision_rig.h"
+#include "core/vision/segmentation/kernels/kernels.h"
 
 namespace enc::segmentation {
 
@@ -61,5 +62,18 @@ inline Position position_of(int r, int g, int b, int most, int least) {
 
 // The centre of the interval of `hue`, rad, 0 to 2 pi.
 [[nodiscard]] inline double angle_of(int hue) { return (hue + 0.5) * (2.0 * std::numbers::pi / kHues); }
+
+// The skin's part of the circle of hue. Hues `first` to `first + count - 1`, modulo kHues.
+struct Arc {
+  int first = 0, count = 0;
+  [[nodiscard]] bool has(int hue) const { return hue != kNoHue && (hue - first + kHues) % kHues < count; }
+};
+
+// A probability above a threshold is a distance below a limit: at most `spreads` spreads from the mean.
+[[nodiscard]] Arc skin_arc(const SkinModel& model, double spreads);
+
+// The form that the kernels take.
+[[nodiscard]] Cut cut_of(const Arc& arc, const HueRule& rule);
+[[nodiscard]] bool in_cut(int hue, const Cut& cut);  // false for kNoHue
 
 }  // namespace enc::segmentation

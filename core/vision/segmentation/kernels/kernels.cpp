@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/vision/segmentation/kernels/arc.h"
 #include "core/vision/segmentation/kernels/hue.h"
 
 namespace enc::segmentation {

@@ -1,0 +1,285 @@
+#include "core/control/stages/walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace enc::stages {
+
+// ---- Pose of the tool and its tip at this tick: the newest pose carried on to now, with a check of its age
+// [VHMR 3.3].
+
+namespace {
+
+// The tracker reports either both of its uncertainties or none.
+bool tells_noise(const TrackedTool& tool, double most) {
+  const auto possible = [most](double noise) { return noise >= 0.0 && noise < most; };
+  const bool silent = std::isnan(tool.along) && std::isnan(tool.across);
+  return silent || (possible(tool.along) && possible(tool.across));
+}
+
+bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
+  const auto& tool = sample.value;
+  return tells_noise(tool, walk.scene.tracker.farthest) && tool.X_CT.valid() &&
+         tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
+         tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t + walk.tick.dt;
+}
+
+void judge_age(Walk& walk, const CommonState& state) {
+  const double old = age(walk.tick.t, exposed(walk.scene.tracker, state.tool.t));
+  walk.tool_fresh = old <= walk.scene.tracker.usual_age;
+  if (walk.tool_fresh) return;
+  if (old <= walk.scene.tracker.lost_age) {
+    walk.why |= kToolPredicted;
+  } else if (state.mode == Mode::away) {
+    walk.tool_known = false;  // nobody is near: a tool out of sight is simply away
+    walk.why |= kToolUnseen;
+  } else {
+    walk.why |= kToolLost;
+  }
+}
+
+void take_in(const Walk& walk, CommonState& state, bool pressing) {
+  const TrackerRig& rig = walk.scene.tracker;
+  if (rig.prediction == Prediction::hold) return;
+  const TrackedTool& pose = state.tool.value;
+  const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
+  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip),
+          noise_of(rig, pose, walk.scene.X_WC), state.tip_motion, pressing);
+}
+
+// The way from `from` to `to` ends where the tool's tip meets the haptic-tip: a prediction knows nothing of a
+// touch before the poses show it, and would see the tool go on right through the machine.
+Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
+                          const Point<'W'>& to) {
+  if (!walk.stops_tool || !walk.X_WH.valid()) return to;
+  const double apart = tool_radius + walk.scene.tip_radius;
+  const Vec3 c = (from - walk.X_WH.origin()).e();
+  const Vec3 way = (to - from).e();
+  const double toward = -c.dot(way);
+  if (toward <= 0.0) return to;
+  const double outside = c.squaredNorm() - apart * apart;
+  if (outside <= 0.0) return Point<'W'>(Vec3(from.e() + way + (toward / c.squaredNorm()) * c));  // slides
+  const double root = toward * toward - way.squaredNorm() * outside;
+  if (root <= 0.0) return to;  // passes by
+  const double share = (toward - std::sqrt(root)) / way.squaredNorm();
+  return share < 1.0 ? Point<'W'>(Vec3(from.e() + share * way)) : to;
+}
+
+// The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
+// felt of it, and where it turns the tip, that is in the tip's own motion.
+void carry_on(Walk& walk, const CommonState& state) {
+  const TipMotion& motion = state.tip_motion;
+  const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
+  const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t);
+  const Point<'W'> tip = stopped_by_tip(walk, radius, motion.position, ahead);
+  walk.X_WT = {walk.X_WT.q(), walk.X_WT.origin() + (tip - walk.tool_tip)};
+  walk.tool_tip = tip;
+}
+
+}  // namespace
+
+void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept {
+  if (!walk.scene.has_tracker) return;
+  const auto& sample = walk.in.tool;
+  if (sample.health == Health::fault) walk.why |= kTrackerFault;
+  if (sample.health == Health::ok && sample.value.tool != -1) {  // -1: no tool recognised, which is no fault
+    if (!plausible(walk, sample)) {
+      walk.why |= kToolInvalid;
+    } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
+      state.tool = sample;  // older or repeated packets change nothing
+      take_in(walk, state, pressing);
+    }
+  }
+  if (state.tool.health != Health::ok) {
+    walk.why |= kToolUnseen;
+    return;
+  }
+  // A clamped tool is seen, recorded and drawn, but it presses nothing: it goes where the tip goes.
+  walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
+  const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
+  walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
+  walk.tool_tip = walk.X_WT * tool.tip.centre;
+  walk.X_WT_newest = walk.X_WT;
+  walk.tip_newest = walk.tool_tip;
+  if (walk.scene.tracker.prediction != Prediction::hold) carry_on(walk, state);
+  walk.tool_radius = tool.tip.radius;
+  judge_age(walk, state);
+}
+
+// ---- The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
+
+NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
+  const Nearest found = object.surface.nearest(object.X_OW * p);
+  return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
+}
+
+NearestInWorld nearest(const CommonScene& scene, std::int32_t index, const Point<'W'>& p,
+                       ObjectHint& hint) noexcept {
+  const Object& object = scene.objects[static_cast<std::size_t>(index)];
+  const Nearest found = object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
+  hint = {index, found.feature};
+  return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
+}
+
+namespace {
+
+// Query of the objects in this tick: for the finger or the tool, or for the tip.
+struct Query {
+  const CommonScene& scene;
+  std::span<const Moved> moved;
+  Point<'W'> p;
+  double radius = 0.0;         // of what asks, m
+  bool touched_first = false;  // what is touched comes before all that is not
+};
+
+// The surface where it stands now.
+NearestInWorld nearest(const Query& query, std::int32_t index, ObjectHint& hint) noexcept {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  if (object.moving < 0) return stages::nearest(query.scene, index, query.p, hint);
+  const Vec<'W'> shift = shift_of(object, query.moved);
+  NearestInWorld found = stages::nearest(query.scene, index, query.p - shift, hint);
+  found.point = found.point + shift;
+  return found;
+}
+
+double least_distance(const Query& query, const Object& object) {
+  return object.least_distance(object.moving < 0 ? query.p : query.p - shift_of(object, query.moved));
+}
+
+struct Candidate {
+  NearestInWorld at;
+  double score = std::numeric_limits<double>::infinity();
+  ObjectHint hint;
+};
+
+bool is_button(const Query& query, std::int32_t index) {
+  const Surface& surface = query.scene.objects[static_cast<std::size_t>(index)].surface;
+  return std::holds_alternative<Button>(surface.shape());
+}
+// A button is touched on its face alone: beside it the gap is the way to its edge.
+bool beside(const Query& query, const ObjectHint& at) {
+  return at.feature == kButtonSide && is_button(query, at.object);
+}
+
+// The less, the sooner an object is taken. Another one must be nearer than that of last time by
+// follow.hysteresis, so that a tool between two does not flicker. But an arm renders what is touched: there
+// any object that is touched comes before all that are not.
+constexpr double kTouched = 10.0;  // m
+double score_of(const Query& query, const Candidate& found, double favour) {
+  const bool first = query.touched_first && found.at.distance <= query.radius && !beside(query, found.hint);
+  return found.at.distance - favour - (first ? kTouched : 0.0);
+}
+double least_score(const Query& query, const Object& object) {
+  const double least = least_distance(query, object);
+  return query.touched_first && least <= query.radius ? least - kTouched : least;
+}
+
+// The nearest object. Objects whose ball is farther than the best so far are not asked; the one of last time
+// is asked first, so that these are many.
+Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
+  const std::vector<Object>& objects = query.scene.objects;
+  Candidate best;
+  Candidate second;
+  const auto ask = [&](std::int32_t index) {
+    constexpr double kRounding = 1e-12;  // m
+    if (least_score(query, objects[static_cast<std::size_t>(index)]) - kRounding > best.score) return;
+    Candidate found;
+    for (const ObjectHint& hint : hints.tool)
+      if (hint.object == index) found.hint = hint;
+    found.at = nearest(query, index, found.hint);
+    found.score = score_of(query, found, index == last ? query.scene.follow.hysteresis : 0.0);
+    const bool tie = found.score == best.score;
+    if (tie ? index < best.hint.object : !(found.score >= best.score)) std::swap(found, best);
+    if (found.hint.object >= 0 && (found.score < second.score || second.hint.object < 0)) second = found;
+  };
+  if (last >= 0) ask(last);
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (static_cast<std::int32_t>(i) != last) ask(static_cast<std::int32_t>(i));
+  if (second.hint.object < 0) second.hint = hints.tool[hints.tool[0].object == best.hint.object ? 1 : 0];
+  hints.tool = {best.hint, second.hint};
+  return best;
+}
+
+// Where the finger or the tool will be, but not beyond the first surface on its way: a machine needs time to
+// go from one object to the next, and a hand that comes obliquely changes its nearest object at the last.
+Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
+  Query later = query;
+  const double way = query.scene.follow.ahead * velocity.norm();
+  if (way > 0.0)
+    later.p = query.p + (query.scene.follow.ahead * std::min(1.0, std::max(0.0, clear) / way)) * velocity;
+  return later;
+}
+
+// The nearest object; if the scene looks ahead that of the time ahead, or of the place where it will touch.
+Candidate chosen_object(const Query& query, const CommonState& state, const Point<'W'>& comes_to,
+                        Hints& hints) {
+  const Candidate here = nearest_object(query, state.object, hints);
+  const Vec<'W'>& velocity = state.tip_motion.velocity;
+  const double clear = here.at.distance - query.radius;
+  if (query.scene.follow.ahead == 0.0 || !velocity.finite()) return here;
+  Query later = foreseen(query, velocity, clear);
+  if (comes_to.finite() && clear > 0.0) later.p = comes_to;
+  Candidate there = nearest_object(later, state.object, hints);
+  there.at = nearest(query, there.hint.object, there.hint);
+  return there;
+}
+
+// Of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
+NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHint& hint) {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  Query over = query;
+  if (is_button(query, index)) {
+    const Vec<'W'> shift = shift_of(object, query.moved);
+    const Point<'O'> p = object.X_OW * (query.p - shift);
+    over.p = object.X_WO * object.surface.over_face(p, query.scene.contact.leave_gap) + shift;
+  }
+  return nearest(over, index, hint);
+}
+
+// m: the surface point moves farther than the tool by so much only where another part has become the nearest
+// (assumed: no source).
+constexpr double kJump = 1e-3;
+
+// The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
+// does not; by more only where another part has become the nearest.
+void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const Point<'W'>& query) {
+  // Before the first tick with a tool, `before` is unset, and that is no jump.
+  const double moved = (query - before).norm();
+  if ((walk.surface_point - state.last_point).norm() > moved + kJump) walk.why |= kSurfaceJump;
+  state.last_query = query;
+  state.last_point = walk.surface_point;
+}
+
+}  // namespace
+
+void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept {
+  // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
+  // makes a contact.
+  const bool by_tool = walk.scene.has_tracker;
+  const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
+  if (by_tool && !walk.tool_known) return;
+  const Query query{walk.scene, walk.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius,
+                    asked.touched_first};
+  if (!query.p.finite()) return;
+  Candidate best;
+  if (asked.engaged != nullptr) {
+    best.hint = state.hints.tool[0];
+    best.at = pressed_surface(query, asked.engaged->object, best.hint);
+    state.hints.tool[0] = best.hint;
+  } else if (!walk.scene.objects.empty()) {
+    best = chosen_object(query, state, asked.comes_to, state.hints);
+  }
+  if (best.hint.object != state.object) state.entered = false;
+  state.object = best.hint.object;
+  walk.surface_point = best.at.point;
+  walk.normal = best.at.normal;
+  if (!by_tool) return;
+  walk.gap = best.hint.object >= 0 && beside(query, best.hint) ? best.at.distance
+                                                               : best.at.distance - walk.tool_radius;
+  report_jump(walk, state, last_query, query.p);
+}
+
+}  // namespace enc::stages
