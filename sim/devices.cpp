@@ -33,9 +33,8 @@ class SimManipulator final : public Manipulator {
 
 class SimArm final : public HapticArm {
  public:
-  SimArm(World& world, const ArmRig& rig) : world_(world), rig_(rig) {}
-  // What a maker's sheet says; what the motors really do is the twin's truth.
-  [[nodiscard]] ArmAbility ability() const override { return {rig_.machine, rig_.peak, rig_.continuous}; }
+  SimArm(World& world, const ArmAbility& ability) : world_(world), ability_(ability) {}
+  [[nodiscard]] ArmAbility ability() const override { return ability_; }
   Stamped<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
   void stop() noexcept override {
@@ -46,7 +45,7 @@ class SimArm final : public HapticArm {
 
  private:
   World& world_;
-  ArmRig rig_;
+  ArmAbility ability_;
 };
 
 class SimForceSensor final : public ForceSensor {
@@ -93,8 +92,7 @@ class SimGripper final : public Gripper {
 Rig World::rig() {
   Rig rig;
   rig.clock = std::make_unique<SimClock>(*this);
-  if (arm)
-    rig.arm = std::make_unique<SimArm>(*this, prepared_.impedance() ? prepared_.impedance()->rig : ArmRig{});
+  if (arm) rig.arm = std::make_unique<SimArm>(*this, arm_ability_);
   if (machine) rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
   if (force) rig.force = std::make_unique<SimForceSensor>(*this);
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);

@@ -87,13 +87,30 @@ int whole_steps(const WorldSpec& spec) {
 
 }  // namespace
 
+const PerMachine<MachineSteps> World::kMachines{
+    .hexapod = {.base = [](const TwinSpec& twin) { return hexapod_base(twin.hexapod); },
+                .set_up = &World::set_up_hexapod,
+                .begin_cycle = [](World& world) { world.machine->begin_cycle(); },
+                .drive = &World::move_hexapod,
+                .begin_work = &World::begin_hexapod_work,
+                .count_work = &World::count_hexapod_work,
+                .observe = &World::observe_hexapod},
+    .arm = {.base = [](const TwinSpec& twin) { return arm_base(twin.arm); },
+            .set_up = &World::set_up_arm,
+            .begin_cycle = [](World& world) { world.arm->begin_cycle(); },
+            .drive = &World::drive_arm,
+            .begin_work = &World::begin_arm_work,
+            .count_work = &World::count_arm_work,
+            .observe = &World::observe_arm}};
+
 World::World(const WorldSpec& spec)
-    : twin_(spec.twin),
+    : steps_(kMachines.of(spec.scene)),
+      twin_(spec.twin),
       prepared_(spec.prepared),
       dt_(1.0 / spec.rig.loop.rate),
       steps_per_tick_(whole_steps(spec)),
       clamped_(spec.prepared.clamped_tool),
-      X_WR_(spec.scene.arm ? arm_base(spec.twin.arm) : hexapod_base(spec.twin.hexapod)),
+      X_WR_(steps_.base(spec.twin)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
@@ -111,7 +128,7 @@ World::World(const WorldSpec& spec)
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
   next_.dt = from_seconds(dt_);
   if (user_) find_tools(spec.scene);
-  spec.scene.arm ? set_up_arm(spec) : set_up_hexapod(spec);
+  (this->*steps_.set_up)(spec);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
 }
@@ -134,12 +151,9 @@ void World::find_tools(const SceneSpec& scene) {
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   if (user_) hold_tools(t, h);
-  const Point<'W'> from = arm || !step_work_ ? truth_.tip : true_tip().origin();
-  arm ? drive_arm(h) : move_machine(t, h);
+  (this->*steps_.drive)(t, h);
   try {
-    if (step_work_)
-      step_work_->begin(physics_, scale(), arm ? &*arm_body_ : nullptr,
-                        arm ? arm->state().torque : PerJoint{});
+    if (step_work_) (this->*steps_.begin_work)();
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
     diverged_at_ = next_.index;
@@ -148,7 +162,7 @@ void World::physics_step(double t) {
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
   // A step leaves the bodies where its last stage had them.
   if (arm) mj_kinematics(physics_.model(), physics_.data());
-  if (step_work_) count_work(from, h);
+  if (step_work_) (this->*steps_.count_work)(h);
 }
 
 // The tool in the hand, which weighs what pushes it back.
@@ -158,18 +172,6 @@ Scale World::scale() const {
   for (const HeldTool& tool : tools_)
     if (tool.index == held) return {tool.qvel, physics_.model()->body_mass[tool.body], tool.radius};
   return {};
-}
-
-void World::count_work(const Point<'W'>& from, double h) {
-  Work& work = truth_.work;
-  if (arm) {
-    step_work_->count(physics_, *arm_body_, twin_.arm, arm->state().torque,
-                      arm->friction(step_work_->rates()), h, work);
-    return;
-  }
-  const Vec3 way = (true_tip().origin() - from).e();
-  work.contact += way.dot(by_own_law() ? Vec3(truth_.contact_force.e()) : step_work_->pushed(physics_, h));
-  if (force) work.sensed += way.dot(felt_by_sensor().e());
 }
 
 // The hand carries the tool that it holds; the other one lies still.
@@ -216,7 +218,7 @@ Vec<'W'> World::contact_force(bool& touching) const {
 
 void World::observe(Time t) {
   truth_.t = t;
-  arm ? observe_arm() : observe_machine();
+  (this->*steps_.observe)();
   if (pusher) {
     truth_.press = pusher->state().push;
     truth_.phase = pusher->state().phase;
@@ -282,7 +284,7 @@ void World::sense(Time t) {
 Tick World::advance() {
   const Tick tick = next_;
   if (tick.index > 0) {
-    arm ? arm->begin_cycle() : machine->begin_cycle();
+    steps_.begin_cycle(*this);
     truth_.work = Work{};
     const double from = seconds((tick.t - tick.dt).time_since_epoch());
     for (int i = 0; i < steps_per_tick_; ++i) physics_step(from + i * physics_.model()->opt.timestep);

@@ -10,7 +10,6 @@
 #include "core/devices/rig.h"
 #include "sim/bodies/arm_model.h"
 #include "sim/bodies/ball_contact.h"
-#include "sim/bodies/held_tool.h"
 #include "sim/bodies/legs.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/bodies/pusher.h"
@@ -42,8 +41,7 @@ class World {
   void steer(const Point<'W'>& place);  // see User; ignored without a hand, as is change_tool()
   void change_tool();
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
-  // s, programme of the user, the probe, the pusher or the travel; 10 without one.
-  [[nodiscard]] double programme_time() const { return programme_time_; }
+  [[nodiscard]] double programme_time() const { return programme_time_; }  // s
   // Tick after which the physics is unreliable, -1 while it is sound; and MuJoCo's own message.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
   [[nodiscard]] std::string divergence() const { return fatal_.empty() ? physics_.warning_text() : fatal_; }
@@ -67,36 +65,36 @@ class World {
   std::optional<Legs> legs;  // structural form only
 
  private:
+  static const PerMachine<MachineSteps> kMachines;
   void physics_step(double t);
   void find_tools(const SceneSpec& scene);
   void hold_tools(double t, double h);
   void set_up_hexapod(const WorldSpec& spec);  // world_hexapod.cpp
-  void move_machine(double t, double h);
+  void move_hexapod(double t, double h);
+  void begin_hexapod_work(), count_hexapod_work(double h);
   void place_machine(const Pose<'R', 'H'>& from);  // keeps the pose; the state has its motion
   [[nodiscard]] LegMotion leg_motion() const;      // target of the servo
-  void observe_machine();
+  void observe_hexapod();
   [[nodiscard]] Pose<'W', 'H'> true_tip() const;
   void measure_force(Time t);
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
-  void apply(const Vec<'W'>& force, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
-             const Point<'W'>& to);
+  void apply(const Vec<'W'>& force, const Point<'W'>& at, const Pose<'W', 'H'>& X_WH, const Point<'W'>& to);
   void set_up_arm(const WorldSpec& spec);  // world_arm.cpp
-  void face_prop(double h);
-  void drive_arm(double h);
+  void face_prop(double h), drive_arm(double t, double h);
+  void begin_arm_work(), count_arm_work(double h);
   void observe_arm(), observe(Time t);
   [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
   void sense(Time t);
   [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // without MuJoCo's contact
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
-  void count_work(const Point<'W'>& from, double h);  // of one step
   [[nodiscard]] Scale scale() const;
   [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // without weight and errors
 
+  const MachineSteps& steps_;  // of the scene's machine
   TwinSpec twin_;
   const Scene& prepared_;
-  double dt_;
-  double mass_behind_ = 0.0;  // behind the sensor, kg
+  double dt_, mass_behind_ = 0.0;  // s; behind the sensor, kg
   int steps_per_tick_;
   std::int32_t clamped_ = -1;  // tool in the gripper
   Pose<'W', 'R'> X_WR_;        // true
@@ -106,11 +104,13 @@ class World {
   std::optional<User> user_;
   Physics physics_;
   std::optional<ArmBody> arm_body_;
+  ArmAbility arm_ability_;             // what a maker's sheet says
   std::optional<StepWork> step_work_;  // set if work was requested; only observes
+  Point<'W'> work_from_;               // a hexapod's tip as the step begins
   std::vector<HeldTool> tools_;        // the first tool, and the one to change to
   const HeldTool* in_hand_ = nullptr;  // one of these; null: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
-  double programme_time_ = 10.0;  // s
+  double programme_time_ = 10.0;  // of user, probe, pusher or travel, where there is one
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;

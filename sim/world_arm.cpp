@@ -35,6 +35,7 @@ Pose<'W', 'R'> arm_base(const ArmTruth& truth) {
 }
 
 void World::set_up_arm(const WorldSpec& spec) {
+  arm_ability_ = {spec.rig.arm.machine, spec.rig.arm.peak, spec.rig.arm.continuous};
   const Arm believed(spec.rig.arm.machine);
   arm.emplace(spec.twin.arm, believed, dt_);
   arm_body_.emplace(physics_, believed.joints());
@@ -65,13 +66,20 @@ void World::face_prop(double h) {
   arm_body_->face(m, d, arm->facing(), running);
 }
 
-void World::drive_arm(double h) {
+void World::drive_arm(double, double h) {
   mjData* d = physics_.data();
   face_prop(h);
   PerJoint torque = arm->state().torque;
   const PerJoint friction = arm->friction(arm_body_->rates(d));
   for (std::size_t i = 0; i < torque.size(); ++i) torque[i] += friction[i];
   arm_body_->drive(d, torque);
+}
+
+void World::begin_arm_work() { step_work_->begin(physics_, scale(), &*arm_body_, arm->state().torque); }
+
+void World::count_arm_work(double h) {
+  step_work_->count(physics_, *arm_body_, twin_.arm, arm->state().torque, arm->friction(step_work_->rates()),
+                    h, truth_.work);
 }
 
 // Forces are those of the step's last stage, which is as good as at this very time; velocities are evaluated

@@ -84,8 +84,9 @@ LegMotion World::leg_motion() const {
   return legs->at(machine->true_pose(), machine->state().velocity, machine->state().turning);
 }
 
-void World::move_machine(double t, double h) {
+void World::move_hexapod(double t, double h) {
   const Pose<'W', 'H'> from = true_tip();
+  work_from_ = from.origin();
   if (legs) {
     const LegMotion wanted = leg_motion();
     machine->move(h);
@@ -135,9 +136,18 @@ void World::apply(const Vec<'W'>& pushed, const Point<'W'>& touched, const Pose<
   truth_.touching = pushed.norm() > 0.0;
 }
 
+void World::begin_hexapod_work() { step_work_->begin(physics_, scale(), nullptr, {}); }
+
+void World::count_hexapod_work(double h) {
+  const Vec3 way = (true_tip().origin() - work_from_).e();
+  Work& work = truth_.work;
+  work.contact += way.dot(by_own_law() ? Vec3(truth_.contact_force.e()) : step_work_->pushed(physics_, h));
+  if (force) work.sensed += way.dot(felt_by_sensor().e());
+}
+
 // Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
 // belongs to its last stage, so all is evaluated once more at this very time.
-void World::observe_machine() {
+void World::observe_hexapod() {
   if (!legs) {
     truth_.tip = X_WR_ * machine->true_pose().origin();
     truth_.tip_velocity = X_WR_ * machine->state().velocity;

@@ -66,14 +66,14 @@ void check_twin(const Setup& setup) {
 
 }  // namespace
 
-// Vision sees a bare fingertip, which only an arm meets.
+// Vision sees a bare fingertip.
 void check_camera(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.camera) return;
   if (!s.tracker)
     fail(setup, "camera",
          "the scene has a [camera] and nothing that looks through it; expected a [tracker]; add it");
-  if (!s.arm)
+  if (!checks_of(s).bare_finger)
     fail(setup, "camera",
          "vision sees a bare finger, which has no markers; expected an [arm] that meets it; remove [camera]");
   if (s.tools.size() > 1)

@@ -7,12 +7,10 @@
 #include <chrono>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/control/task/measure/probe.h"
-#include "core/control/track/markers.h"
 #include "core/control/world/contact_limits.h"
 #include "core/control/world/object.h"
 #include "core/devices/roles.h"
@@ -20,7 +18,6 @@
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
-#include "models/setup/scene_sizes.h"
 
 namespace enc::models {
 namespace {
@@ -46,7 +43,7 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
                      "\"{}\"'",
                      quoted(o.name),
                      setup.scene.probe ? "[probe] does not press it" : "nothing else says what is felt",
-                     setup.scene.arm ? "phantom_wall" : "tennis_ball"));
+                     checks_of(setup.scene).behaviour));
   }
   if (!std::isnan(o.limit) || !o.limits.empty()) {
     const char* key = o.limits.empty() ? "limit_mm" : "limits_mm";
@@ -138,60 +135,6 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   }
 }
 
-// Of the line that the markers are nearest to: root of the sum of the squares of their distances from it, m.
-double off_the_line(const std::vector<Vec3>& markers) {
-  const Vec3 middle = middle_of(markers);
-  Mat3 scatter = Mat3::Zero();
-  for (const Vec3& marker : markers) scatter += (marker - middle) * (marker - middle).transpose();
-  const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  return std::sqrt(std::max(0.0, along[0] + along[1]));  // all but the greatest
-}
-// Noise of the markers turns the tool about that line by noise / (rms distance from it * sqrt(n)), rad, which
-// is noise / off_the_line(). At 0.3 mm noise and 6 mm that is 0.05, or 3 deg.
-constexpr double kMostTurn = 0.05;
-constexpr double kLeastOffLine = kMarkerNoise / kMostTurn;  // m
-
-void check_tool(const Setup& setup, const ToolSpec& tool) {
-  if (setup.scene.arm) return check_finger(setup, tool);
-  if (tool.tip_shape != TipShape::sphere)
-    check_unit(setup, fmt::format("tool.{}.tip_axis", tool.name), tool.tip_axis);
-  const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
-  const std::string unit = markers_advice(tool);
-  const std::string advice = unit.empty() ? "move one of 'markers_mm'" : unit;
-  if (tool.markers.size() < kFewestMarkers) {
-    fail(setup, key,
-         fmt::format("tool {} has {} markers; expected at least {}, or its pose is not known; add some to "
-                     "'markers_mm'",
-                     quoted(tool.name), tool.markers.size(), kFewestMarkers));
-  }
-  if (tool.markers.size() > kMostMarkers)
-    fail(setup, key,
-         fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
-                     tool.markers.size(), kMostMarkers));
-  if (const double off = off_the_line(tool.markers); !(off >= kLeastOffLine)) {
-    const double share = 1.0 / std::sqrt(static_cast<double>(tool.markers.size()));
-    fail(setup, key,
-         fmt::format(
-             "the markers of tool {} are on a line, or almost: they are {:.2f} mm rms off it; expected "
-             "at least {:.2f} mm, or nobody knows how it is turned about the line; {}",
-             quoted(tool.name), 1e3 * share * off, 1e3 * share * kLeastOffLine, advice));
-  }
-  if (has_two_poses(tool.markers))
-    fail(setup, key,
-         fmt::format(
-             "the markers of tool {} look the same in another order, so that it has two poses; expected "
-             "distances that differ by {} mm; {}",
-             quoted(tool.name), mm(kMarkersApart), advice));
-  for (const ToolSpec& other : setup.scene.tools) {
-    if (&other == &tool) return;
-    if (!alike(tool.markers, other.markers)) continue;
-    fail(setup, key,
-         fmt::format("tools {} and {} have the same marker geometry; expected distances that differ by {} "
-                     "mm; {}",
-                     quoted(other.name), quoted(tool.name), mm(kMarkersApart), advice));
-  }
-}
-
 void check_user(const Setup& setup) {
   if (!setup.scene.user) return;
   if (setup.scene.tools.empty()) {
@@ -280,7 +223,7 @@ void check_driver(const Setup& setup, bool named, const std::string& table, cons
   fail(setup, table,
        fmt::format("the scene names [{}] and rig {} has none; expected a [{}] with a driver; add it to the "
                    "rig, or use '--rig {}'",
-                   table, quoted(setup.rig_path), table, setup.scene.arm ? "vishap" : "sim"));
+                   table, quoted(setup.rig_path), table, checks_of(setup.scene).rig));
 }
 
 void check_calibration(const Setup& setup) {
@@ -364,7 +307,7 @@ void check(const Setup& setup) {
   if (s.probe) check_named(setup, s.objects, s.probe->object, "object", "probe");
   for (const ObjectSpec& object : s.objects) check_object(setup, object);
   for (const BehaviourSpec& behaviour : s.behaviours) check_behaviour(setup, behaviour);
-  for (const ToolSpec& tool : s.tools) check_tool(setup, tool);
+  for (const ToolSpec& tool : s.tools) checks_of(s).tool(setup, tool);
   if (s.follow.resume > s.follow.pause) {
     fail(setup, "follow.resume_mm",
          fmt::format("'resume_mm' is {}; expected at most 'pause_mm', {} mm; lower it", mm(s.follow.resume),
@@ -374,7 +317,7 @@ void check(const Setup& setup) {
   check_probe(setup);
   check_pusher(setup);
   check_gripper(setup);
-  check_arm(setup);
+  checks_of(s).scene(setup);
   check_rig(setup);
   check_stepping(setup);
 }

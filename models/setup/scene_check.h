@@ -24,12 +24,27 @@ inline constexpr double kNoWay = 1e-6;  // a shorter vector has no direction
 // A direction must have length 1; `key` ends with its name in the file.
 void check_unit(const Setup& setup, const std::string& key, const Vec3& v);
 
-void check_session(const Setup& setup);  // [user.session]
-void check_reaches(const Setup& setup);  // [user.reaches]
-void check_camera(const Setup& setup);   // camera_check.cpp
-// arm_check.cpp
-void check_arm(const Setup& setup);
-void check_finger(const Setup& setup, const ToolSpec& tool);
-void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);
+// A time constant of MuJoCo, s, and its key.
+struct StopTime {
+  std::string key;
+  double time;
+};
+
+void check_session(const Setup& setup);                                      // [user.session]
+void check_reaches(const Setup& setup);                                      // [user.reaches]
+void check_camera(const Setup& setup);                                       // camera_check.cpp
+void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);  // machine_check.cpp
+
+// What the checks of a scene ask of one machine and not of the other.
+struct MachineChecks {
+  const char* behaviour;  // an entry of models/behaviours.toml that it renders
+  const char* rig;        // a rig of models/rigs that has it
+  bool bare_finger;       // it meets a finger without markers
+  bool (*simulated)(const RigSpec& rig);
+  void (*tool)(const Setup& setup, const ToolSpec& tool);
+  void (*scene)(const Setup& setup);
+  std::vector<StopTime> (*stops)(const Setup& setup);
+};
+[[nodiscard]] const MachineChecks& checks_of(const SceneSpec& scene);
 
 }  // namespace enc::models

@@ -87,7 +87,7 @@ void add_clamped_tool(mjsBody* behind_sensor, const ToolSpec& tool, const Pose<'
   draw_tool(body, tool, Quat(X_HT.q()), (X_HT * Point<'T'>(tool.tip)).e());
 }
 
-void add_machine(mjSpec* spec, const ModelParts& parts) {
+void add_hexapod(mjSpec* spec, const ModelParts& parts) {
   std::array<char, 500> error{};
   const std::string file = parts.mjcf_dir + "/hexapod.xml";
   const SpecPtr machine(mj_parseXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
@@ -120,7 +120,14 @@ void add_machine(mjSpec* spec, const ModelParts& parts) {
   Legs::build(spec, Hexapod(parts.twin.hexapod.geometry), parts.twin.structure, moved);
 }
 
+// Nothing but a tool can touch a hexapod, which has no other constraint.
+void touch_hexapod(mjSpec* spec, const ModelParts& parts) {
+  if (parts.tool == nullptr) spec->option.disableflags |= mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
+}
+
+// All parts of an arm hang together: islands would only be looked for (8 % of the run time).
 void add_arm(mjSpec* spec, const ModelParts& parts) {
+  spec->option.disableflags |= mjDSBL_ISLAND;
   const ArmMachine machine = true_machine(parts.twin.arm);
   build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR});
   spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that turns on its body
@@ -238,6 +245,27 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
   }
 }
 
+void touch_arm(mjSpec* spec, const ModelParts& parts) {
+  if (parts.tool == nullptr) spec->option.disableflags |= mjDSBL_CONTACT;
+  if (parts.tool == nullptr || !parts.scene.prop) return;
+  mjsPair* pair = only_pair(spec, "prop_front", "tool_tip");
+  if (parts.scene.prop->kind != PropKind::drum) return;
+  pair->solreffriction[0] = parts.twin.arm.belt_friction_time;
+  pair->solreffriction[1] = 1.0;
+}
+
+// What differs in the model of a scene from machine to machine.
+struct MachineModel {
+  void (*add)(mjSpec* spec, const ModelParts& parts);    // its bodies
+  void (*touch)(mjSpec* spec, const ModelParts& parts);  // what can touch it, once all bodies are there
+  int noslip;  // steps of the pass that removes creep, unless the rig file says
+};
+// Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds. Not
+// by the last pass where there is an arm: that changes the dry friction of its joints after the contact
+// forces are found, and a pressed finger is let go for a tick whenever the arm begins to slip.
+constexpr PerMachine<MachineModel> kModels{.hexapod = {add_hexapod, touch_hexapod, 4},
+                                           .arm = {add_arm, touch_arm, 0}};
+
 mjtIntegrator integrator_of(const Stepping& stepping) {
   constexpr std::array<mjtIntegrator, kIntegrators.size()> kOfMujoco{mjINT_EULER, mjINT_RK4, mjINT_IMPLICIT,
                                                                      mjINT_IMPLICITFAST, mjINT_DISCRETE};
@@ -251,16 +279,11 @@ mjtIntegrator integrator_of(const Stepping& stepping) {
   return kOfMujoco[static_cast<std::size_t>(found - kIntegrators.begin())];
 }
 
-// Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds. Not
-// by the last pass where there is an arm: that changes the dry friction of its joints after the contact
-// forces are found, and a pressed finger is let go for a tick whenever the arm begins to slip.
-void set_solver(const ModelParts& parts, mjOption& option) {
-  const SolverTruth& solver = parts.twin.solver;
+void set_solver(const SolverTruth& solver, int noslip, mjOption& option) {
   option.cone = solver.cone == Cone::elliptic ? mjCONE_ELLIPTIC : mjCONE_PYRAMIDAL;
   option.impratio = solver.impratio;
-  option.noslip_iterations = std::isfinite(solver.noslip) ? static_cast<int>(std::lround(solver.noslip))
-                             : parts.scene.arm            ? 0
-                                                          : 4;
+  option.noslip_iterations =
+      std::isfinite(solver.noslip) ? static_cast<int>(std::lround(solver.noslip)) : noslip;
   option.iterations = static_cast<int>(std::lround(solver.iterations));
   option.tolerance = solver.tolerance;
 }
@@ -270,36 +293,23 @@ void set_solver(const ModelParts& parts, mjOption& option) {
 SpecPtr build_model(const ModelParts& parts) {
   install_mujoco_handlers();  // attaching warns on standard output otherwise
   SpecPtr spec(mj_makeSpec());
+  const MachineModel& machine = kModels.of(parts.scene);
   const Stepping stepping = parts.twin.stepping(parts.scene);
   spec->option.timestep = stepping.timestep;
   set3(spec->option.gravity, {0, 0, -9.80665});
   spec->option.integrator = integrator_of(stepping);
-  set_solver(parts, spec->option);
+  set_solver(parts.twin.solver, machine.noslip, spec->option);
   // Looks a step ahead: 5 m/s are 5 mm a step, and the tool would go through the tip. Slower ones keep their
   // bits.
   spec->option.enableflags |= mjENBL_SPECULATIVE;
-  // All its parts hang together: islands would only be looked for (8 % of the run time).
-  if (parts.scene.arm) spec->option.disableflags |= mjDSBL_ISLAND;
-  if (parts.scene.arm)
-    add_arm(spec.get(), parts);
-  else
-    add_machine(spec.get(), parts);
+  machine.add(spec.get(), parts);
   if (parts.scene.force) {
     add_sensor(spec.get(), mjSENS_FORCE, "force");
     add_sensor(spec.get(), mjSENS_TORQUE, "torque");
   }
-  if (parts.tool != nullptr)
-    add_tool(spec.get(), parts, *parts.tool, "tool");
-  else  // nothing can touch, and a hexapod has no other constraint
-    spec->option.disableflags |= mjDSBL_CONTACT | (parts.scene.arm ? 0 : mjDSBL_CONSTRAINT);
+  if (parts.tool != nullptr) add_tool(spec.get(), parts, *parts.tool, "tool");
   if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
-  if (parts.scene.arm && parts.scene.prop && parts.tool != nullptr) {
-    mjsPair* pair = only_pair(spec.get(), "prop_front", "tool_tip");
-    if (parts.scene.prop->kind == PropKind::drum) {
-      pair->solreffriction[0] = parts.twin.arm.belt_friction_time;
-      pair->solreffriction[1] = 1.0;
-    }
-  }
+  machine.touch(spec.get(), parts);
   if (parts.draw_all) add_pictures(spec.get(), parts);
   return spec;
 }

@@ -9,9 +9,37 @@
 #include "core/control/scene/press_check.h"
 
 namespace enc::sim {
+namespace {
+
+double expected_of_ball(const Object&) {
+  constexpr double kBall = 1900.0;  // N/m: mean of the ball's press curve
+  return kBall;
+}
+// Of what an arm renders, its stiffness; of a real thing nothing.
+double expected_of_rendered(const Object& object) {
+  return std::isnan(object.stiffness) ? 0.0 : object.stiffness;
+}
+
+bool hexapod_presses(const Scene& scene, const Place& place, const Tool& tool) {
+  const Object& object = scene.objects[static_cast<std::size_t>(place.object)];
+  return in_the_way(scene, place.at.normal, tool) == Obstacle::none && carried_to(scene, place.at, 0.0) &&
+         carried_to(scene, place.at, object.limit);
+}
+bool arm_reaches(const Scene& scene, const Place& place, const Tool&) {
+  PerJoint q{};
+  return scene.impedance()->arm.inverse(scene.X_WR.inverse() * place.at.point, q);
+}
+
+constexpr PerMachine<HandAtMachine> kHands{.hexapod = {expected_of_ball, hexapod_presses},
+                                           .arm = {expected_of_rendered, arm_reaches}};
+
+}  // namespace
+
+const HandAtMachine& hand_at(const SceneSpec& scene) { return kHands.of(scene); }
 
 Places::Places(const SceneSpec& scene, const Scene& prepared)
-    : scene_(prepared),
+    : hand_(hand_at(scene)),
+      scene_(prepared),
       everywhere_(scene.user->reaches.has_value()),
       ball_(static_cast<std::int32_t>(pressed_object(scene.objects, scene.user->object, "user"))),
       lowest_(std::cos(everywhere_ ? scene.user->reaches->polar_most : scene.user->session->polar_most)),
@@ -35,16 +63,6 @@ PressPoint Places::on(const Object& object, Stream& draws) const {
   return {object.X_WO * at, object.X_WO * up};
 }
 
-bool Places::pressable(const Place& place, const Tool& tool) const {
-  const Object& object = scene_.objects[static_cast<std::size_t>(place.object)];
-  if (scene_.impedance()) {
-    PerJoint q{};
-    return scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * place.at.point, q);
-  }
-  return in_the_way(scene_, place.at.normal, tool) == Obstacle::none && carried_to(scene_, place.at, 0.0) &&
-         carried_to(scene_, place.at, object.limit);
-}
-
 Place Places::draw(Stream& draws, const Tool& tool) const {
   constexpr int kTries = 1000;
   const auto count = static_cast<double>(scene_.objects.size());
@@ -52,7 +70,7 @@ Place Places::draw(Stream& draws, const Tool& tool) const {
     Place place{ball_, {}};
     if (everywhere_) place.object = static_cast<std::int32_t>(std::min(count - 1.0, count * draws.uniform()));
     place.at = on(scene_.objects[static_cast<std::size_t>(place.object)], draws);
-    if (pressable(place, tool)) return place;
+    if (hand_.pressable(scene_, place, tool)) return place;
   }
   if (everywhere_) throw Error("the machine reaches none of the objects", "user.reaches");
   throw Error("the machine can press the ball nowhere within polar_max_deg", "user.session.polar_max");

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/control/scene/scene.h"
+#include "sim/spec/twin_spec.h"
 #include "sim/truth/random.h"
 
 namespace enc::sim {
@@ -13,6 +14,14 @@ struct Place {
   std::int32_t object = -1;  // index in the scene
   PressPoint at;
 };
+
+// What a person does with one machine and not with the other.
+struct HandAtMachine {
+  // The stiffness that the person has learned to expect of an object, N/m.
+  double (*expected)(const Object& object);
+  bool (*pressable)(const Scene& scene, const Place& place, const Tool& tool);
+};
+[[nodiscard]] const HandAtMachine& hand_at(const SceneSpec& scene);
 
 class Places {
  public:
@@ -25,8 +34,8 @@ class Places {
 
  private:
   [[nodiscard]] PressPoint on(const Object& object, Stream& draws) const;
-  [[nodiscard]] bool pressable(const Place& place, const Tool& tool) const;
 
+  const HandAtMachine& hand_;
   const Scene& scene_;
   bool everywhere_;         // true: all objects
   std::int32_t ball_;       // otherwise this object

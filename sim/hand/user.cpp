@@ -17,24 +17,12 @@ constexpr double kClear = 0.002;   // m above the surface where a release ends
 constexpr double kSettle = 0.020;  // s in which the person takes the approach speed out after the touch
 constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
-constexpr double kBall = 1900.0;   // N/m: mean of the ball's press curve
 constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
 
 std::int32_t held_tool(const SceneSpec& scene) {
   const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
                                   [&](const ToolSpec& t) { return t.name == scene.user->tool; });
   return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
-}
-
-// The stiffness that the person has learned to expect: the ball's, or that of what an arm renders. Of a real
-// thing they expect nothing.
-std::vector<double> expected_stiffness(const Scene& prepared) {
-  std::vector<double> expected;
-  for (const Object& object : prepared.objects)
-    expected.push_back(prepared.impedance() == nullptr ? kBall
-                       : std::isnan(object.stiffness)  ? 0.0
-                                                       : object.stiffness);
-  return expected;
 }
 
 // Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
@@ -65,7 +53,7 @@ User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand,
   touch_ = press_.point + prepared.tools[static_cast<std::size_t>(tool_)].tip.radius * press_.normal;
   start_ = touch_ + Vec<'W'>(Vec3(spec_.approach_from * away_));
   object_ = static_cast<std::int32_t>(pressed_object(scene.objects, spec_.object, "user"));
-  expected_ = expected_stiffness(prepared);
+  for (const Object& object : prepared.objects) expected_.push_back(hand_at(scene).expected(object));
   if (drawn) {
     session_.emplace(scene, prepared, hand);
     state_.session = session_->begin(seed);

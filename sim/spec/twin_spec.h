@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -11,17 +10,10 @@
 #include "core/spec/scene_spec.h"
 #include "sim/spec/arm_spec.h"
 #include "sim/spec/machine_spec.h"
+#include "sim/spec/physics_spec.h"
 #include "sim/spec/sensor_spec.h"
-#include "sim/spec/solver_spec.h"
 
 namespace enc::sim {
-
-struct WorldTruth {
-  double timestep = 0.001;  // s
-  std::string integrator = "implicitfast";
-  double tip_friction = 0.6;    // tool on haptic-tip
-  double contact_time = 0.005;  // s, stop between tool and tip: hard, not a rendered stiffness
-};
 
 // True poses of camera and sensor. The rig file has the calibrated ones.
 struct FramesTruth {
@@ -78,17 +70,11 @@ struct BallTruth {
   Vec3 misplaced{0, 0, 0};         // ball against its place in the scene, m
 };
 
-struct Stepping {
-  double timestep;  // s
-  std::string integrator;
-  std::string table;  // table of the file with both keys
-
-  // Physics steps in a haptic period (rate in Hz); 0 if the time step does not divide it.
-  [[nodiscard]] int steps_per_tick(double rate) const {
-    const double steps = 1.0 / (rate * timestep);
-    const double whole = std::round(steps);
-    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 * whole ? static_cast<int>(whole) : 0;
-  }
+// A row for each machine: the only place in the twin that asks which machine a scene has.
+template <class Row>
+struct PerMachine {
+  Row hexapod, arm;
+  [[nodiscard]] const Row& of(const SceneSpec& scene) const { return scene.arm ? arm : hexapod; }
 };
 
 struct TwinSpec {
@@ -111,9 +97,10 @@ struct TwinSpec {
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
   // Time step and integrator: an arm, a structural hexapod and all other worlds have their own keys.
   [[nodiscard]] Stepping stepping(const SceneSpec& scene) const {
-    if (scene.arm) return {arm.timestep, arm.integrator, "truth.arm"};
-    if (structural()) return {structure.timestep, structure.integrator, "truth.structure"};
-    return {world.timestep, world.integrator, "truth.world"};
+    const Stepping placed{world.timestep, world.integrator, "truth.world"},
+        on_legs{structure.timestep, structure.integrator, "truth.structure"},
+        jointed{arm.timestep, arm.integrator, "truth.arm"};
+    return PerMachine<Stepping>{.hexapod = structural() ? on_legs : placed, .arm = jointed}.of(scene);
   }
 };
 

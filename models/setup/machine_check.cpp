@@ -1,11 +1,14 @@
-// What one key alone does not show, of a scene with an arm.
+// What one key alone does not show, of each machine: its tools, its behaviours, its stops.
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/control/track/markers.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
+#include "models/setup/scene_sizes.h"
 
 namespace enc::models {
 namespace {
@@ -106,8 +109,6 @@ void check_no_limit(const Setup& setup, const std::string& key) {
                    key.substr(key.rfind('.') + 1)));
 }
 
-}  // namespace
-
 // A fingertip has no markers and no orientation (sources/choices 12).
 void check_finger(const Setup& setup, const ToolSpec& tool) {
   if (!tool.markers.empty())
@@ -127,6 +128,61 @@ void check_finger(const Setup& setup, const ToolSpec& tool) {
              "bare fingers apart; remove it",
              quoted(tool.name)));
 }
+
+// Of the line that the markers are nearest to: root of the sum of the squares of their distances from it, m.
+double off_the_line(const std::vector<Vec3>& markers) {
+  const Vec3 middle = middle_of(markers);
+  Mat3 scatter = Mat3::Zero();
+  for (const Vec3& marker : markers) scatter += (marker - middle) * (marker - middle).transpose();
+  const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return std::sqrt(std::max(0.0, along[0] + along[1]));  // all but the greatest
+}
+// Noise of the markers turns the tool about that line by noise / (rms distance from it * sqrt(n)), rad, which
+// is noise / off_the_line(). At 0.3 mm noise and 6 mm that is 0.05, or 3 deg.
+constexpr double kMostTurn = 0.05;
+constexpr double kLeastOffLine = kMarkerNoise / kMostTurn;  // m
+
+void check_marked_tool(const Setup& setup, const ToolSpec& tool) {
+  if (tool.tip_shape != TipShape::sphere)
+    check_unit(setup, fmt::format("tool.{}.tip_axis", tool.name), tool.tip_axis);
+  const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
+  const std::string unit = markers_advice(tool);
+  const std::string advice = unit.empty() ? "move one of 'markers_mm'" : unit;
+  if (tool.markers.size() < kFewestMarkers) {
+    fail(setup, key,
+         fmt::format("tool {} has {} markers; expected at least {}, or its pose is not known; add some to "
+                     "'markers_mm'",
+                     quoted(tool.name), tool.markers.size(), kFewestMarkers));
+  }
+  if (tool.markers.size() > kMostMarkers)
+    fail(setup, key,
+         fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
+                     tool.markers.size(), kMostMarkers));
+  if (const double off = off_the_line(tool.markers); !(off >= kLeastOffLine)) {
+    const double share = 1.0 / std::sqrt(static_cast<double>(tool.markers.size()));
+    fail(setup, key,
+         fmt::format(
+             "the markers of tool {} are on a line, or almost: they are {:.2f} mm rms off it; expected "
+             "at least {:.2f} mm, or nobody knows how it is turned about the line; {}",
+             quoted(tool.name), 1e3 * share * off, 1e3 * share * kLeastOffLine, advice));
+  }
+  if (has_two_poses(tool.markers))
+    fail(setup, key,
+         fmt::format(
+             "the markers of tool {} look the same in another order, so that it has two poses; expected "
+             "distances that differ by {} mm; {}",
+             quoted(tool.name), mm(kMarkersApart), advice));
+  for (const ToolSpec& other : setup.scene.tools) {
+    if (&other == &tool) return;
+    if (!alike(tool.markers, other.markers)) continue;
+    fail(setup, key,
+         fmt::format("tools {} and {} have the same marker geometry; expected distances that differ by {} "
+                     "mm; {}",
+                     quoted(other.name), quoted(tool.name), mm(kMarkersApart), advice));
+  }
+}
+
+}  // namespace
 
 void check_interaction(const Setup& setup, const BehaviourSpec& b) {
   const std::string path = "behaviour." + b.name;
@@ -165,29 +221,22 @@ void mend_normals(Setup& setup) {
   }
 }
 
-// Of a stop it is said alone: it is hard either way. And of the solver, what it makes of friction.
+// Notes a stop without an error: it is hard either way. Also notes what the solver makes of friction.
 void note_stops(Setup& setup) {
-  const SceneSpec& scene = setup.scene;
-  const RigSpec& rig = setup.rig;
+  const MachineChecks& machine = checks_of(setup.scene);
+  if (!machine.simulated(setup.rig)) return;
   const sim::TwinSpec& twin = setup.twin;
-  const bool has_arm = scene.arm.has_value();
-  if (has_arm ? rig.arm.driver != "sim" : rig.manipulator.driver != "sim") return;
-  const double least = 2.0 * twin.stepping(scene).timestep;
-  const auto note = [&](bool there, const char* key, double time) {
-    if (!there || time >= least * (1.0 - 1e-9)) return;
-    const std::string name = std::string(key).substr(std::string(key).rfind('.') + 1);
-    setup.notes.push_back(
-        fmt::format("{}: warning: '{}' is {:g} and MuJoCo takes nothing shorter than two time steps, {:g} "
-                    "ms; raise it, or "
-                    "shorten '{}.timestep_us'",
-                    place_of(setup, key), name, time * 1e3, least * 1e3, twin.stepping(scene).table));
-  };
-  const bool drum = scene.prop && scene.prop->kind == PropKind::drum;
-  note(!has_arm && scene.user.has_value(), "truth.world.contact_time_ms", twin.world.contact_time);
-  note(has_arm && !drum, "truth.arm.contact_time_ms", twin.arm.contact_time);
-  note(has_arm && drum, "truth.arm.belt_time_ms", twin.arm.belt_time);
-  note(has_arm && drum, "truth.arm.belt_friction_time_ms", twin.arm.belt_friction_time);
-  if (scene.user && twin.solver.cone == sim::Cone::pyramidal && twin.solver.impratio > 1.0)
+  const sim::Stepping stepping = twin.stepping(setup.scene);
+  const double least = 2.0 * stepping.timestep;
+  for (const auto& [key, time] : machine.stops(setup)) {
+    if (time >= least * (1.0 - 1e-9)) continue;
+    setup.notes.push_back(fmt::format(
+        "{}: warning: '{}' is {:g} and MuJoCo takes nothing shorter than two time steps, {:g} "
+        "ms; raise it, or "
+        "shorten '{}.timestep_us'",
+        place_of(setup, key), key.substr(key.rfind('.') + 1), time * 1e3, least * 1e3, stepping.table));
+  }
+  if (setup.scene.user && twin.solver.cone == sim::Cone::pyramidal && twin.solver.impratio > 1.0)
     setup.notes.push_back(
         fmt::format("{}: warning: a pyramidal cone with 'impratio' over 1, here {:g}, gives wrong forces: "
                     "what is pressed slips "
@@ -219,7 +268,7 @@ void note_props(Setup& setup) {
 
 namespace {
 
-void check_armless(const Setup& setup) {
+void check_hexapod(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (s.prop) fail(setup, "prop", "nothing carries the prop; expected an [arm]; add it or remove [prop]");
   for (const BehaviourSpec& b : s.behaviours)
@@ -230,14 +279,8 @@ void check_armless(const Setup& setup) {
                        quoted(b.name)));
 }
 
-}  // namespace
-
 void check_arm(const Setup& setup) {
   const SceneSpec& s = setup.scene;
-  if (!s.arm) {
-    check_armless(setup);
-    return;
-  }
   const auto without = [&](bool there, const char* table) {
     if (there)
       fail(setup, table,
@@ -267,5 +310,37 @@ void check_arm(const Setup& setup) {
   check_continuous(setup, "rig.arm", "continuous_N", "peak_N", arm.continuous, arm.peak);
   if (arm.driver == "sim") check_truth(setup);
 }
+
+std::vector<StopTime> hexapod_stops(const Setup& setup) {
+  if (!setup.scene.user) return {};
+  return {{"truth.world.contact_time_ms", setup.twin.world.contact_time}};
+}
+std::vector<StopTime> arm_stops(const Setup& setup) {
+  const std::optional<PropSpec>& prop = setup.scene.prop;
+  const sim::ArmTruth& truth = setup.twin.arm;
+  if (!prop || prop->kind != PropKind::drum) return {{"truth.arm.contact_time_ms", truth.contact_time}};
+  return {{"truth.arm.belt_time_ms", truth.belt_time},
+          {"truth.arm.belt_friction_time_ms", truth.belt_friction_time}};
+}
+
+constexpr sim::PerMachine<MachineChecks> kChecks{
+    .hexapod = {.behaviour = "tennis_ball",
+                .rig = "sim",
+                .bare_finger = false,
+                .simulated = [](const RigSpec& rig) { return rig.manipulator.driver == "sim"; },
+                .tool = check_marked_tool,
+                .scene = check_hexapod,
+                .stops = hexapod_stops},
+    .arm = {.behaviour = "phantom_wall",
+            .rig = "vishap",
+            .bare_finger = true,
+            .simulated = [](const RigSpec& rig) { return rig.arm.driver == "sim"; },
+            .tool = check_finger,
+            .scene = check_arm,
+            .stops = arm_stops}};
+
+}  // namespace
+
+const MachineChecks& checks_of(const SceneSpec& scene) { return kChecks.of(scene); }
 
 }  // namespace enc::models
