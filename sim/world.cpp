@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -86,22 +87,6 @@ int whole_steps(const WorldSpec& spec) {
 }
 
 }  // namespace
-
-const PerMachine<MachineSteps> World::kMachines{
-    .hexapod = {.base = [](const TwinSpec& twin) { return hexapod_base(twin.hexapod); },
-                .set_up = &World::set_up_hexapod,
-                .begin_cycle = [](World& world) { world.machine->begin_cycle(); },
-                .drive = &World::move_hexapod,
-                .begin_work = &World::begin_hexapod_work,
-                .count_work = &World::count_hexapod_work,
-                .observe = &World::observe_hexapod},
-    .arm = {.base = [](const TwinSpec& twin) { return arm_base(twin.arm); },
-            .set_up = &World::set_up_arm,
-            .begin_cycle = [](World& world) { world.arm->begin_cycle(); },
-            .drive = &World::drive_arm,
-            .begin_work = &World::begin_arm_work,
-            .count_work = &World::count_arm_work,
-            .observe = &World::observe_arm}};
 
 World::World(const WorldSpec& spec)
     : steps_(kMachines.of(spec.scene)),
@@ -294,6 +279,200 @@ Tick World::advance() {
   ++next_.index;
   next_.t = Time(Duration(next_.index * next_.dt.count()));
   return tick;
+}
+
+// ---- save and restore: each part's plain state, in a fixed order, behind its size
+
+namespace {
+
+class Saver {
+ public:
+  template <class T>
+  void put(const T& part) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_bytes(&part, sizeof(T));
+  }
+  void put_bytes(const void* from, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(from);
+    const auto* length = reinterpret_cast<const std::byte*>(&size);
+    bytes.insert(bytes.end(), length, length + sizeof(size));
+    bytes.insert(bytes.end(), first, first + size);
+  }
+  std::vector<std::byte> bytes;
+};
+
+class Restorer {
+ public:
+  explicit Restorer(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  template <class T>
+  T take() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T part;
+    take_bytes(&part, sizeof(T));
+    return part;
+  }
+  void take_bytes(void* to, std::size_t size) {
+    std::size_t length = 0;
+    if (at_ + sizeof(length) > bytes_.size()) throw Error("this saved world is cut short");
+    std::memcpy(&length, bytes_.data() + at_, sizeof(length));
+    at_ += sizeof(length);
+    if (length != size || at_ + length > bytes_.size())
+      throw Error("this saved world is of another scene or another build");
+    std::memcpy(to, bytes_.data() + at_, length);
+    at_ += length;
+  }
+
+  void end() const {
+    if (at_ != bytes_.size()) throw Error("this saved world is of another scene or another build");
+  }
+
+ private:
+  const std::vector<std::byte>& bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::byte> World::save() const {
+  Saver saver;
+  const std::vector<double> physics = physics_.save();
+  saver.put_bytes(physics.data(), physics.size() * sizeof(double));
+  if (machine) saver.put(machine->state());
+  if (arm) saver.put(arm->state());
+  if (force) saver.put(force->state());
+  if (tracker) saver.put(tracker->state());
+  if (display) saver.put(display->state());
+  if (ball) saver.put(ball->state());
+  if (pusher) saver.put(pusher->state());
+  if (gripper) saver.put(gripper->state());
+  if (user_) saver.put(user_->state());
+  saver.put(next_);
+  saver.put(truth_);
+  saver.put(diverged_at_);
+  return saver.bytes;
+}
+
+void World::restore(const std::vector<std::byte>& saved) {
+  Restorer from(saved);
+  std::vector<double> physics = physics_.save();
+  from.take_bytes(physics.data(), physics.size() * sizeof(double));
+  if (machine) machine->restore(from.take<HexapodPlant::State>());
+  if (arm) arm->restore(from.take<ArmPlant::State>());
+  if (force) force->restore(from.take<ForcePlant::State>());
+  if (tracker) tracker->restore(from.take<TrackerPlant::State>());
+  if (display) display->restore(from.take<DisplayPlant::State>());
+  if (ball) ball->restore(from.take<BallContact::State>());
+  if (pusher) pusher->restore(from.take<Pusher::State>());
+  if (gripper) gripper->restore(from.take<GripperPlant::State>());
+  if (user_) user_->restore(from.take<User::State>());
+  next_ = from.take<Tick>();
+  truth_ = from.take<Truth>();
+  diverged_at_ = from.take<std::int64_t>();
+  from.end();
+  fatal_.clear();
+  physics_.restore(physics);
+  if (arm) mj_kinematics(physics_.model(), physics_.data());  // the prop is turned by where its arm is
+}
+
+// ---- the roles of a simulated rig: small views on one world
+
+namespace {
+
+class SimClock final : public Clock {
+ public:
+  explicit SimClock(World& world) : world_(world) {}
+  Tick next() override { return world_.advance(); }
+
+ private:
+  World& world_;
+};
+
+class SimManipulator final : public Manipulator {
+ public:
+  SimManipulator(World& world, const HexapodTruth& truth) : world_(world), truth_(truth) {}
+  [[nodiscard]] Reach reach() const override {
+    return {truth_.speed, truth_.acceleration, world_.machine->machine()};
+  }
+  Stamped<TipSample> read(Time) noexcept override {
+    const HexapodPlant::State& s = world_.machine->state();
+    return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
+  }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override { world_.machine->command(X_RH); }
+  void stop() noexcept override { world_.machine->command(world_.machine->state().pose); }
+
+ private:
+  World& world_;
+  HexapodTruth truth_;
+};
+
+class SimArm final : public HapticArm {
+ public:
+  SimArm(World& world, const ArmAbility& ability) : world_(world), ability_(ability) {}
+  [[nodiscard]] ArmAbility ability() const override { return ability_; }
+  Stamped<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
+  void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
+  void stop() noexcept override {
+    command(Vec<'R'>::zero());
+    move_prop({});
+  }
+  void move_prop(const PropCommand& prop) noexcept override { world_.arm->move_prop(prop); }
+
+ private:
+  World& world_;
+  ArmAbility ability_;
+};
+
+class SimForceSensor final : public ForceSensor {
+ public:
+  explicit SimForceSensor(World& world) : world_(world) {}
+  Stamped<Wrench> read(Time) noexcept override { return world_.force->sample(); }
+
+ private:
+  World& world_;
+};
+
+class SimTracker final : public PoseTracker {
+ public:
+  explicit SimTracker(World& world) : world_(world) {}
+  bool poll(Time, Stamped<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
+
+ private:
+  World& world_;
+};
+
+class SimDisplay final : public Display {
+ public:
+  explicit SimDisplay(World& world) : world_(world) {}
+  void show(const View& view) noexcept override { world_.display->show(view); }
+  bool poll(Time, Stamped<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
+
+ private:
+  World& world_;
+};
+
+class SimGripper final : public Gripper {
+ public:
+  explicit SimGripper(World& world) : world_(world) {}
+  Stamped<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
+  void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
+  void stop() noexcept override {}  // without a command it stays as it is
+
+ private:
+  World& world_;
+};
+
+}  // namespace
+
+Rig World::rig() {
+  Rig rig;
+  rig.clock = std::make_unique<SimClock>(*this);
+  if (arm) rig.arm = std::make_unique<SimArm>(*this, arm_ability_);
+  if (machine) rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
+  if (force) rig.force = std::make_unique<SimForceSensor>(*this);
+  if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);
+  if (display) rig.display = std::make_unique<SimDisplay>(*this);
+  if (gripper) rig.gripper = std::make_unique<SimGripper>(*this);
+  return rig;
 }
 
 }  // namespace enc::sim

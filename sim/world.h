@@ -9,16 +9,14 @@
 
 #include "core/devices/rig.h"
 #include "sim/bodies/arm_model.h"
-#include "sim/bodies/ball_contact.h"
+#include "sim/bodies/ball_plant.h"
 #include "sim/bodies/legs.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/bodies/pusher.h"
 #include "sim/bodies/step_work.h"
 #include "sim/hand/user.h"
 #include "sim/plants/arm_plant.h"
-#include "sim/plants/display_plant.h"
-#include "sim/plants/force_plant.h"
-#include "sim/plants/gripper_plant.h"
+#include "sim/plants/device_plants.h"
 #include "sim/plants/hexapod_plant.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/truth/truth.h"
@@ -69,7 +67,7 @@ class World {
   void physics_step(double t);
   void find_tools(const SceneSpec& scene);
   void hold_tools(double t, double h);
-  void set_up_hexapod(const WorldSpec& spec);  // world_hexapod.cpp
+  void set_up_hexapod(const WorldSpec& spec);  // world_machines.cpp
   void move_hexapod(double t, double h);
   void begin_hexapod_work(), count_hexapod_work(double h);
   void place_machine(const Pose<'R', 'H'>& from);  // keeps the pose; the state has its motion
@@ -80,7 +78,7 @@ class World {
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
   void apply(const Vec<'W'>& force, const Point<'W'>& at, const Pose<'W', 'H'>& X_WH, const Point<'W'>& to);
-  void set_up_arm(const WorldSpec& spec);  // world_arm.cpp
+  void set_up_arm(const WorldSpec& spec);
   void face_prop(double h), drive_arm(double t, double h);
   void begin_arm_work(), count_arm_work(double h);
   void observe_arm(), observe(Time t);

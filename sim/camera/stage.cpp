@@ -14,8 +14,7 @@
 #include "sim/camera/hand.h"
 #include "sim/camera/scenery.h"
 #include "sim/camera/sensor.h"
-#include "sim/camera/warp.h"
-#include "sim/view/renderer.h"
+#include "sim/view/painter.h"
 
 namespace enc::sim {
 namespace {

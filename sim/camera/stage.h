@@ -15,7 +15,7 @@
 #include "core/devices/stereo_camera.h"
 #include "core/spec/vision/stereo_rig.h"
 #include "sim/camera/shown.h"
-#include "sim/spec/picture_spec.h"
+#include "sim/spec/sensor_spec.h"
 
 namespace enc::sim {
 

@@ -12,8 +12,6 @@
 #include "core/control/scene/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
-#include "sim/hand/steered_plan.h"
-#include "sim/hand/tool_change.h"
 #include "sim/spec/twin_spec.h"
 #include "sim/truth/random.h"
 #include "sim/truth/truth.h"

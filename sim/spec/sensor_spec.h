@@ -7,9 +7,21 @@
 
 #include "core/base/frames.h"
 #include "core/base/words.h"
-#include "sim/spec/picture_spec.h"
 
 namespace enc::sim {
+
+// The view of the twin's stereo head, as a rig file names it: a part of [truth.camera].
+enum class Scenery : std::uint8_t {
+  // Wall, desk, things on it, all far from the hue of skin.
+  office,
+  clutter,    // the office with more things and finer texture
+  skin_hued,  // wood, cardboard, a face on a poster
+};
+constexpr auto words(Scenery) { return enum_words("office", "clutter", "skin_hued"); }
+
+// Skin colours, light to dark (sim/camera/shown.h).
+enum class Tone : std::uint8_t { fair, light, olive, brown, dark, deep };
+constexpr auto words(Tone) { return enum_words("fair", "light", "olive", "brown", "dark", "deep"); }
 
 struct ForceTruth {
   double quantum = 0.025;           // N

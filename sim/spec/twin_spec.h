@@ -10,7 +10,6 @@
 #include "core/spec/scene_spec.h"
 #include "sim/spec/arm_spec.h"
 #include "sim/spec/machine_spec.h"
-#include "sim/spec/physics_spec.h"
 #include "sim/spec/sensor_spec.h"
 
 namespace enc::sim {

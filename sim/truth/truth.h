@@ -7,6 +7,7 @@
 #include "core/base/frames.h"
 #include "core/base/time.h"
 #include "core/machine/arm.h"
+#include "core/record/state_hash.h"
 
 namespace enc::sim {
 
@@ -60,5 +61,25 @@ struct Truth {
   std::int32_t tool = -1;          // tool in the hand, index in the scene; -1: no tool
   Work work;
 };
+
+// The fields of the truth, named once, as core/record/state_hash.h does for the core's data: for a hash over
+// the true events.
+template <class F>
+void fields(F& f, Truth& t) {
+  f("t", t.t);
+  for (detail::Triple* v :
+       std::initializer_list<detail::Triple*>{&t.tool_tip, &t.tool_velocity, &t.tip, &t.tip_velocity,
+                                              &t.tip_acceleration, &t.contact_force, &t.hand_force})
+    enc::fields(f, "vector_W", *v);
+  enc::fields(f, "leg_force", t.leg_force);
+  enc::fields(f, "joints", t.joints);
+  enc::fields(f, "motor_torque", t.motor_torque);
+  enc::fields(f, "warmth", t.warmth);
+  f("touching", t.touching);
+  for (double* x : {&t.penetration, &t.tool_radius, &t.tip_radius, &t.approach_speed}) f("number", *x);
+  for (std::int32_t* x : {&t.press, &t.aim, &t.tool}) f("index", *x);
+  f("phase", t.phase);
+  f("aborted", t.aborted);
+}
 
 }  // namespace enc::sim

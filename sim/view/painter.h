@@ -1,15 +1,53 @@
-// Paints ViewRequests of one model with one renderer, for the picture in a file, every frame of a film, and
-// the window.
+// Puts ViewRequests into MuJoCo's scene and paints them, for the picture in a file, every frame of a film,
+// and the window, which share these functions.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "sim/bodies/mujoco.h"
-#include "sim/view/renderer.h"
 #include "sim/view/view.h"
 
 namespace enc::sim {
+
+// MuJoCo's classic renderer and its scene, drawing into the current OpenGL context: into its window, or off
+// the screen. Frees both, the drawing context first, while OpenGL's still exists.
+struct Renderer {
+  mjvScene scene;
+  mjrContext context;
+
+  // `room`: most geoms. `width`, `height`: px off the screen; 0: into the window.
+  Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height) {
+    mjv_defaultScene(&scene);
+    mjr_defaultContext(&context);
+    mjv_makeScene(model, &scene, room);
+    mjr_makeContext(model, &context, letters);
+    const bool off_screen = width > 0 && height > 0;
+    if (off_screen) mjr_resizeOffscreen(width, height, &context);
+    mjr_setBuffer(off_screen ? mjFB_OFFSCREEN : mjFB_WINDOW, &context);
+  }
+  ~Renderer() {
+    mjr_freeContext(&context);
+    mjv_freeScene(&scene);
+  }
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+};
+
+inline constexpr int kRoom = 1000;  // geoms
+// m, distance of the white backdrop; translucent geoms need something to mix with.
+inline constexpr double kBackdrop = 4.0;
+
+// A copy of the model with settings for pictures; the physics never sees it. `shadow_size`: size of the
+// shadow map, px. `stacks`, `slices`: parts of a round body, along its axis and around it.
+[[nodiscard]] ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks, int slices);
+// Adds the model's bodies, camera and light. Throws Error (kind device) for too many geoms, as the functions
+// below do.
+void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool shadows);
+// Adds a wall that fills the background.
+void add_backdrop(mjvScene& scene);
+// Adds rods, boxes, arrows, signs and the floor.
+void add_extras(mjvScene& scene, const ViewRequest& request);
 
 struct PaintSettings {
   int shadow_size = 0;  // px of the shadow map; 0: no shadows
@@ -19,7 +57,8 @@ struct PaintSettings {
   int width = 0, height = 0;  // px off the screen; 0: into the window
 };
 
-// Needs the OpenGL context that was current at its construction.
+// Paints ViewRequests of one model with one renderer. Needs the OpenGL context that was current at its
+// construction.
 class Painter {
  public:
   // Throws Error (kind device) if memory is short.

@@ -1,4 +1,4 @@
-#include "sim/hand/steered_plan.h"
+#include "sim/hand/hand_plan.h"
 
 #include <cmath>
 
