@@ -12,7 +12,6 @@
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_edges.h"
 #include "models/mesh_files/mesh_file.h"
-#include "models/mesh_files/mesh_parts.h"
 #include "models/sizes/mesh_size.h"
 
 namespace enc::models {

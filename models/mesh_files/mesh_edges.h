@@ -1,5 +1,6 @@
-// Finds the faces at each edge. At edges with a single face, it joins corners that differ only in the last
-// digits of a float, and measures the remaining gaps. Internal to check_mesh().
+// The edges of a mesh and its separate parts: finds the faces at each edge. At edges with a single face, it
+// joins corners that differ only in the last digits of a float, and measures the remaining gaps. Internal to
+// check_mesh().
 #pragma once
 
 #include <array>
@@ -58,5 +59,10 @@ struct Gap {
 // Measures, at the ends and the middle of open edges, the distance to the nearest open edge with opposite
 // direction. Uses all open edges up to 3,000, and every n-th of more.
 [[nodiscard]] Gap widest_gap(const Mesh& mesh, const std::vector<OpenEdge>& open);
+
+// Number of other parts around each part. `part`: of each face, from 0; every part has a face. Empty if the
+// answer would take minutes, because too many parts lie in the boxes around others.
+[[nodiscard]] std::vector<int> depths_of(const Mesh& mesh, const std::vector<std::int32_t>& part,
+                                         std::size_t parts);
 
 }  // namespace enc::models

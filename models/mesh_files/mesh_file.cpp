@@ -158,4 +158,161 @@ FileMesh load_faces(const std::string& path) {
 
 Mesh load_mesh(const std::string& path) { return load_faces(path).mesh; }
 
+namespace {
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  std::array<char, sizeof(T)> raw{};
+  std::memcpy(raw.data(), &value, sizeof(T));
+  bytes.append(raw.data(), raw.size());
+}
+void put_point(std::string& bytes, const std::array<double, 3>& v) {
+  for (const double x : v) put(bytes, static_cast<float>(x));
+}
+std::uint32_t count_of(std::size_t n) { return static_cast<std::uint32_t>(n); }
+
+std::string obj(const Mesh& mesh) {
+  std::string text = "# metres\n";
+  for (const auto& v : mesh.vertices) text += fmt::format("v {} {} {}\n", v[0], v[1], v[2]);
+  for (const auto& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+std::string stl(const Mesh& mesh) {
+  std::string bytes = "Encounter, metres";
+  bytes.resize(80, ' ');
+  put(bytes, count_of(mesh.triangles.size()));
+  for (const auto& t : mesh.triangles) {
+    put_point(bytes, {0, 0, 0});  // a reader works the normal out
+    for (const std::int32_t corner : t) put_point(bytes, mesh.vertices[static_cast<std::size_t>(corner)]);
+    put(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+// glTF wants the box around the positions, as the floats that are written.
+std::string box(const Mesh& mesh, bool high) {
+  std::string list;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto edge = static_cast<float>(mesh.vertices[0][axis]);
+    for (const auto& v : mesh.vertices)
+      edge = high ? std::max(edge, static_cast<float>(v[axis])) : std::min(edge, static_cast<float>(v[axis]));
+    list += fmt::format("{}{}", axis == 0 ? "" : ",", static_cast<double>(edge));
+  }
+  return list;
+}
+
+std::string glb(const Mesh& mesh) {
+  const bool small = mesh.vertices.size() <= 65535;  // indices of two bytes do
+  std::string data;
+  for (const auto& v : mesh.vertices) put_point(data, v);
+  const std::size_t positions = data.size();
+  for (const auto& t : mesh.triangles)
+    for (const std::int32_t corner : t) {
+      if (small)
+        put(data, static_cast<std::uint16_t>(corner));
+      else
+        put(data, corner);
+    }
+  const std::size_t used = data.size();
+  data.resize((data.size() + 3) / 4 * 4, '\0');
+  std::string json = fmt::format(
+      R"({{"asset":{{"version":"2.0","generator":"Encounter"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],)"
+      R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],"accessors":[)"
+      R"({{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3","min":[{}],"max":[{}]}},)"
+      R"({{"bufferView":1,"componentType":{},"count":{},"type":"SCALAR"}}],"bufferViews":[)"
+      R"({{"buffer":0,"byteOffset":0,"byteLength":{},"target":34962}},)"
+      R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34963}}],"buffers":[{{"byteLength":{}}}]}})",
+      mesh.vertices.size(), box(mesh, false), box(mesh, true), small ? 5123 : 5125, 3 * mesh.triangles.size(),
+      positions, positions, used - positions, data.size());
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  put(bytes, std::uint32_t{2});
+  put(bytes, count_of(28 + json.size() + data.size()));
+  put(bytes, count_of(json.size()));
+  bytes += "JSON" + json;
+  put(bytes, count_of(data.size()));
+  bytes += std::string("BIN\0", 4) + data;
+  return bytes;
+}
+
+}  // namespace
+
+std::string mesh_bytes(const Mesh& mesh, const std::string& ending) {
+  if (mesh.triangles.empty()) throw Error("a mesh without triangles is not written");
+  if (ending == ".glb") return glb(mesh);
+  if (ending == ".obj") return obj(mesh);
+  if (ending == ".stl") return stl(mesh);
+  throw Error(fmt::format("a mesh is not written as {}; expected the ending .glb, .obj or .stl; choose one",
+                          quoted(ending)));
+}
+
+void write_mesh(const Mesh& mesh, const std::string& path, Existing existing) {
+  write_file(path, mesh_bytes(mesh, std::filesystem::path(path).extension().string()), existing);
+}
+
+namespace {
+
+constexpr double kFarthest = 1e6;  // m: beyond, squares of double cannot tell a mesh from a point
+
+class PointsReader {
+ public:
+  PointsReader(const std::string& text, const std::string& path) : path_(path), text_(text) {
+    if (line() != "x_m,y_m,z_m")
+      fail(1, fmt::format("the header is {}; expected x_m,y_m,z_m; write it in the first line",
+                          models::quoted(line_)));
+  }
+
+  // False at the end of the file.
+  bool next(Vec3& point) {
+    if (at_ >= text_.size()) return false;
+    if (line().empty()) {
+      if (text_.find_first_not_of("\r\n", start_) != std::string::npos)
+        fail(1, "an empty line; expected three numbers; remove it");
+      return false;
+    }
+    std::size_t from = 0;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const std::size_t to = std::min(line_.find(',', from), line_.size());
+      if (!read_number(std::string_view(line_).substr(from, to - from), point[i]))
+        fail(from + 1, fmt::format("{} is no number; expected x,y,z in metres; correct the line",
+                                   models::quoted(line_.substr(from, to - from))));
+      if (std::abs(point[i]) > kFarthest)
+        fail(from + 1, fmt::format("{} m is farther than {:g} m; expected x,y,z in metres; correct the line",
+                                   line_.substr(from, to - from), kFarthest));
+      from = std::min(to + 1, line_.size());
+      if (i == 2 && to < line_.size())
+        fail(to + 1, "more than three numbers; expected x,y,z; correct the line");
+    }
+    return true;
+  }
+
+ private:
+  const std::string& line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    start_ = at_;
+    line_ = text_.substr(at_, end - at_);
+    if (line_.ends_with('\r')) line_.pop_back();
+    at_ = end + 1;
+    ++number_;
+    return line_;
+  }
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
+    throw Error(fmt::format("{}:{}:{}: {}", path_, std::max<std::size_t>(number_, 1), column, what));
+  }
+
+  const std::string &path_, &text_;
+  std::string line_;
+  std::size_t at_ = 0, start_ = 0, number_ = 0;
+};
+
+}  // namespace
+
+std::vector<Vec3> parse_places(const std::string& text, const std::string& path) {
+  PointsReader reader(text, path);
+  std::vector<Vec3> all;
+  for (Vec3 place; reader.next(place);) all.push_back(place);
+  return all;
+}
+
 }  // namespace enc::models

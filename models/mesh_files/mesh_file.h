@@ -9,8 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/frames.h"
 #include "core/shape/surface/mesh.h"
 #include "core/spec/surface_material.h"
+#include "models/files.h"
 
 namespace enc::models {
 
@@ -73,5 +75,15 @@ inline constexpr std::string_view kBom = "\xEF\xBB\xBF";  // UTF-8 mark that a t
 void weld(Mesh& mesh);
 // Hash of vertices and triangles, to detect a changed mesh.
 [[nodiscard]] std::uint64_t content_hash(const Mesh& mesh);
+
+// Writes a mesh as .glb, .obj or (binary) .stl, in metres. Equal meshes give equal bytes on every machine.
+// The path's ending selects the format. .glb and .stl keep float, .obj keeps double. Throws Error.
+void write_mesh(const Mesh& mesh, const std::string& path, Existing existing = Existing::keep);
+// `ending`: ".glb", ".obj" or ".stl"
+[[nodiscard]] std::string mesh_bytes(const Mesh& mesh, const std::string& ending);
+
+// Query points for a mesh's nearest points: a table with exactly the columns x_m,y_m,z_m. path: for messages
+// "path:line:column: ...". Throws Error: another header, not a number, a point beyond 1e6 m.
+[[nodiscard]] std::vector<Vec3> parse_places(const std::string& text, const std::string& path);
 
 }  // namespace enc::models

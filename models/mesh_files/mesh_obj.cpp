@@ -1,9 +1,11 @@
 // Wavefront OBJ: the lines `v x y z` and `f a b c ...`; what only concerns looks is passed over.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/base/frames.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/schema/wording.h"
 
@@ -124,5 +126,163 @@ class ObjReader {
 }  // namespace
 
 FileMesh read_obj(const MeshBytes& file) { return ObjReader(file).read(); }
+
+// Polygons of a file as triangles: in their plane, ear by ear [Meisters 1975].
+
+namespace {
+
+constexpr std::size_t kMostConcave = 2'000;  // corners: every side is compared with every other one
+constexpr double kWarp = 0.1;                // how far corners may be off their plane, of the polygon's size
+// How flat an ear may be: its height over its longest side. Only where there is no better one it may be
+// nearly as flat as check_mesh() takes it.
+constexpr double kThin = 1e-6, kThinnest = 1e-9;
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+// Twice the area, positive where the corners turn left.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
+double longest(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
+// Whether two sides have a point in common, their ends included.
+bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto apart = [](double p, double q, double r, double s) {
+    return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
+  };
+  if (apart(a.x(), b.x(), c.x(), d.x()) || apart(a.y(), b.y(), c.y(), d.y())) return false;
+  const auto beside = [](double p, double q) { return (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0); };
+  return !beside(turn(a, b, c), turn(a, b, d)) && !beside(turn(c, d, a), turn(c, d, b));
+}
+
+class Polygon {
+ public:
+  Polygon(Mesh& mesh, const std::vector<std::int32_t>& corners) : mesh_(mesh) {
+    for (const std::int32_t corner : corners)  // a corner that is named twice in a row is one
+      if (left_.empty() || place(corner) != place(left_.back())) left_.push_back(corner);
+    while (left_.size() > 1 && place(left_.front()) == place(left_.back())) left_.pop_back();
+  }
+
+  std::string cut() {
+    if (left_.size() <= 3) {
+      while (left_.size() < 3) left_.push_back(left_.back());  // check_mesh() says that it has no area
+      add(0, 1, 2);
+      return {};
+    }
+    std::string wrong = lay_flat();
+    if (!wrong.empty()) return wrong;
+    if (convex()) {
+      for (std::size_t i = 2; i < left_.size(); ++i) add(0, i - 1, i);
+      return {};
+    }
+    if (left_.size() > kMostConcave)
+      return fmt::format(
+          "a face with {} corners that is not convex; expected at most {}; export the surface as triangles",
+          left_.size(), kMostConcave);
+    if (crosses_itself() || !clip_all())
+      return "a face whose sides cross or touch each other; expected a simple polygon; export the surface as "
+             "triangles";
+    return {};
+  }
+
+ private:
+  [[nodiscard]] Vec3 place(std::int32_t corner) const {
+    return Vec3(mesh_.vertices[static_cast<std::size_t>(corner)].data());
+  }
+  void add(std::size_t a, std::size_t b, std::size_t c) {
+    mesh_.triangles.push_back({left_[a], left_[b], left_[c]});
+  }
+
+  // Into the plane of the mean normal [Newell 1972], so that the polygon runs to the left.
+  std::string lay_flat() {
+    Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
+    const Vec3 first = place(left_[0]);
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      const Vec3 a = place(left_[i]) - first, b = place(left_[(i + 1) % left_.size()]) - first;
+      normal += a.cross(b);
+      middle += a / static_cast<double>(left_.size());
+    }
+    double size = 0.0;
+    for (const std::int32_t corner : left_) size = std::max(size, (place(corner) - first - middle).norm());
+    if (!(normal.norm() > kThinnest * size * size))
+      return "a face of no area; expected a polygon that encloses some; correct it, or export the surface as "
+             "triangles";
+    normal.normalize();
+    const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    double warp = 0.0;
+    for (const std::int32_t corner : left_) {
+      const Vec3 p = place(corner) - first - middle;
+      flat_.emplace_back(u.dot(p), v.dot(p));
+      warp = std::max(warp, std::abs(normal.dot(p)));
+    }
+    if (warp > kWarp * size)
+      return fmt::format(
+          "a face that is not flat: a corner is off its plane by {:.0f} % of its size; expected at most "
+          "{:.0f} %; export the surface as triangles",
+          100.0 * warp / size, 100.0 * kWarp);
+    return {};
+  }
+
+  // Every corner turns left, and the whole goes round once.
+  [[nodiscard]] bool convex() const {
+    int turns = 0;  // of the direction along x: two when it goes round once
+    for (std::size_t i = 0, n = flat_.size(); i < n; ++i) {
+      const Vec2 &a = flat_[i], &b = flat_[(i + 1) % n], &c = flat_[(i + 2) % n];
+      if (!(turn(a, b, c) > kThin * longest(a, b, c))) return false;
+      turns += (b.x() > a.x()) != (c.x() > b.x()) ? 1 : 0;
+    }
+    return turns == 2;
+  }
+
+  [[nodiscard]] bool crosses_itself() const {
+    const std::size_t n = flat_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = i + 2; k < n; ++k)
+        if (!(i == 0 && k == n - 1) && meet(flat_[i], flat_[i + 1], flat_[k], flat_[(k + 1) % n]))
+          return true;
+    return false;
+  }
+
+  // The corner at `i` and its neighbours are a triangle with no other corner in it or on it.
+  [[nodiscard]] bool ear(std::size_t i, double flat) const {
+    const std::size_t n = flat_.size(), before = (i + n - 1) % n, after = (i + 1) % n;
+    const Vec2 &a = flat_[before], &b = flat_[i], &c = flat_[after];
+    if (!(turn(a, b, c) > flat * longest(a, b, c))) return false;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k == before || k == i || k == after) continue;
+      const Vec2& p = flat_[k];
+      if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0) return false;
+    }
+    return true;
+  }
+
+  // From the second corner on, as a fan is; a cut ear may make ears of its neighbours.
+  bool clip_all() {
+    std::size_t i = 1;
+    while (left_.size() > 3) {
+      std::size_t tried = 0;
+      for (const double flat : {kThin, kThinnest})
+        for (tried = 0; tried < left_.size() && !ear(i % left_.size(), flat);) ++i, ++tried;
+      if (tried == left_.size()) return false;
+      i %= left_.size();
+      add((i + left_.size() - 1) % left_.size(), i, (i + 1) % left_.size());
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
+      flat_.erase(flat_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    add(0, 1, 2);
+    return true;
+  }
+
+  Mesh& mesh_;
+  std::vector<std::int32_t> left_;  // corners that are not cut off yet
+  std::vector<Vec2> flat_;          // the same in their plane
+};
+
+}  // namespace
+
+std::string add_polygon(Mesh& mesh, const std::vector<std::int32_t>& polygon) {
+  return Polygon(mesh, polygon).cut();
+}
 
 }  // namespace enc::models

@@ -6,17 +6,21 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "core/control/task/measure/probe.h"
 #include "core/control/world/contact_limits.h"
 #include "core/control/world/object.h"
 #include "core/devices/roles.h"
+#include "core/spec/vision/vision_check.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
-#include "models/setup/rig_calibration.h"
+#include "models/setup/calibration_files.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::models {
@@ -135,6 +139,134 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   }
 }
 
+// ---- [user.session] and [user.reaches]
+
+void check_pair(const Setup& setup, const std::string& table, const std::string& key,
+                const std::vector<double>& pair) {
+  if (pair.size() == 2 && pair[0] <= pair[1]) return;
+  fail(setup, table + "." + key,
+       fmt::format("'{}' has {}; expected the least and the most; write it like '{} = [1, 2]'", key,
+                   pair.size() == 2 ? "its first number above its second" : counted(pair.size(), "number"),
+                   key));
+}
+
+void check_ranges(const Setup& setup, const std::string& table, const ReachRanges& r) {
+  for (const auto& [key, pair] : {std::pair{"tilt_deg", &r.tilt},
+                                  {"reach_mm", &r.reach},
+                                  {"peak_mm_s", &r.peak_speed},
+                                  {"touch_mm_s", &r.touch_speed},
+                                  {"depth_mm", &r.depth},
+                                  {"press_mm_s", &r.press_speed},
+                                  {"hold_s", &r.hold},
+                                  {"rest_s", &r.rest}})
+    check_pair(setup, table, key, *pair);
+}
+
+// Signed distance of a point to an object's surface, m; of triangles to the nearest vertex, of a button to
+// the ball around it.
+double distance_to(const ObjectSpec& object, const Vec3& point) {
+  const Vec3 from = point - object.position;
+  switch (object.shape) {
+    case ShapeKind::plane:
+      return from.dot(object.normal);
+    case ShapeKind::sphere:
+      return from.norm() - object.radius;
+    case ShapeKind::button:
+      return from.norm() - Vec3(object.width, object.height, object.thickness).norm();
+    case ShapeKind::mesh:
+    case ShapeKind::box:
+      break;
+  }
+  double nearest = std::numeric_limits<double>::infinity();  // of a mesh that is not read yet
+  if (object.surface == nullptr) return nearest;
+  const Vec3 at = rotation_xyz(object.rotation).conjugate() * from / object.scale;
+  for (const auto& [x, y, z] : object.surface->vertices)
+    nearest = std::min(nearest, object.scale * (Vec3(x, y, z) - at).norm());
+  return nearest;
+}
+
+// The machine follows a tool to the nearest object, whichever is pressed.
+void check_tray(const Setup& setup, const SessionSpec& s) {
+  for (const ObjectSpec& object : setup.scene.objects)
+    for (const double beside : {0.0, SessionSpec::kTrayBeside}) {
+      const double away = distance_to(object, s.tray + beside * Vec3::UnitY());
+      if (away > setup.scene.follow.pause) continue;
+      fail(setup, "user.session.tray_mm",
+           fmt::format("'tray_mm' is {} mm from the surface of {}{}; expected more than 'follow.pause_mm', "
+                       "{} mm, or the machine follows the tool there and loses it; move it away",
+                       mm(std::round(away * 1e5) / 1e5), quoted(object.name),
+                       beside > 0.0 ? ", the other tool's place 80 mm beside it" : "",
+                       mm(setup.scene.follow.pause)));
+    }
+}
+
+// A kind of user that is drawn has a table of its own name; then it presses to a depth.
+bool has_table(const Setup& setup, UserKind kind, bool there) {
+  const UserSpec& user = *setup.scene.user;
+  const std::string_view word = word_of(kind);
+  if (there != (user.kind == kind))
+    fail(setup, fmt::format("user.{}", there ? word : "kind"),
+         fmt::format(
+             "'kind' is '{}' and there is {} [user.{}]; expected both or none; {}", word_of(user.kind),
+             there ? "a" : "no", word,
+             there ? fmt::format("write 'kind = \"{}\"' or remove the table", word) : "add the table"));
+  if (there && !std::isnan(user.push))
+    fail(setup, "user.push_N",
+         fmt::format("a user of kind {} presses to a depth; expected no 'push_N'; remove it",
+                     quoted(std::string(word))));
+  return there;
+}
+
+void check_reaches(const Setup& setup) {
+  const UserSpec& user = *setup.scene.user;
+  if (!has_table(setup, UserKind::reaches, user.reaches.has_value())) return;
+  check_ranges(setup, "user.reaches", *user.reaches);
+  for (const ObjectSpec& object : setup.scene.objects)
+    if (has_triangles(object.shape))
+      fail(setup, fmt::format("object.{}.shape", object.name),
+           fmt::format("a user of kind \"reaches\" reaches for every object and {} is a {}; expected "
+                       "planes, buttons and spheres; write 'kind = \"press_release\"' for one object",
+                       quoted(object.name), word_of(object.shape)));
+  const double farthest = user.reaches->reach[1];
+  if (!(farthest > setup.scene.follow.pause))
+    fail(setup, "user.reaches.reach_mm",
+         fmt::format("a reach begins {} mm from its place at most; expected more than 'follow.pause_mm', {} "
+                     "mm, so that the finger is away before; raise it",
+                     mm(farthest), mm(setup.scene.follow.pause)));
+}
+
+void check_session(const Setup& setup) {
+  const UserSpec& user = *setup.scene.user;
+  if (!has_table(setup, UserKind::session, user.session.has_value())) return;
+  const SessionSpec& s = *user.session;
+  check_ranges(setup, "user.session", s);
+  check_pair(setup, "user.session", "change_share", s.change);
+  const auto first = [](const auto& items, const std::string& name) -> const auto& {
+    const auto named =
+        std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.name == name; });
+    return named == items.end() ? items.front() : *named;
+  };
+  const ObjectSpec& object = first(setup.scene.objects, user.object);
+  if (object.shape != ShapeKind::sphere)
+    fail(
+        setup, "user.object",
+        fmt::format("a session presses a ball and {} is none; expected a sphere; name one, or write 'shape = "
+                    "\"sphere\"'",
+                    quoted(object.name)));
+  if (s.other_tool.empty()) return;
+  const std::vector<std::string> tools = names_of(setup.scene.tools);
+  if (std::find(tools.begin(), tools.end(), s.other_tool) == tools.end())
+    fail(setup, "user.session.other_tool",
+         fmt::format("there is no tool {}; expected the name of a [[tool]]; {}", quoted(s.other_tool),
+                     advice(s.other_tool, tools)));
+  if (s.other_tool == first(setup.scene.tools, user.tool).name)
+    fail(setup, "user.session.other_tool",
+         fmt::format("'other_tool' is {}, which is held already; expected another tool; name it, or leave it "
+                     "out for no change",
+                     quoted(s.other_tool)));
+  check_tray(setup, s);
+}
+
 void check_user(const Setup& setup) {
   if (!setup.scene.user) return;
   if (setup.scene.tools.empty()) {
@@ -217,6 +349,88 @@ void check_gripper(const Setup& setup) {
          fmt::format("'width_mm' is {}; expected at most {} mm, which the jaws open; lower it", mm(g.width),
                      mm(2.0 * g.stroke)));
 }
+
+// ---- what a camera and what it looks at are to each other
+
+// Why a finger at the object would not be seen, as far as the rig knows where its camera stands; empty where
+// it would. Pinholes: what a lens does to the edge of an image does not matter here.
+std::string unseen(const RigSpec& rig, const ObjectSpec& object) {
+  const StereoRig& camera = rig.camera;
+  const Point<'C'> at = pose_of<'W', 'C'>(rig.frames.W_C).inverse() * Point<'W'>(object.position);
+  const double depth = at.xyz[2];
+  if (!(depth > 0.0)) return "behind it";
+  const MatchSpec& match = rig.vision.match;
+  if (depth < match.nearest || depth > match.farthest)
+    return fmt::format("{} mm before it, where {} to {} mm are matched", mm(std::round(depth * 1e3) * 1e-3),
+                       mm(match.nearest), mm(match.farthest));
+  const auto outside = [&](const Lens& lens, const Vec3& p) {
+    const double column = lens.centre_x + lens.focal_x * p.x() / p.z();
+    const double row = lens.centre_y + lens.focal_y * p.y() / p.z();
+    return !(p.z() > 0.0 && column >= 0.0 && row >= 0.0 && column <= static_cast<double>(camera.width - 1) &&
+             row <= static_cast<double>(camera.height - 1));
+  };
+  if (outside(camera.left, at.e())) return "outside of the left image";
+  if (outside(camera.right, (camera.X_CD.inverse() * at).e())) return "outside of the right image";
+  return {};
+}
+
+// A registration of another rig shows before anything moves: the camera would not see what is to be met.
+void check_views(const Setup& setup) {
+  const std::vector<ObjectSpec>& objects = setup.scene.objects;
+  const auto seen = [&](const ObjectSpec& object) { return unseen(setup.rig, object).empty(); };
+  if (objects.empty() || std::any_of(objects.begin(), objects.end(), seen)) return;
+  fail(setup, "rig.frames.W_C",
+       fmt::format("a camera that stands there would have object {} {}{}; expected the registration of this "
+                   "rig; make it by `encounter calibrate camera`",
+                   quoted(objects.front().name), unseen(setup.rig, objects.front()),
+                   objects.size() > 1 ? ", and none of the others in view" : ""));
+}
+
+// What the twin's camera is, beside what the rig says of it.
+void check_twin(const Setup& setup) {
+  const StereoRig& believed = setup.rig.camera;
+  const sim::CameraTruth& truth = setup.twin.camera;
+  if (believed.width != truth.width || believed.height != truth.height)
+    fail(setup, "rig.camera.width_px",
+         fmt::format("the rig's images are {} x {} px and the twin's {} x {}; expected the same; correct "
+                     "'width_px' and 'height_px' here or in [truth.camera]",
+                     believed.width, believed.height, truth.width, truth.height));
+  if (!std::isnan(truth.back_at) && !(truth.back_at > truth.stalls_at))
+    fail(setup, "truth.camera.back_at_s",
+         fmt::format(
+             "'back_at_s' is {:g}; expected more than 'stalls_at_s', at which the frames stop; correct "
+             "one of them",
+             truth.back_at));
+}
+
+// Vision sees a bare fingertip.
+void check_camera(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (!s.camera) return;
+  if (!s.tracker)
+    fail(setup, "camera",
+         "the scene has a [camera] and nothing that looks through it; expected a [tracker]; add it");
+  if (!checks_of(s).bare_finger)
+    fail(setup, "camera",
+         "vision sees a bare finger, which has no markers; expected an [arm] that meets it; remove [camera]");
+  if (s.tools.size() > 1)
+    fail(setup, "camera",
+         "vision sees one finger and tells no tools apart; expected one [[tool]]; remove the others");
+  try {
+    check_stereo(setup.rig.camera);
+  } catch (const Error& e) {
+    fail(setup, "rig.camera." + e.key(), e.what());
+  }
+  try {
+    check(setup.rig.camera, setup.rig.vision);
+  } catch (const Error& e) {
+    fail(setup, e.key(), e.what());
+  }
+  if (setup.rig.camera.driver == "sim") check_twin(setup);  // what is seen depends on the size
+  check_views(setup);
+}
+
+// ---- the rig
 
 void check_driver(const Setup& setup, bool named, const std::string& table, const std::string& driver) {
   if (!named || driver != "none") return;
@@ -320,6 +534,20 @@ void check(const Setup& setup) {
   checks_of(s).scene(setup);
   check_rig(setup);
   check_stepping(setup);
+}
+
+void note_views(Setup& setup) {
+  if (!setup.scene.camera) return;
+  const std::vector<ObjectSpec>& objects = setup.scene.objects;
+  const auto hidden = [&](const ObjectSpec& object) { return !unseen(setup.rig, object).empty(); };
+  const auto first = std::find_if(objects.begin(), objects.end(), hidden);
+  if (first == objects.end()) return;
+  const auto others = std::count_if(objects.begin(), objects.end(), hidden) - 1;
+  setup.notes.push_back(fmt::format(
+      "{}: warning: a camera that stands at [frames.W_C] has object {} {}{}, where no finger is seen; "
+      "move it, or register the camera again",
+      place_of(setup, "object." + first->name), quoted(first->name), unseen(setup.rig, *first),
+      others > 0 ? fmt::format(", and {} more out of view", others) : ""));
 }
 
 }  // namespace enc::models

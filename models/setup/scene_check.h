@@ -1,4 +1,4 @@
-// Shared parts of the checks of a scene (scene_check.cpp, session_check.cpp).
+// Shared parts of the checks of a scene (scene_check.cpp, machine_check.cpp).
 #pragma once
 
 #include <string>
@@ -30,9 +30,6 @@ struct StopTime {
   double time;
 };
 
-void check_session(const Setup& setup);                                      // [user.session]
-void check_reaches(const Setup& setup);                                      // [user.reaches]
-void check_camera(const Setup& setup);                                       // camera_check.cpp
 void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);  // machine_check.cpp
 
 // What the checks of a scene ask of one machine and not of the other.

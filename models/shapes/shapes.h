@@ -29,4 +29,9 @@ inline constexpr double kBallRadius = 0.033;  // m, tennis ball [VHMR 4.1]
 // along.
 [[nodiscard]] Mesh knot(int along, int around);
 
+// A crouching hare: a closed organic surface of about 20,000 triangles, made here, so that it is free to use.
+// About 60 mm long, m, z up, nose along +x; the back is above the origin. It uses only + - * / and sqrt, so
+// the result is the same to the bit everywhere. models/meshes/hare.glb is this mesh.
+[[nodiscard]] Mesh hare_mesh();
+
 }  // namespace enc::models

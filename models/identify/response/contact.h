@@ -1,14 +1,65 @@
-// The zero of a loop's force and the begin of contact, from readings before and after contact.
+// The zero of a loop's force and the begin of contact, from the rows of each press before and after contact.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "models/identify/response/loop_rows.h"
-#include "models/identify/response/onset.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
+
+// The rows of a measured loop, and the rows of each press: approach, press, retreat.
+struct LoopRow {
+  double time = 0.0;        // s
+  double deflection = 0.0;  // m, as in the file
+  double force = kUnset;    // N, as in the file; unset: missing, which is allowed only outside of a press
+  std::int64_t repeat = 0;  // 0: outside of a press
+  // Line of the row in the file.
+  std::size_t line = 0;
+};
+
+// Indices of rows, ends included. The approach is `from` to `deepest`, the retreat `deepest` to `to`. Rows
+// between two presses may belong to the retreat of the first and to the approach of the second.
+struct PressRows {
+  std::size_t first = 0, last = 0;  // marked as this press
+  std::size_t deepest = 0;
+  std::size_t from = 0, to = 0;
+};
+
+// Presses in order of time. A press has one number of `repeat`; if the force falls to zero and rises again
+// under one number, these are two presses.
+[[nodiscard]] std::vector<PressRows> presses_in(std::span<const LoopRow> rows);
+
+// Standard deviation of a position, m, from second differences, which vanish for a steady motion.
+[[nodiscard]] double position_noise(std::span<const double> positions);
+
+// Replaces each value by the median of it and its neighbours if it lies outside of them: removes single
+// spikes.
+[[nodiscard]] std::vector<double> without_spikes(std::vector<double> values);
+
+// Readings from before contact to the deepest one, in order of time.
+struct Approach {
+  std::vector<double> deflection, force;  // m, N: any zero
+};
+
+// The begin of contact on the way to the deepest reading, where the force leaves its zero. Unset if the
+// approaches begin in contact, or shortly before it.
+struct Onset {
+  double at = kUnset;     // m
+  double error = kUnset;  // m, one standard deviation, including the uncertainty of the curve's shape
+  [[nodiscard]] bool known() const { return !std::isnan(at) && !std::isnan(error); }
+};
+
+// Before contact each approach has its own constant force; after it all share a parabola, in three windows:
+// the first 30, 15 and 7 % of the force. The largest window counts if all agree, else the smallest. Their
+// spread is a part of the error, because a curve that begins softly is no parabola, and its onset is found
+// too late. If each smaller window begins earlier, a quarter of the smallest is added to the error.
+[[nodiscard]] Onset find_onset(std::span<const Approach> approaches);
+
+// The zero of a loop's force and the begin of contact, from readings before and after contact.
 
 // Mean force without contact, N, with its standard deviation; unset without such readings.
 struct ForceZero {

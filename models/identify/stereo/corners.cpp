@@ -1,17 +1,127 @@
 #include "models/identify/stereo/corners.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "models/identify/stereo/grid.h"
 
 namespace enc {
 namespace {
 
-using calibration::Beyond;
-using calibration::Grid;
+// A grid of corners in an image that may be part of a larger chessboard.
+
+struct Grid {
+  int columns = 0, rows = 0;
+  std::vector<cv::Point2f> points;  // px, row by row
+
+  [[nodiscard]] const cv::Point2f& at(int row, int column) const {
+    return points[static_cast<std::size_t>(row * columns + column)];
+  }
+  [[nodiscard]] cv::Size size() const { return {columns, rows}; }
+};
+
+// Beyond a side, the board goes on if the squares alternate there; it ends if margin or background begins;
+// the answer is open if the image ends before.
+enum class Beyond : std::uint8_t { ends, goes_on, open };
+
+// Half of the window in which a corner is refined. Its diagonal must not reach the board's edge, which may be
+// half a square away, and never the next corner.
+int half_window(const Grid& grid, int row, int column) {
+  double nearest = 1e9;
+  for (const auto& [r, c] :
+       {std::pair{row, column - 1}, {row, column + 1}, {row - 1, column}, {row + 1, column}})
+    if (r >= 0 && r < grid.rows && c >= 0 && c < grid.columns)
+      nearest = std::min(nearest, cv::norm(grid.at(row, column) - grid.at(r, c)));
+  return std::clamp(static_cast<int>(0.3 * nearest), 2, 11);
+}
+
+// Mean over 3 x 3 pixels.
+double brightness(const cv::Mat& grey, const cv::Point2f& p) {
+  const int x = static_cast<int>(std::lround(p.x)), y = static_cast<int>(std::lround(p.y));
+  int sum = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) sum += grey.at<std::uint8_t>(y + dy, x + dx);
+  return sum / 9.0;
+}
+bool inside(const cv::Mat& grey, const cv::Point2f& p) {
+  return p.x >= 1.5F && p.y >= 1.5F && p.x < static_cast<float>(grey.cols) - 2.5F &&
+         p.y < static_cast<float>(grey.rows) - 2.5F;
+}
+
+// Where the next corner of a row would be, by the last three.
+cv::Point2f next_of(const Grid& grid, int row) {
+  const int c = grid.columns - 1;
+  return 3.0F * grid.at(row, c) - 3.0F * grid.at(row, c - 1) + grid.at(row, c - 2);
+}
+
+// Moves the corners to their exact positions in the image, to a fraction of a pixel.
+void refine(const cv::Mat& grey, Grid& grid) {
+  const Grid rough = grid;
+  std::vector<cv::Point2f> one(1);
+  for (int r = 0; r < grid.rows; ++r)
+    for (int c = 0; c < grid.columns; ++c) {
+      one[0] = rough.at(r, c);
+      const int half = half_window(rough, r, c);
+      cv::cornerSubPix(grey, one, {half, half}, {-1, -1},
+                       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-3});
+      grid.points[static_cast<std::size_t>(r * grid.columns + c)] = one[0];
+    }
+}
+
+// True if the squares between the corners alternate between black and white.
+bool alternates(const cv::Mat& grey, const Grid& grid) {
+  constexpr double kLeast = 6.0;  // of 255, between neighbours
+  constexpr double kMost = 0.9;   // share of neighbours: a finger may hide a few
+  const auto middle = [&](int r, int c) {
+    return 0.25F * (grid.at(r, c) + grid.at(r, c + 1) + grid.at(r + 1, c) + grid.at(r + 1, c + 1));
+  };
+  int brighter = 0, darker = 0, all = 0;
+  for (int r = 0; r + 1 < grid.rows; ++r)
+    for (int c = 0; c + 2 < grid.columns; ++c) {
+      const cv::Point2f here = middle(r, c), next = middle(r, c + 1);
+      ++all;
+      if (!inside(grey, here) || !inside(grey, next)) continue;
+      const double step = ((r + c) % 2 == 0 ? 1.0 : -1.0) * (brightness(grey, next) - brightness(grey, here));
+      if (step > kLeast) ++brighter;
+      if (step < -kLeast) ++darker;
+    }
+  return std::max(brighter, darker) >= kMost * all;
+}
+
+// Beyond the last column. The grid must have at least three columns and rows.
+Beyond beyond(const cv::Mat& grey, const Grid& grid) {
+  constexpr float kInto = 0.3F;       // of a square, from a corner into the four around it
+  constexpr double kAlike = -0.5;     // of the contrast before the corner, against that behind it
+  constexpr double kContrast = 12.0;  // of 255
+  int seen = 0, alternate = 0;
+  for (int r = 0; r < grid.rows; ++r) {
+    const cv::Point2f corner = next_of(grid, r);
+    const cv::Point2f out = kInto * (corner - grid.at(r, grid.columns - 1));
+    const int above = std::max(0, r - 1), below = std::min(grid.rows - 1, r + 1);
+    const cv::Point2f along = (kInto / static_cast<float>(below - above)) *
+                              (grid.at(below, grid.columns - 1) - grid.at(above, grid.columns - 1));
+    if (!inside(grey, corner + out + along) || !inside(grey, corner + out - along) ||
+        !inside(grey, corner - out + along) || !inside(grey, corner - out - along))
+      continue;
+    ++seen;
+    const double before = brightness(grey, corner - out + along) - brightness(grey, corner - out - along);
+    const double behind = brightness(grey, corner + out + along) - brightness(grey, corner + out - along);
+    if (std::abs(before) > kContrast && behind / before < kAlike) ++alternate;
+  }
+  if (2 * seen < grid.rows + 1) return Beyond::open;
+  return 4 * alternate >= 3 * seen ? Beyond::goes_on : Beyond::ends;
+}
+
+// A quarter turn: the last column becomes the first row.
+Grid turned(const Grid& grid) {
+  Grid out{grid.rows, grid.columns, {}};
+  for (int r = 0; r < out.rows; ++r)
+    for (int c = 0; c < out.columns; ++c) out.points.push_back(grid.at(c, grid.columns - 1 - r));
+  return out;
+}
 
 constexpr int kSmallest = 16;        // px: OpenCV's finders want some room
 constexpr int kMostToDouble = 1600;  // px: what is larger has squares of more than a few
@@ -51,8 +161,8 @@ bool find_by_outlines(const cv::Mat& grey, const cv::Size& size, std::vector<cv:
 }
 
 bool goes_on(const cv::Mat& grey, Grid grid) {
-  for (int side = 0; side < 4; ++side, grid = calibration::turned(grid))
-    if (calibration::beyond(grey, grid) == Beyond::goes_on) return true;
+  for (int side = 0; side < 4; ++side, grid = turned(grid))
+    if (beyond(grey, grid) == Beyond::goes_on) return true;
   return false;
 }
 
@@ -60,8 +170,8 @@ std::optional<Corners> corners_by(const Finder& find, const cv::Mat& grey, const
   Grid grid{size.width, size.height, {}};
   if (!find(grey, size, grid.points) || grid.points.size() != static_cast<std::size_t>(size.area()))
     return {};
-  calibration::refine(grey, grid);
-  if (!calibration::alternates(grey, grid) || goes_on(grey, grid)) return {};
+  refine(grey, grid);
+  if (!alternates(grey, grid) || goes_on(grey, grid)) return {};
   Corners corners;
   corners.reserve(grid.points.size());
   for (const cv::Point2f& p : grid.points) corners.emplace_back(p.x, p.y);

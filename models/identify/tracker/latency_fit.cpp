@@ -4,12 +4,72 @@
 #include <cmath>
 #include <vector>
 
-#include "models/identify/block_error.h"
-#include "models/identify/tracker/tool_motion.h"
+#include "models/identify/block_fit.h"
+#include "models/identify/tracker/tracker_log.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {
 namespace {
+
+// Checks whether the machine carries the tool: compares the motions of a log's tool and tip, one axis at a
+// time.
+
+constexpr double kBlock = 0.25;  // s: errors farther apart than this are independent
+
+// Arrival times of the packets (or their stamps), their assumed age, and the ones not counted.
+struct SeenAt {
+  const std::vector<double>& times;  // s
+  double age;                        // s
+  const std::vector<bool>& left_out;
+};
+
+struct ToolMotion {
+  double wander = 0.0;  // m: largest minus smallest median of a block
+  double noise = 0.0;   // m, rms, from one packet to the next
+  double scale = 1.0;   // slope of the tool's position over the tip's
+  // Part of the tool's motion that the tip does not explain. It includes outliers, so that a log with only
+  // outliers does not look good.
+  double unexplained = 0.0;
+};
+
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0, square = 0.0, product = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) mean_x += x[k] / n, mean_y += y[k] / n;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    square += (x[k] - mean_x) * (x[k] - mean_x);
+    product += (x[k] - mean_x) * (y[k] - mean_y);
+  }
+  return product / square;
+}
+
+ToolMotion tool_motion(const TrackerLog& log, const TipPath& path, const SeenAt& seen, Eigen::Index axis) {
+  std::vector<double> tools, left, steps, good_tips, good_tools;
+  std::vector<std::vector<double>> blocks;
+  for (std::size_t k = 0; k < seen.times.size(); ++k) {
+    const double t = seen.times[k] - seen.age;
+    if (!path.knows(t)) continue;
+    const double tool = log.packets[k].tool(axis), tip = path.position(t)(axis);
+    if (!tools.empty()) steps.push_back(std::abs(tool - tools.back()));
+    tools.push_back(tool);
+    left.push_back(tool - tip);
+    const auto block = static_cast<std::size_t>((t - log.time.front()) / kBlock);
+    if (block >= blocks.size()) blocks.resize(block + 1);
+    blocks[block].push_back(tool);
+    if (!seen.left_out[k]) good_tips.push_back(tip), good_tools.push_back(tool);
+  }
+  // A block that lost most of its packets is no median.
+  std::size_t full = 0;
+  for (const std::vector<double>& block : blocks) full = std::max(full, block.size());
+  double low = INFINITY, high = -INFINITY;
+  for (const std::vector<double>& block : blocks) {
+    if (block.empty() || 3 * block.size() < full) continue;
+    low = std::min(low, median(block));
+    high = std::max(high, median(block));
+  }
+  return {std::max(0.0, high - low), 1.4826 / std::sqrt(2.0) * median(steps), slope(good_tips, good_tools),
+          spread(left) / spread(tools)};
+}
 
 constexpr double kEarliest = -0.1, kLatest = 0.6;  // s: ages looked for
 constexpr double kStill = 1e-3;                    // m/s, and m of travel: less is no motion

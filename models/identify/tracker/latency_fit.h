@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "models/identify/block_error.h"
+#include "models/identify/block_fit.h"
 #include "models/identify/tracker/tracker_log.h"
 
 namespace enc::models {
