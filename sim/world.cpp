@@ -15,11 +15,10 @@
 namespace enc::sim {
 namespace {
 
-const ToolSpec* held_tool(const SceneSpec& scene) {
+// Null without a user.
+const ToolSpec* users_tool(const SceneSpec& scene) {
   if (!scene.user || scene.tools.empty()) return nullptr;
-  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
-                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
-  return named == scene.tools.end() ? &scene.tools.front() : &*named;
+  return &scene.tools[static_cast<std::size_t>(held_tool(scene))];
 }
 
 std::vector<std::vector<Vec3>> markers_of(const std::vector<ToolSpec>& tools) {
@@ -97,13 +96,13 @@ World::World(const WorldSpec& spec)
       clamped_(spec.prepared.clamped_tool),
       X_WR_(steps_.base(spec.twin)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
-      q_WT_(held_tool(spec.scene) == nullptr
+      q_WT_(users_tool(spec.scene) == nullptr
                 ? Quat::Identity()
-                : tool_orientation(*held_tool(spec.scene),
+                : tool_orientation(*users_tool(spec.scene),
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
       X_HT_(clamped_pose(clamped_tool(spec.scene))),
-      user_(make_user(spec, held_tool(spec.scene))),
-      physics_(model_of(spec, held_tool(spec.scene), user_, q_WT_, X_WR_)) {
+      user_(make_user(spec, users_tool(spec.scene))),
+      physics_(model_of(spec, users_tool(spec.scene), user_, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker && !spec.scene.camera)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed,

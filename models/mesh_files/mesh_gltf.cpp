@@ -21,7 +21,7 @@
 namespace enc::models {
 namespace {
 
-// The files that a glTF reader may open: those in its own folder. tinygltf asks here before it opens a file.
+// ---- the files that a glTF reader may open: those in its own folder; tinygltf asks here before it opens one
 
 constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // total of all buffer files
 
@@ -416,7 +416,7 @@ class GltfReader {
 
 FileMesh read_gltf(const MeshBytes& file, bool binary) { return GltfReader(file, binary).read(); }
 
-// What is checked of a glTF file's bytes before tinygltf sees them.
+// ---- what is checked of a glTF file's bytes before tinygltf sees them
 
 namespace {
 

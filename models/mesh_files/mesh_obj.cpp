@@ -127,7 +127,7 @@ class ObjReader {
 
 FileMesh read_obj(const MeshBytes& file) { return ObjReader(file).read(); }
 
-// Polygons of a file as triangles: in their plane, ear by ear [Meisters 1975].
+// ---- polygons of a file as triangles: in their plane, ear by ear [Meisters 1975].
 
 namespace {
 

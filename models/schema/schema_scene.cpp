@@ -295,7 +295,7 @@ void describe_behaviours(Visitor& v, std::vector<BehaviourSpec>& behaviours, boo
   list(v, "behaviour", behaviours, [&](BehaviourSpec& b) { describe(v, b, with_curves); });
 }
 
-// What a scene says of the person: presses, a session, reaches.
+// ---- the person: presses, a session, reaches
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Visitors over all parameters: list them, set one, round them.
+// Visitors over all parameters: list them, set one, round them, leave out those that a scene does not use.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -199,7 +199,7 @@ Setup parse_resolved(const std::string& text, const std::string& name) {
   return setup;
 }
 
-// The scene with only what it builds, as a scene file that stands alone.
+// ---- the scene with only what it builds, as a scene file that stands alone
 
 namespace {
 

@@ -19,12 +19,6 @@ constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
 constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
 
-std::int32_t held_tool(const SceneSpec& scene) {
-  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
-                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
-  return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
-}
-
 // Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
 double slide_time(const UserSpec& spec) { return 1.875 * spec.slide / spec.slide_speed; }
 
@@ -38,6 +32,12 @@ void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
 }
 
 }  // namespace
+
+std::int32_t held_tool(const SceneSpec& scene) {
+  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
+  return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
+}
 
 User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
     : spec_(*scene.user),

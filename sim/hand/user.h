@@ -18,6 +18,9 @@
 
 namespace enc::sim {
 
+// The tool that the scene's user holds first, index in the scene: the named one, else the first.
+[[nodiscard]] std::int32_t held_tool(const SceneSpec& scene);
+
 class User {
  public:
   struct State {

@@ -15,7 +15,7 @@
 namespace enc::sim {
 namespace {
 
-// Lettering of a picture: a title, and labels in both margins with lines to their objects.
+// ---- lettering of a picture: a title, and labels in both margins with lines to their objects
 
 constexpr Ink kText{35, 40, 50};
 constexpr Ink kLine{120, 128, 140};

@@ -77,8 +77,8 @@ Plateau plateau_of(std::span<const LoopPoint> moving) {
                                                                                                   : Plateau{};
 }
 
-// Splits the readings of a press into pressing and releasing, at any ratio of their speeds and with any hold
-// between them.
+// ---- the branches of a press: pressing and releasing, at any ratio of their speeds and with any hold
+// between
 
 constexpr double kOfUsual = 0.25;     // of the usual travel: with less the probe is at standstill or turns
 constexpr double kTurnNoise = 8.0;    // standard deviations: so near to the deepest reading both branches mix

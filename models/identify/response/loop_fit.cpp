@@ -20,7 +20,6 @@ namespace {
 
 // Errors of a fitted curve besides noise: repeats differ, the zero of the force and the begin of contact are
 // uncertain, and a polynomial cannot follow every curve.
-
 class CurveErrors {
  public:
   CurveErrors(const LoopData& loop, const Response& response, bool pressing);

@@ -174,7 +174,7 @@ ResponseSpec rounded(const ResponseSpec& spec) {
   return r;
 }
 
-// The Prandtl-Ishlinskii model of a measured loop, by non-negative least squares.
+// ---- the Prandtl-Ishlinskii model of a measured loop, by non-negative least squares.
 
 namespace {
 

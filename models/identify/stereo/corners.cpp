@@ -12,7 +12,6 @@ namespace enc {
 namespace {
 
 // A grid of corners in an image that may be part of a larger chessboard.
-
 struct Grid {
   int columns = 0, rows = 0;
   std::vector<cv::Point2f> points;  // px, row by row

@@ -11,8 +11,7 @@
 namespace enc::models {
 namespace {
 
-// Checks whether the machine carries the tool: compares the motions of a log's tool and tip, one axis at a
-// time.
+// ---- whether the machine carries the tool: compares the motions of a log's tool and tip, one axis at a time
 
 constexpr double kBlock = 0.25;  // s: errors farther apart than this are independent
 
