@@ -49,7 +49,7 @@ void refuse_input(const std::string& path) {
     throw Error(fmt::format("{}: is read by this command; expected another file to write; choose one", path));
 }
 
-// What it points to is a place that nobody named. A device or a pipe may be called by a link, as /dev/stdout
+// It points to a place that the user did not name. A device or a pipe may be called by a link, as /dev/stdout
 // is.
 void refuse_link(const std::string& path) {
   struct stat s {};
@@ -145,7 +145,7 @@ void OutFile::refuse_existing() const {
                   path_));
 }
 
-// Whoever writes a file has it locked from its beginning.
+// A run that writes a file has it locked from its beginning.
 bool OutFile::lock() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
 void OutFile::refuse_other_run() {

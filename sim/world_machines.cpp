@@ -1,6 +1,6 @@
-// What of the world differs from machine to machine. An arm: its torques, its prop and what is seen of both.
-// A hexapod: how it is placed or carried by its legs, what pushes or is pushed by its tip, what its force
-// sensor reads.
+// The parts of the world that differ from machine to machine. An arm: its torques, its prop and what is seen
+// of both. A hexapod: how it is placed or carried by its legs, what pushes or is pushed by its tip, what its
+// force sensor reads.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,7 +54,7 @@ void World::set_up_arm(const WorldSpec& spec) {
   face_prop(0.0);
 }
 
-// The gimbal of the prop keeps its front parallel to the surface that it stands for: the one that it is told.
+// The gimbal of the prop keeps its front parallel to the surface that it stands for: the commanded one.
 // Before, it faces what is nearest to it.
 void World::face_prop(double h) {
   mjModel* m = physics_.model();
@@ -211,7 +211,7 @@ void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double 
   truth_.penetration = pressed.penetration;
 }
 
-// Likewise what pushes from outside.
+// The pusher acts on the tip in the same way.
 void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h) {
   if (force && pusher->near(t, h, twin_.force.drift_ahead)) force->begin_push();
   const Vec<'W'> velocity(Vec3(Eigen::Map<const Vec3>(physics_.data()->qvel + platform_qvel_)));

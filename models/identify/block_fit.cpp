@@ -9,13 +9,13 @@
 namespace enc::models {
 namespace {
 
-// Of a column's square, what the columns before it leave of it: less is the same thing twice.
+// Least share of a column's square that the columns before it leave: with less, both are the same thing.
 constexpr double kApart = 1e-8;
 
-// Degrees of freedom: of fewer blocks nobody knows how much they scatter.
+// Degrees of freedom: the scatter of fewer blocks is unknown.
 constexpr double kFewestFree = 2.0;
 
-// Columns that can be told apart, in order, and their scales.
+// Columns that can be separated, in order, and their scales.
 struct Columns {
   std::vector<Eigen::Index> kept;
   Eigen::VectorXd scale;

@@ -253,7 +253,7 @@ void write_mesh(const Mesh& mesh, const std::string& path, Existing existing) {
 
 namespace {
 
-constexpr double kFarthest = 1e6;  // m: beyond, squares of double cannot tell a mesh from a point
+constexpr double kFarthest = 1e6;  // m: beyond, squares of double cannot separate a mesh from a point
 
 class PointsReader {
  public:

@@ -80,7 +80,7 @@ bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const
   return true;
 }
 
-// tinygltf's own words on one line, with the place where they tell one.
+// tinygltf's own words on one line, with the place if they name one.
 [[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
   while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();
   words = printable(std::move(words));
@@ -175,7 +175,7 @@ class GltfReader {
                        models::quoted(model_.asset.version)));
   }
 
-  // Of the scene; without one, all nodes that are nobody's children.
+  // The scene's nodes; without a scene, all nodes that are no other node's children.
   std::vector<int> roots() const {
     const std::size_t count = model_.nodes.size();
     if (!model_.scenes.empty()) return part(model_.scenes, "scenes", std::max(model_.defaultScene, 0)).nodes;
@@ -248,7 +248,7 @@ class GltfReader {
     return m;
   }
 
-  // What an accessor says, proved to lie within its buffer.
+  // The data of an accessor, proved to lie within its buffer.
   struct View {
     const unsigned char* data;
     std::size_t count, stride;
@@ -378,7 +378,7 @@ class GltfReader {
     }
   }
 
-  // The material of most triangles. A picture is no reason to refuse a mesh: what is none is passed over.
+  // The material of most triangles. A picture is no reason to refuse a mesh: an unusable one is passed over.
   [[nodiscard]] std::optional<SurfaceMaterial> material() const {
     const auto most = std::max_element(covered_.begin(), covered_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -434,7 +434,7 @@ bool only_looks(const std::string& name) {
          name.starts_with("EXT_texture") || name == "KHR_lights_punctual";
 }
 
-// Where the array that follows a key of the outermost object begins; npos where there is none.
+// The begin of the array that follows a key of the outermost object; npos without one.
 std::size_t array_of(std::string_view json, std::string_view key) {
   int depth = 0;
   for (std::size_t i = 0; i < json.size(); ++i) {

@@ -177,7 +177,7 @@ class Toucher {
     return up.dot(uq) > 0.0 && up.cross(uq).norm() <= 1e-12 * up.norm() * uq.norm();
   }
 
-  // Of two faces with at most one common corner.
+  // Takes two faces with at most one common corner.
   [[nodiscard]] bool cross(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;

@@ -1,4 +1,4 @@
-// What a scene, a rig and the simulator's truth say of a force-controlled arm and of what only it renders.
+// Keys of a scene, a rig and the simulator's truth about a force-controlled arm and what only it renders.
 #include <algorithm>
 
 #include "models/schema/schema_walk.h"
@@ -245,7 +245,7 @@ void describe_click(Visitor& v, InteractionSpec& i) {
           &i.floor);
 }
 
-// Of a ball, a tile or a belt.
+// Keys of a ball, a tile or a belt.
 void describe_moving(Visitor& v, InteractionSpec& i) {
   if (i.kind == Interaction::hit || i.kind == Interaction::shift)
     v.value({"mass_kg", "of what moves", "docs/reference/objects.md", chosen, kPositive}, &i.mass);

@@ -1,5 +1,5 @@
-// What a rig says: models/rigs/*.toml without [truth]. The numbers the core works with, and the calibration
-// it believes.
+// Keys of a rig: models/rigs/*.toml without [truth]. The numbers the core works with, and the calibration it
+// believes.
 #include "models/schema/schema_walk.h"
 
 namespace enc::models {

@@ -1,4 +1,4 @@
-// What a scene says: models/scenes/*.toml, models/behaviours.toml, models/responses/*.toml.
+// Keys of a scene: models/scenes/*.toml, models/behaviours.toml, models/responses/*.toml.
 #include "models/schema/schema_walk.h"
 
 namespace enc::models {

@@ -1,5 +1,4 @@
-// What the simulated devices, room and person really are: [truth.*] of models/rigs/sim.toml. The core never
-// sees it.
+// Keys of the simulated devices, room and person: [truth.*] of models/rigs/sim.toml. The core never sees it.
 #include <span>
 
 #include "models/schema/schema_walk.h"
@@ -313,7 +312,7 @@ void describe(Visitor& v, sim::PusherTruth& p) {
   v.value({"tremor_rate_hz", "of the tremor", "sources/hand 2", published, kPositive}, &p.tremor_rate);
 }
 
-// What is unset comes from the set.
+// Unset numbers come from the set.
 void describe_make(Visitor& v, sim::BallTruth& b) {
   const std::string_view from = "sources/ball 4";
   v.value({"radius_mm", "outer; unset: as the scene says", "sources/ball 1", published, kPositive, optional},

@@ -76,7 +76,7 @@ class Value {
   }
   void read(std::string* to) const {
     *to = text();
-    // Else a title could print lines of a report that nobody computed.
+    // Else a title could print false lines of a report.
     if (const std::string shown = printable(*to); shown != *to)
       fail(fmt::format("is {}, which cannot be printed as it is", models::quoted(*to)),
            "printable text on one line");

@@ -156,7 +156,7 @@ std::string quoted_toml(const std::string& text) {
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
-  // Nobody has mistyped what is longer; and the time goes with the product of the lengths.
+  // A longer word is no typing error; and the time goes with the product of the lengths.
   constexpr std::size_t kLongest = 200;
   if (word.size() > kLongest) return {};
   if (std::string name = with_other_unit(word, names); !name.empty()) return name;

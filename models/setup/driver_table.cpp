@@ -90,7 +90,7 @@ void DriverTableReader::read(const Setting& setting, const Target& target) {
   const std::string name(setting.name);
   known_.push_back(name);
   const auto is = [&](const DriverValue& v) { return v.key == name; };
-  // What nobody wrote is what the driver has, to the bit, also where no file could say it.
+  // A value that the file lacks is the driver's own, to the bit, even if no file could contain it.
   const bool written = setup_.places.contains(fmt::format("{}.{}", path_of(driver_), name));
   if (const auto found = std::find_if(given_.begin(), given_.end(), is); written && found != given_.end())
     read_value(found->text, place(name), key, target, is_set(place(name)) ? Quotes::may : Quotes::must);

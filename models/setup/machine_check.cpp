@@ -1,4 +1,4 @@
-// What one key alone does not show, of each machine: its tools, its behaviours, its stops.
+// Checks of several keys together, for each machine: its tools, its behaviours, its stops.
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +49,7 @@ void check_machine(const Setup& setup, const std::string& key, const ArmMachine&
   check_joints(setup, key, machine);
 }
 
-// What a motor or the tip does for hours it can do for a moment.
+// A motor or a tip that gives a force for hours can give it for a moment.
 void check_continuous(const Setup& setup, const std::string& table, const char* continuous, const char* peak,
                       double for_hours, double at_most) {
   if (for_hours <= at_most) return;
@@ -75,7 +75,7 @@ void check_friction_time(const Setup& setup) {
            1e6 * period / std::ceil(2.0 * period / truth.friction_time * (1.0 - 1e-9))));
 }
 
-// What the simulator has is the machine that the rig believes in: other numbers, not other joints.
+// The simulator's machine may have other numbers than the rig's, but not other joints.
 void check_truth(const Setup& setup) {
   const sim::ArmTruth& truth = setup.twin.arm;
   if (!truth.there)
@@ -94,7 +94,7 @@ void check_truth(const Setup& setup) {
   check_friction_time(setup);
 }
 
-// Where the scene names the behaviour.
+// The key by which the scene names the behaviour.
 std::string naming(const Setup& setup, const BehaviourSpec& b) {
   const auto& objects = setup.scene.objects;
   const auto named = std::find_if(objects.begin(), objects.end(),
@@ -129,7 +129,7 @@ void check_finger(const Setup& setup, const ToolSpec& tool) {
              quoted(tool.name)));
 }
 
-// Of the line that the markers are nearest to: root of the sum of the squares of their distances from it, m.
+// Root of the sum of the squares of the markers' distances from the line that they are nearest to, m.
 double off_the_line(const std::vector<Vec3>& markers) {
   const Vec3 middle = middle_of(markers);
   Mat3 scatter = Mat3::Zero();

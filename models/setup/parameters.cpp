@@ -262,7 +262,7 @@ class Without final : public Visitor {
 
 }  // namespace
 
-// Whoever sets a number wants it to do something.
+// A person who sets a number wants it to have an effect.
 void note_unread(Setup& setup) {
   for (const std::string& table : unread(setup)) {
     const std::string below = table + ".";

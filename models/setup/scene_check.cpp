@@ -1,5 +1,5 @@
-// What one key alone does not show. What needs the machine (reach, monotone curves) is checked by core's
-// prepare().
+// Checks of several keys together. Core's prepare() checks the conditions that need the machine (reach,
+// monotone curves).
 #include "models/setup/scene_check.h"
 
 #include <algorithm>
@@ -278,7 +278,7 @@ void check_user(const Setup& setup) {
   check_reaches(setup);
 }
 
-// What the simulated ball is good for (sim/bodies/ball_plant.h). A real machine may press other things.
+// The limits of the simulated ball's law (sim/bodies/ball_plant.h). A real machine may press other things.
 void check_probe(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.probe || setup.rig.force.driver != "sim") return;
@@ -303,7 +303,7 @@ void check_probe(const Setup& setup) {
   }
 }
 
-// What pushes from outside is alone with the machine and its force sensor: force alone makes the contact.
+// A pusher is alone with the machine and its force sensor: force alone makes the contact.
 void check_pusher(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.pusher) return;
@@ -326,7 +326,7 @@ void check_pusher(const Setup& setup) {
                      s.pusher->rest_time, setup.rig.force.tare_time));
 }
 
-// The tool that the gripper clamps is nobody's hand-held one.
+// The user does not hold the tool that the gripper clamps.
 void check_gripper(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.gripper) return;
@@ -386,7 +386,7 @@ void check_views(const Setup& setup) {
                    objects.size() > 1 ? ", and none of the others in view" : ""));
 }
 
-// What the twin's camera is, beside what the rig says of it.
+// The twin's camera against the rig's.
 void check_twin(const Setup& setup) {
   const StereoRig& believed = setup.rig.camera;
   const sim::CameraTruth& truth = setup.twin.camera;

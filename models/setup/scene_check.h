@@ -32,7 +32,7 @@ struct StopTime {
 
 void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);  // machine_check.cpp
 
-// What the checks of a scene ask of one machine and not of the other.
+// The parts of the checks that differ from machine to machine.
 struct MachineChecks {
   const char* behaviour;  // an entry of models/behaviours.toml that it renders
   const char* rig;        // a rig of models/rigs that has it

@@ -305,7 +305,7 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
     }
     Places places;
     b.curves = read_response(path.string(), places).response;
-    // What is wrong with a curve is wrong in the response file.
+    // A fault of a curve is a fault of the response file.
     for (const auto& [key, place] : places)
       setup.places[fmt::format("behaviour.{}.curves.{}", b.name, key)] = place;
   }

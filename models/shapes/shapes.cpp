@@ -75,7 +75,7 @@ void add_face(Mesh& mesh, const std::vector<std::int32_t>& ids, int n) {
 Mesh geodesic_ball(int n, double radius) {
   const std::array<Vec3, 12> corner = corners_of_icosahedron();
   Mesh mesh;
-  Lattice edges(mesh);  // corners and edges only: the insides of faces are nobody else's
+  Lattice edges(mesh);  // corners and edges only: faces do not share their insides
   std::vector<std::int32_t> ids;
   for (std::size_t f = 0; f < kFaces.size(); ++f) {
     const int a = kFaces[f][0];

@@ -27,7 +27,7 @@ struct Solid {
   Vec3 inertia;  // about it, along the body's axes, kg m^2
 };
 
-// Where a part hangs: on a body, or on the base, which is a frame of the world and no body.
+// The place of a part: on a body, or on the base, which is a frame of the world and no body.
 struct Mount {
   mjsBody* body;
   mjsFrame* frame = nullptr;
@@ -65,8 +65,8 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   driven->damping[0] = parts.truth.viscous[i];
   if (parts.truth.friction_form == ArmFriction::dry) {
     driven->frictionloss = parts.truth.friction[i];
-    // What holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the friction does,
-    // 0.1 mm in a second. MuJoCo takes no time constant below two of its time steps.
+    // A friction that holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the
+    // friction does, 0.1 mm in a second. MuJoCo takes no time constant below two of its time steps.
     driven->solref_friction[0] = parts.truth.friction_time;
     driven->solimp_friction[0] = driven->solimp_friction[1] = 0.9999;
   }

@@ -86,7 +86,7 @@ Wrench6 weight(const Physics& physics, int platform, int payload, const Pose<'W'
   return total;
 }
 
-// Of the platform with all it carries, for motions of H along and about R's axes, at zero.
+// Mass matrix of the platform with all it carries, for motions of H along and about R's axes, at zero.
 Mat6 mass_matrix(const Physics& physics, int first_dof, const Pose<'W', 'R'>& X_WR) {
   const mjModel* m = physics.model();
   Eigen::MatrixXd all(m->nv, m->nv);

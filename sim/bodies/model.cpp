@@ -401,7 +401,7 @@ void touch_arm(mjSpec* spec, const ModelParts& parts) {
   pair->solreffriction[1] = 1.0;
 }
 
-// What differs in the model of a scene from machine to machine.
+// The parts of a scene's model that differ from machine to machine.
 struct MachineModel {
   void (*add)(mjSpec* spec, const ModelParts& parts);    // its bodies
   void (*touch)(mjSpec* spec, const ModelParts& parts);  // what can touch it, once all bodies are there

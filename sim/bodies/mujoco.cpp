@@ -16,7 +16,7 @@ void on_warning(const char*) {
 }  // the counters in mjData are read on every step; nothing is printed or written to a file
 
 // A step works in an arena of megabytes: contacts from its begin, passing values from its end. The first
-// contact must not wait for a page that nobody has written to. Shipped scenes use 18 kB.
+// contact must not wait for a page that was never written to. Shipped scenes use 18 kB.
 void touch_arena(mjData& data) {
   constexpr std::size_t kUsed = 64 * 1024;  // bytes, at either end
   auto* arena = static_cast<std::byte*>(data.arena);

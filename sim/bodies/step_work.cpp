@@ -42,7 +42,7 @@ Vec3 StepWork::pushed(const Physics& physics, double h) const {
   return applied_ - tool_.mass * (now - velocity_) / h;
 }
 
-// What all that is no contact does, as the last stage of the step has it: dry friction, and the stops.
+// Dry friction and the stops, all that is no contact, as the last stage of the step has them.
 StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
@@ -62,8 +62,8 @@ StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   return held;
 }
 
-// A touch that is over by the end of the step has left no point behind. Where the step began, the front's
-// nearest to the tool's tip is half way between both; in the axes of the body that the prop is on.
+// A touch that is over by the end of the step has left no point behind. At the begin of the step, the front's
+// point nearest to the tool's tip is half way between both; in the axes of the body that the prop is on.
 Vec3 StepWork::touched_first(const Physics& physics, const ArmBody& arm) const {
   const mjModel* m = physics.model();
   const Eigen::Map<const Vec3> middle(m->geom_pos + 3 * arm.front()), half(m->geom_size + 3 * arm.front());

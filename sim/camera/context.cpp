@@ -29,7 +29,7 @@ class Egl final : public DrawingContext {
   OffscreenContext context_;
 };
 
-// What is used of GL/osmesa.h, which need not be there.
+// The used part of GL/osmesa.h, which need not be there.
 constexpr int kRgba = 0x1908;
 constexpr unsigned kUnsignedByte = 0x1401;
 using Create = void* (*)(unsigned format, int depth, int stencil, int accumulate, void* shared);

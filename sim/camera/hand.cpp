@@ -66,7 +66,7 @@ void Builder::solid(const Vec3& from, const Vec3& z, const Vec3& about_x, const 
     for (int i = 0; i < kAround; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kAround, c = std::cos(angle), s = std::sin(angle);
       const Vec3 at = from + r.z * z + r.x * c * x + r.y * s * y;
-      // Of an oval the normal is steeper where it is narrow.
+      // The normal of an oval is steeper at its narrow ends.
       const double wide = std::max(r.x, 1e-9), high = std::max(r.y, 1e-9);
       const Vec3 out = (c / wide * x + s / high * y).normalized();
       const Vec3 normal = std::sqrt(std::max(0.0, 1.0 - r.tilt * r.tilt)) * out + r.tilt * z;

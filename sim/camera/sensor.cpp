@@ -140,7 +140,7 @@ double rms_of_rounded(const std::vector<float>& normal, double scale) {
   return std::sqrt(sum / static_cast<double>(normal.size()));
 }
 
-// Of the normal numbers before rounding: found by halving, because rounding adds noise of its own.
+// Scale of the normal numbers before rounding: found by halving, because rounding adds noise of its own.
 double scale_for(const std::vector<float>& normal, double rms) {
   double low = 0.0, high = rms + 1.0;
   for (int i = 0; i < 40; ++i) {

@@ -1,4 +1,4 @@
-// What a camera of the twin sees: a hand and its colours, parts of the haptic device, the light.
+// Things that a camera of the twin sees: a hand and its colours, parts of the haptic device, the light.
 #pragma once
 
 #include <array>

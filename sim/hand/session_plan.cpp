@@ -15,7 +15,7 @@ double expected_of_ball(const Object&) {
   constexpr double kBall = 1900.0;  // N/m: mean of the ball's press curve
   return kBall;
 }
-// Of what an arm renders, its stiffness; of a real thing nothing.
+// The stiffness that an arm renders; nothing for a real thing.
 double expected_of_rendered(const Object& object) {
   return std::isnan(object.stiffness) ? 0.0 : object.stiffness;
 }
@@ -45,8 +45,8 @@ Places::Places(const SceneSpec& scene, const Scene& prepared)
       lowest_(std::cos(everywhere_ ? scene.user->reaches->polar_most : scene.user->session->polar_most)),
       spread_(everywhere_ ? scene.user->reaches->spread : 0.0) {}
 
-// Of a plane round about its origin, of a button on the middle half of its face, at which people aim, of a
-// ball on its cap.
+// A point of a plane is near its origin, of a button on the middle half of its face, at which people aim, of
+// a ball on its cap.
 PressPoint Places::on(const Object& object, Stream& draws) const {
   const Vec<'O'> up(0, 0, 1);
   if (const auto* sphere = std::get_if<Sphere>(&object.surface.shape())) {

@@ -25,7 +25,7 @@ struct Place {
   PressPoint at;
 };
 
-// What a person does with one machine and not with the other.
+// The parts of a person's behaviour that differ from machine to machine.
 struct HandAtMachine {
   // The stiffness that the person has learned to expect of an object, N/m.
   double (*expected)(const Object& object);

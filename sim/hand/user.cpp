@@ -19,7 +19,7 @@ constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
 constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
 
-// Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
+// Time of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
 double slide_time(const UserSpec& spec) { return 1.875 * spec.slide / spec.slide_speed; }
 
 // Each sine has a quarter of the band to itself, so that they beat and none is drawn twice.
@@ -231,7 +231,7 @@ Vec3 User::drift(double t) {
   return (rest < 1e-6 ? state_.drift : state_.drift + rest * (state_.drift_from - state_.drift)).e();
 }
 
-// Of a step h from t on.
+// The intent's error in a step h from t on, m.
 Vec3 User::unsteadiness(double t, double h) { return tremor(t, h) + drift(t + h); }
 
 Vec3 User::grip(const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity) const {
@@ -250,7 +250,7 @@ void User::move(double h, const Vec3& arm, const Vec3& grip) {
   state_.hand = state_.hand + Vec<'W'>(Vec3(h * velocity));
 }
 
-// Of the nearest object.
+// The normal of the nearest object.
 Vec<'W'> User::normal_at(const Point<'W'>& tip) const {
   Vec<'W'> normal(0, 0, 1);
   double least = std::numeric_limits<double>::infinity();
@@ -348,7 +348,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   const Vec3 gripped = grip(tool_tip, tool_velocity);
   Vec3 pulled = arm(p, intent);
   if (pushing) push_along(n, t - state_.phase_start, pulled);
-  // Who pushes with all strength does not push harder because the depth is not reached.
+  // A person who pushes with all strength does not push harder because the depth is not reached.
   const double effort = pulled.norm();
   if (effort > hand_.strength) {
     pulled *= hand_.strength / effort;

@@ -92,7 +92,7 @@ TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC
   state_.server = {truth.server_rate, 0, from_seconds(phase * state_.noise.uniform() / truth.server_rate)};
 }
 
-// What a tracker makes of the markers of one tool.
+// The tracker's measurement of the markers of one tool.
 TrackedTool TrackerPlant::by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
   const std::vector<Vec3>& markers = markers_.at(static_cast<std::size_t>(tool));
   std::array<Vec3, kMostMarkers> seen;

@@ -20,7 +20,7 @@ namespace {
 constexpr Ink kText{35, 40, 50};
 constexpr Ink kLine{120, 128, 140};
 
-// Where a point of W is in the picture.
+// The place of a point of W in the picture.
 Eigen::Vector2d projected(const mjvScene& scene, const Point<'W'>& p, int width, int height) {
   const auto vec = [](const float* f) { return Vec3(f[0], f[1], f[2]); };
   const mjvGLCamera& a = scene.camera[0];

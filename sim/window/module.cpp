@@ -180,7 +180,7 @@ void look() {
   if (glfwInit() == GLFW_FALSE) no_window(said().c_str());
 }
 
-// Of the context that is current.
+// The renderer of the current context.
 std::string renderer_name() {
   using GetString = const GLubyte* (*)(GLenum);
   const auto get = reinterpret_cast<GetString>(glfwGetProcAddress("glGetString"));
@@ -353,7 +353,7 @@ class GlfwWindow final : public ViewWindow {
   }
   // The left stick moves right and up, the right one away; the left bumper is finer, as Shift is.
   void read_gamepad() {
-    constexpr double kStill = 0.15, kLongest = 0.1;  // of a stick that nobody touches; s
+    constexpr double kStill = 0.15, kLongest = 0.1;  // of a stick at rest; s
     const double now = glfwGetTime(), since = std::min(kLongest, now - sticks_read_);
     sticks_read_ = now;
     GLFWgamepadstate pad;

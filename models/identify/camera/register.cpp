@@ -21,7 +21,7 @@ namespace {
 
 using Mat4 = Eigen::Matrix4d;
 
-constexpr double kSmallest = 1e-6;  // m rms: no device tells places apart that are nearer
+constexpr double kSmallest = 1e-6;  // m rms: no device separates nearer places
 
 struct Cloud {
   Vec3 middle{0, 0, 0};

@@ -248,8 +248,8 @@ Onset find_onset(std::span<const Approach> approaches) {
   constexpr double kLeastBefore = 0.04;  // of the depth: so much has to lie before contact
   constexpr double kChance = 0.5;        // of the windows' range, where they differ by chance alone
   constexpr double kUnsure = 0.01;       // of the depth, of a curve that one window alone shows
-  // Of the smallest window, where the curve begins softly. The nominal ball (felt, friction) is found 0.30 mm
-  // too late at 20 mm/s, 0.45 of that window: 1.8 standard deviations of this error.
+  // Share of the smallest window that is added if the curve begins softly. The nominal ball (felt, friction)
+  // is found 0.30 mm too late at 20 mm/s, 0.45 of that window: 1.8 standard deviations of this error.
   constexpr double kSoft = 0.25;
   std::array<Candidate, kShares.size()> found;
   for (std::size_t i = 0; i < kShares.size(); ++i) found[i] = candidate_of(approaches, kShares[i]);
@@ -416,7 +416,7 @@ class ContactFinder {
     return moved > most && before.rate_error * lasts <= kSure * moved;
   }
 
-  // What the zero does on the way to the press, and from one press to the next, tells a drift.
+  // The zero's change on the way to the press, and from one press to the next, reveals a drift.
   static bool drifts(std::span<const PressZero> zeros, std::size_t k) {
     // A rate has to be known to the first share of the change, and to be like it within the second.
     constexpr double kSure = 0.25, kLike = 0.5;

@@ -327,7 +327,7 @@ std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
   while (row.next()) {
     const std::int64_t which = repeat_of(row);
     LoopRow reading{clock.next(row, which), 0.0, kUnset, which, row.line()};
-    // A rig that has not found its zero yet has no force to tell; outside of a press nothing is lost by that.
+    // A rig that has not found its zero yet measures no force; outside of a press nothing is lost by that.
     const auto given = [&](std::size_t column) { return which != 0 || !row.text(column).empty(); };
     if (given(kForce)) reading.force = row.number(kForce);
     if (!given(kDeflection)) continue;
@@ -477,7 +477,7 @@ void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
                     deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
 }
 
-// What no hand presses is in another unit than newtons.
+// A force that no hand presses is in another unit than newtons.
 void check_force(const CsvReader& where, const LoopData& loop, double limit) {
   // No hand and no machine of a table presses with more, N.
   constexpr double kMost = 300.0;
@@ -502,7 +502,7 @@ void check_force(const CsvReader& where, const LoopData& loop, double limit) {
                   most, limit * 1e3, kMost, advice.empty() ? "see to the unit of force_N" : advice));
 }
 
-// What the whole file must say; `where` is its end.
+// Conditions on the whole file; `where` is its end.
 void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known) {
   constexpr std::ptrdiff_t kFewest = 20;
   constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor

@@ -101,9 +101,9 @@ Quadratic normal_equations(std::span<const LoopPoint> loop, double limit) {
   return q;
 }
 
-// What makes the curves renderable, at 1001 deflections. Each with a margin (N, 1e-5 of the force) that
-// covers what the polynomials do between two of them: a curvature c over u dips by c / (8 x 1000^2) at most,
-// so up to 80 x the force is covered (the ball has 21 x).
+// Conditions that make the curves renderable, at 1001 deflections. Each with a margin (N, 1e-5 of the force)
+// that covers what the polynomials do between two of them: a curvature c over u dips by c / (8 x 1000^2) at
+// most, so up to 80 x the force is covered (the ball has 21 x).
 Constraints renderable(double lowest_slope, double limit, double margin) {
   constexpr int kSteps = 1000;
   Constraints all{Eigen::MatrixXd::Zero(3 * (kSteps + 1), kUnknowns), Eigen::VectorXd(3 * (kSteps + 1))};
@@ -179,7 +179,7 @@ ResponseSpec rounded(const ResponseSpec& spec) {
 namespace {
 
 // Radii in equal ratios from 1/30 to 1/3 of the limit. Smaller ones only add stiffness for tremor; larger
-// ones never reverse fully within the limit, and one loop cannot tell them from the curve.
+// ones never reverse fully within the limit, and one loop cannot separate them from the curve.
 constexpr int kStops = 12;
 constexpr int kCurve = static_cast<int>(kMaxCurve);
 constexpr int kStopUnknowns = kCurve + kStops;

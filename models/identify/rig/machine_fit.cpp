@@ -120,7 +120,7 @@ MatrixXd slopes(std::span<const EyeStand> stands, const Both& at) {
 struct Scatter {
   Vec3 place, turn;
 };
-// Places tell up to nine of the twelve unknowns: of each of their axes three.
+// Places determine up to nine of the twelve unknowns: three for each of their axes.
 double freedom_of(Eigen::Index stands) { return static_cast<double>(stands) - 3.0; }
 Scatter scatter_of(const VectorXd& left) {
   const Eigen::Index n = left.size() / 6;
@@ -302,7 +302,7 @@ Vec3 left_over(const WeightStand& stand, const Estimate& at) {
   return stand.wrench.force.e() - at.mass * at.R_FH * weight_per_kg(stand) - at.zero;
 }
 
-// What is fitted: stands, and the time at which the zero is told.
+// Inputs of the fit: stands, and the time at which the zero is wanted.
 struct Log {
   std::span<const WeightStand> stands;
   double end;
@@ -392,7 +392,7 @@ Solved best_of(const Log& log, const Estimate& guess) {
 }
 
 // Each axis of the sensor against what it should read: 1 where its sign and its unit are right. A turn and a
-// zero make up for a wrong axis but for how the weight along it changes, which is what tells it.
+// zero make up for a wrong axis but for how the weight along it changes, which reveals it.
 struct AxisSlope {
   double value = kUnset, deviation = kUnset;
 };

@@ -50,7 +50,7 @@ bool inside(const cv::Mat& grey, const cv::Point2f& p) {
          p.y < static_cast<float>(grey.rows) - 2.5F;
 }
 
-// Where the next corner of a row would be, by the last three.
+// The place of a row's next corner, by the last three.
 cv::Point2f next_of(const Grid& grid, int row) {
   const int c = grid.columns - 1;
   return 3.0F * grid.at(row, c) - 3.0F * grid.at(row, c - 1) + grid.at(row, c - 2);
@@ -150,8 +150,8 @@ bool find_in_double(const cv::Mat& grey, const cv::Size& size, std::vector<cv::P
   for (cv::Point2f& p : points) p = (p - cv::Point2f(0.5F, 0.5F)) * 0.5F;
   return true;
 }
-// By the outlines of black squares. Where noise makes outlines by the thousand, the search takes minutes:
-// blurred a little, a second.
+// By the outlines of black squares. If noise makes outlines by the thousand, the search takes minutes; in a
+// slightly blurred image, a second.
 bool find_by_outlines(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& points) {
   cv::Mat smooth;
   cv::GaussianBlur(grey, smooth, {3, 3}, 0.0);
@@ -177,9 +177,9 @@ std::optional<Corners> corners_by(const Finder& find, const cv::Mat& grey, const
   return corners;
 }
 
-// What a board may have that is not of the size `near`. First what is seen at a glance, and one less or more
-// of each, as who counts squares says; then the sizes around. Of both the largest first: part of a board may
-// pass for a smaller one.
+// Sizes that a board may have if it is not of the size `near`. First what is seen at a glance, and one less
+// or more of each, as a person says who counts squares; then the sizes around. Of both the largest first:
+// part of a board may pass for a smaller one.
 std::vector<cv::Size> sizes_around(const cv::Mat& grey, const cv::Size& near) {
   constexpr int kFewest = 3, kMost = 2,
                 kPlain = 5;  // corners a side; more or fewer; a side of what is plainly seen

@@ -74,7 +74,7 @@ bool spreads(const Camera& camera, const cv::Size& size) {
                      [&](const Pixel& corner) { return std::isfinite(ray_of(lens, corner).x); });
 }
 
-// What all views of a camera tell of its lens.
+// The fit of a camera's lens to all its views.
 class LensSolver {
  public:
   LensSolver(const Views& views, const Board& board, const cv::Size& size)
@@ -91,7 +91,7 @@ class LensSolver {
     camera.k3_in_deviations = k3 > 0.0 ? std::abs(camera.distortion.at<double>(4)) / k3 : 0.0;
   }
 
-  // Of the last solution.
+  // Judges the last solution.
   void judge(Camera& camera) const {
     constexpr std::size_t kRings = 8;
     const cv::Point2d axis(camera.matrix.at<double>(0, 2), camera.matrix.at<double>(1, 2));
@@ -116,7 +116,7 @@ class LensSolver {
   }
 
  private:
-  // Of each corner: px from the axis, and how much farther it lies than the lens has it.
+  // A corner: px from the axis, and how much farther it lies than the lens has it.
   [[nodiscard]] std::vector<std::pair<double, double>> off_axis(const Camera& camera,
                                                                 const cv::Point2d& axis) const {
     std::vector<std::pair<double, double>> out;

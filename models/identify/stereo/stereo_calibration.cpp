@@ -61,7 +61,7 @@ StereoRig rig_of(const Head& head, const cv::Size& size) {
   return rig;
 }
 
-// Of the board's plane in the camera, out of one image: the line at which the plane's horizon is seen.
+// The normal of the board's plane in the camera, from one image: from the line at which its horizon is seen.
 Vec3 normal_of(const Corners& corners, const Board& board, const Lens& lens) {
   std::vector<cv::Point2f> plane;
   for (const cv::Point3f& p : board_points(board)) plane.emplace_back(p.x, p.y);
@@ -92,7 +92,7 @@ void refuse_parallel(const std::vector<PairCorners>& pairs, const Board& board, 
         "by 20 to 45 degrees to all sides; take more pairs");
 }
 
-// What no optimum of a stereo head looks like.
+// Refuses a result that no optimum of a stereo head looks like.
 void check_head(const StereoCalibration& found) {
   const auto refuse = [](const std::string& what) {
     throw Error(what +
@@ -186,7 +186,8 @@ struct Rectification {
   std::array<cv::Mat, 2> turn, projection;
 };
 
-// Of cameras without distortion: how a lens bends must not change the size in which rows are compared.
+// Rectification as for cameras without distortion: the bend of a lens must not change the size in which rows
+// are compared.
 Rectification rectification_of(const StereoRig& rig) {
   constexpr double kAsLarge = -1.0;
   const calibration::Extrinsics pose = calibration::extrinsics_of(rig);
@@ -215,7 +216,7 @@ std::vector<Vec3> rays_of(const Lens& lens, const Corners& corners) {
   }
   return rays;
 }
-// Where they are in the rectified image, px.
+// Their places in the rectified image, px.
 std::vector<cv::Point2d> rectified(const StereoRig& rig, const PairCorners& pair, std::size_t side,
                                    const Rectification& by) {
   std::vector<cv::Point2d> points;

@@ -41,7 +41,7 @@ struct Sums {
   Mat3 by = Mat3::Zero(), turn = Mat3::Zero();  // means
   Vec3 place = Vec3::Zero();                    // mean
   Mat3 moment = Mat3::Zero();                   // of `by` with the turns, about their means
-  Vec3 right = Vec3::Zero();                    // of `by` with the places, likewise
+  Vec3 right = Vec3::Zero();                    // sums of `by` with the places
 };
 
 class PivotSolver {
@@ -91,7 +91,7 @@ class PivotSolver {
     return s;
   }
 
-  // The dimple drops out with the means. What is badly conditioned was refused, so moments do.
+  // The dimple drops out with the means. A badly conditioned log was refused, so moments suffice.
   Sums solve() {
     const Sums s = sums(by_, weights_);
     tip_ = s.moment.fullPivLu().solve(-s.right);
@@ -125,7 +125,8 @@ class PivotSolver {
     }
   }
 
-  // Neither a gap nor a rest tells anything of the tip, however long it is. A rest is worth one short block.
+  // Neither a gap nor a rest says anything about the tip, however long it is. A rest is worth one short
+  // block.
   void check_time() {
     if (const std::string doubt = doubt_of_time(poses_); !doubt.empty())
       throw Error(
@@ -314,8 +315,8 @@ class PivotSolver {
     fit_.neighbours = true;
   }
 
-  // What each block of time did to the tip: that of all, against that of all other blocks (the jackknife).
-  // What a block leaves over in a fit of which it is a part is less than its error, if blocks are few.
+  // The influence of each block of time on the tip: the tip of all blocks against that of all others
+  // (jackknife). If blocks are few, the residual of a block in a fit that includes it is less than its error.
   std::array<Blocks, 3> influences(const Sums& s, double length) const {
     const Mat3 all = s.weight * s.moment, inverse = all.inverse();
     std::array<Blocks, 3> sides;
@@ -377,7 +378,7 @@ PivotFit fit_pivot(std::span<const PivotPose> poses) { return PivotSolver(poses)
 
 namespace {
 
-// What a time in another unit than seconds would be, if rows came at a tracker's rate.
+// The unit that a time not in seconds would have, if rows came at a tracker's rate.
 struct TimeUnit {
   std::string_view name;
   double seconds;

@@ -124,8 +124,8 @@ class Fit {
   }
 
  private:
-  // Least sum of sizes over a coarse grid: nothing to start from is needed, and outliers do no harm. Of a few
-  // packets at the end of a short log any age explains most: half of them must be known.
+  // Least sum of sizes over a coarse grid: nothing to start from is needed, and outliers do no harm. Any age
+  // explains most of a few packets at the end of a short log: half of them must be known.
   double nearest_age() const {
     constexpr double kGrid = 4e-3;  // s
     const std::size_t stride = std::max<std::size_t>(1, log_.packets.size() / 600);
@@ -382,7 +382,7 @@ class Fit {
     return out;
   }
 
-  // A lag that does not grow with speed can only be told from latency by moving at several speeds.
+  // A lag that does not grow with speed can only be separated from latency by motion at several speeds.
   [[nodiscard]] bool speeds_differ(std::size_t a) const {
     if (!moved_[a]) return false;
     double slow = 0.0, fast = 0.0;
@@ -428,7 +428,7 @@ class Fit {
   std::array<bool, 3> moved_{}, both_{};
 };
 
-// The same once more, with each packet at the time that its stamp tells: what is left is the stamps' error.
+// The same once more, with each packet at the time of its stamp: what is left is the stamps' error.
 void compare_stamps(const TrackerLog& log, LatencyFit& fit) {
   std::vector<double> stamps, ages;
   for (const TrackerPacket& packet : log.packets) {

@@ -206,7 +206,7 @@ class LogReader {
                     missing, odd.size(), longest * 1e3));
   }
 
-  // Nothing tells a lost packet from a tool at rest without noise, where the last value is repeated.
+  // A lost packet looks like a tool at rest without noise, where the last value is repeated.
   bool still(std::size_t from, std::size_t to) const {
     if (!log_.repeated) return false;
     for (std::size_t i = from; i <= to; ++i)
