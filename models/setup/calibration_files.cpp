@@ -22,6 +22,9 @@
 #include "models/setup/scene_file.h"
 
 namespace enc::models {
+
+// ---- of a rig
+
 namespace {
 
 constexpr std::string_view kMadeBy = "encounter calibrate rig";
@@ -58,6 +61,11 @@ void describe_file(Visitor& v, RigCalibration& file) {
   });
 }
 
+Vec3 rounded_place(const Vec3& place) {
+  Vec3 near;
+  for (Eigen::Index a = 0; a < 3; ++a) near(a) = to_si(unit_of("position_mm"), round_to(place(a) * 1e3, 1e4));
+  return near;
+}
 Vec3 rounded_turn(const Vec3& turn) {
   Vec3 near;
   for (Eigen::Index a = 0; a < 3; ++a)
@@ -66,7 +74,7 @@ Vec3 rounded_turn(const Vec3& turn) {
 }
 RigCalibration rounded(RigCalibration file) {
   if (file.W_C) {
-    for (double& x : file.W_C->position) x = to_si(unit_of("position_mm"), round_to(x * 1e3, 1e4));
+    file.W_C->position = rounded_place(file.W_C->position);
     file.W_C->rotation = rounded_turn(file.W_C->rotation);
   }
   if (file.H_F) file.H_F = rounded_turn(*file.H_F);
@@ -277,22 +285,22 @@ void fill_truth(Setup& setup) {
          setup.rig.manipulator.geometry.*side);
 }
 
+// ---- of a stereo head
+
 namespace {
 
-constexpr auto kKnown = Confidence::chosen;
-constexpr auto kNeeded = Presence::needed;
 constexpr std::string_view kSource = "encounter calibrate stereo";
-constexpr HeadKeys kKeys{kSource, kNeeded};
+constexpr HeadKeys kKeys{kSource, kMust};
 
 void describe_file(Visitor& v, StereoFile& file) {
   std::int64_t format = 1;
-  v.value({"format", "this program reads version 1", kSource, kKnown, {1.0, 1.0}, kNeeded}, &format);
-  v.value({"title", "what it was made of", kSource, kKnown, kAny, kNeeded}, &file.title);
+  v.value({"format", "this program reads version 1", kSource, kSaid, {1.0, 1.0}, kMust}, &format);
+  v.value({"title", "what it was made of", kSource, kSaid, kAny, kMust}, &file.title);
   describe_size(v, file.rig, kKeys);
-  v.value({"reprojection_px", "rms that is left over", kSource, kKnown, kNotNegative, Presence::optional},
+  v.value({"reprojection_px", "rms that is left over", kSource, kSaid, kNotNegative, Presence::optional},
           &file.reprojection);
   v.value(
-      {"epipolar_px", "rms, of pairs that were left out", kSource, kKnown, kNotNegative, Presence::optional},
+      {"epipolar_px", "rms, of pairs that were left out", kSource, kSaid, kNotNegative, Presence::optional},
       &file.epipolar);
   describe_lenses(v, file.rig, kKeys);
 }
@@ -305,10 +313,8 @@ StereoFile rounded(StereoFile file) {
       *px = round_to(*px, 1e4);
     for (double& k : lens->distortion) k = round_to(k, 1e6);
   }
-  Vec3 position = file.rig.X_CD.p(), turn = angles_xyz(Quat(file.rig.X_CD.q()));
-  for (double& x : position) x = to_si(unit_of("position_mm"), round_to(x * 1e3, 1e4));
-  for (double& x : turn) x = to_si(unit_of("rotation_deg"), round_to(x * (180.0 / M_PI), 1e5));
-  file.rig.X_CD = {rotation_xyz(turn), position};
+  const Pose<'C', 'D'>& X_CD = file.rig.X_CD;
+  file.rig.X_CD = {rotation_xyz(rounded_turn(angles_xyz(Quat(X_CD.q())))), rounded_place(X_CD.p())};
   return file;
 }
 

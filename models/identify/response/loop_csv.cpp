@@ -58,7 +58,7 @@ Plateau plateau_of(std::span<const LoopPoint> moving) {
   // way before it.
   constexpr double kFlat = 2.0, kShare = 0.25;
   // It is longer than this share of the depth.
-  constexpr double kLeast = 0.02;
+  constexpr double kShortest = 0.02;
   const double grain = grain_of(moving);
   double top = -INFINITY, deepest = 0.0;
   for (const LoopPoint& p : moving) {
@@ -71,7 +71,7 @@ Plateau plateau_of(std::span<const LoopPoint> moving) {
     if (p.pressing && p.force >= top - kNear * grain && !(p.deflection >= flat.from))
       flat = {p.deflection, p.time};
   const double way = deepest - flat.from;
-  if (!(way > kLeast * deepest)) return {};
+  if (!(way > kShortest * deepest)) return {};
   const double rise = rise_between(moving, flat.from, deepest);
   return rise < kFlat * grain && rise < kShare * rise_between(moving, flat.from - way, flat.from) ? flat
                                                                                                   : Plateau{};
