@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "sim/bodies/mujoco.h"
 #include "sim/camera/context.h"
 #include "sim/camera/hand.h"
 #include "sim/camera/scenery.h"
 #include "sim/camera/sensor.h"
-#include "sim/view/painter.h"
 
 namespace enc::sim {
 namespace {
