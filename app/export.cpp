@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "app/common/lack.h"
 #include "app/common/options.h"
+#include "app/common/words.h"
 #include "app/process.h"
 #include "core/base/error.h"
 #include "models/files.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/common/fit_options.h"
+#include "app/common/module_options.h"
 #include "core/base/frames.h"
 #include "trial/bench_module.h"
 
@@ -49,6 +49,11 @@ struct TourOptions {
   double seconds = 20.0;     // each film
   bool force = false;
 };
+struct LaboratoryOptions : SceneOptions {
+  bool lockstep = false;            // `fake` only
+  double seconds = 1.0;             // `devices` only
+  std::vector<std::string> faults;  // `fake` only
+};
 struct ReplayOptions {
   std::string record;
   std::string frames;  // folder of `run --frames`: vision evaluates it again too
@@ -84,6 +89,8 @@ int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);
 int check(const CheckOptions& options);
+int fake(const LaboratoryOptions& options);
+int devices(const LaboratoryOptions& options);
 int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);
 int params(const ParamsOptions& options);

@@ -3,20 +3,74 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include <dlfcn.h>
+#include <elf.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/modules/driver_names.h"
-#include "app/modules/module_file.h"
+#include "app/common/options.h"
 #include "core/base/error.h"
 #include "encounter_version.h"
+#include "models/schema/wording.h"
 #include "trial/assemble/assemble.h"
+#include "trial/bench_module.h"
 
 namespace enc::app {
 namespace {
+
+std::string all_quoted(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + models::quoted(name);
+  return list;
+}
+
+bool fills(const std::string& driver, const trial::DrivenRole& role) {
+  const ModuleInfo& module = load_module(driver);
+  return module.driver != nullptr && role.filled_by(*module.driver);
+}
+
+// Of those that are there; one that cannot be loaded fills nothing.
+std::vector<std::string> who_fill(const trial::DrivenRole& role, const std::vector<std::string>& there) {
+  std::vector<std::string> names{"sim"};
+  for (const std::string& driver : there) {
+    try {
+      if (fills(driver, role)) names.push_back(driver);
+    } catch (const Error&) {
+    }
+  }
+  return names;
+}
+
+std::string unknown(const std::string& driver, std::vector<std::string> there) {
+  there.insert(there.begin(), "sim");
+  const std::string near = models::nearest_name(driver, there);
+  return fmt::format("there is no driver {}; expected one of {}; {}", models::quoted(driver),
+                     all_quoted(there),
+                     near.empty() ? "correct the name, or build it (cmake --build --preset release)"
+                                  : fmt::format("did you mean {}?", models::quoted(near)));
+}
+
+// Throws Error with the place if a role of the scene has an unavailable driver, or one that does not fill it.
+// Without any available driver no name can be judged: the module is then missing, which matters only for a
+// run.
+void check_driver_names(const models::Setup& setup) {
+  const std::vector<std::string> there = drivers_there();
+  if (there.empty()) return;
+  for (const trial::DrivenRole& role : trial::driven_roles(setup)) {
+    const std::string place = models::place_of(setup, role.key);
+    if (std::find(there.begin(), there.end(), role.driver) == there.end())
+      throw Error(fmt::format("{}: {}", place, unknown(role.driver, there)));
+    if (!fills(role.driver, role))
+      throw Error(fmt::format("{}: driver {} is for no {}; expected one of {}; name one of them", place,
+                              models::quoted(role.driver), role.name, all_quoted(who_fill(role, there))));
+  }
+}
 
 namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = "encounter_";
@@ -140,5 +194,83 @@ const ModuleInfo& load_module(const std::string& name) {
   if (name != info->name) refuse(file, fmt::format("calls itself '{}'", info->name), "do not rename modules");
   return *info;
 }
+
+std::string cut_off(std::string_view head, std::uint64_t size) {
+  Elf64_Ehdr header{};
+  if (head.size() < sizeof(header)) return {};
+  std::memcpy(&header, head.data(), sizeof(header));
+  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS64 ||
+      header.e_phentsize != sizeof(Elf64_Phdr))
+    return {};
+  const auto ends = [&](std::uint64_t at, std::uint64_t length) {
+    return at > size || length > size - at
+               ? fmt::format("is cut off: it has {} bytes, and a part of {} at byte {}", size, length, at)
+               : std::string();
+  };
+  const std::uint64_t table = header.e_phnum * sizeof(Elf64_Phdr);
+  std::string why = ends(header.e_phoff, table);
+  if (!why.empty() || header.e_phoff > head.size() || table > head.size() - header.e_phoff) return why;
+  for (std::uint64_t i = 0; i < header.e_phnum && why.empty(); ++i) {
+    Elf64_Phdr segment{};
+    std::memcpy(&segment, head.data() + header.e_phoff + i * sizeof(segment), sizeof(segment));
+    if (segment.p_type == PT_LOAD && segment.p_filesz > 0) why = ends(segment.p_offset, segment.p_filesz);
+  }
+  return why;
+}
+
+std::string cut_off(const std::string& path) {
+  constexpr std::uint64_t kMostHead = 1U << 20U;  // bytes: linkers put the table right behind the header
+  std::error_code failed;
+  const std::uint64_t size = std::filesystem::file_size(path, failed);
+  if (failed) return {};
+  std::string head(std::min(size, kMostHead), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return cut_off(head, size);
+}
+
+// ---- the subcommands that live in modules, because few users need what those modules need
+
+namespace {
+
+// One that was not built is no broken device: the words ask for something that is not there.
+const ModuleInfo& own_module(const std::string& name, const std::string& command) {
+  try {
+    return load_module(name);
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}; './encounter {}' builds it", e.what(), command));
+  }
+}
+
+const trial::BenchModule& benchmarks() {
+  return *static_cast<const trial::BenchModule*>(own_module("bench", "bench").bench);
+}
+
+const ModuleInfo* module_if_there(const std::string& name) {
+  return module_there(name) ? &load_module(name) : nullptr;
+}
+
+}  // namespace
+
+const FitModule& fit_module() { return *static_cast<const FitModule*>(own_module("fit", "fit").fit); }
+
+const CalibrationModule& calibration_module() {
+  return *static_cast<const CalibrationModule*>(
+      own_module("calibration", "calibrate stereo FOLDER").calibration);
+}
+
+const ModuleInfo& module_for_pictures(const std::string& name) {
+  if (name != "vision" && name != "camera") return load_module(name);
+  return own_module(name, "calibrate camera RIG --through-images");
+}
+
+int bench(const BenchOptions& options) { return benchmarks().bench(options, module_if_there); }
+
+int fit(const FitOptions& options) { return fit_module().fit(options); }
+
+int shadow(const ShadowOptions& options) { return fit_module().shadow(options); }
+
+int questionnaire(const QuestionnaireOptions& options) { return benchmarks().questionnaire(options); }
 
 }  // namespace enc::app
