@@ -1,15 +1,26 @@
-// `encounter mesh NAME`: closed meshes made by rule, to try things with.
+// `encounter mesh`: closed meshes made by rule, to try things with. `encounter nearest`: distances to a
+// surface.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/common/options.h"
 #include "core/base/error.h"
+#include "core/shape/surface/mesh_tree.h"
+#include "models/mesh_files/mesh_check.h"
+#include "models/mesh_files/mesh_places.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/schema/wording.h"
 #include "models/shapes/hare.h"
 #include "models/shapes/shapes.h"
+#include "models/tables/csv_reader.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -45,6 +56,59 @@ int mesh(const MeshOptions& options) {
   }
   throw Error(
       fmt::format("unknown mesh {}; {}", models::quoted(options.name), models::advice(options.name, names)));
+}
+
+namespace {
+
+// A surface and where it stands: in its own axes, or in W.
+struct Placed {
+  Surface surface;
+  Pose<'W', 'O'> X_WO = Pose<'W', 'O'>::identity();
+};
+
+Placed object_of(const std::string& scene_path, const std::string& name) {
+  const models::Setup setup = models::load(scene_path, "");
+  print_notes(setup.notes);
+  const Scene scene = trial::prepare_setup(setup);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    names.push_back(setup.scene.objects[i].name);
+    if (names.back() == name) return {scene.objects[i].surface, scene.objects[i].X_WO};
+  }
+  throw Error(fmt::format("{}: there is no object {}; {}", scene_path, models::quoted(name),
+                          models::advice(name, names)));
+}
+
+Placed placed(const std::string& what) {
+  if (const auto mark = what.rfind('#'); mark != std::string::npos)
+    return object_of(what.substr(0, mark), what.substr(mark + 1));
+  const models::CheckedMesh solid = models::load_solid(what);
+  print_notes(solid.notes);
+  return {Surface(MeshSurface{std::make_shared<const MeshTree>(solid.mesh)})};
+}
+
+}  // namespace
+
+int nearest(const NearestOptions& options) {
+  // All is read before anything is printed, so that a bad line gives no half answer.
+  const std::vector<Vec3> all = models::parse_places(
+      models::csv_text(options.points, "list of points", "a CSV file with the header x_m,y_m,z_m"),
+      options.points);
+  const Placed object = placed(options.what);
+  fmt::memory_buffer out;
+  const auto to = std::back_inserter(out);
+  fmt::format_to(to, "distance_m,x_m,y_m,z_m,nx,ny,nz,triangle\n");
+  std::int32_t hint = -1;
+  for (const Vec3& p : all) {
+    const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(p), hint);
+    hint = near.feature;
+    const Point<'W'> at = object.X_WO * near.point;
+    const Vec<'W'> n = object.X_WO * near.normal;
+    fmt::format_to(to, "{},{},{},{},{},{},{},{}\n", near.distance, at.xyz[0], at.xyz[1], at.xyz[2], n.xyz[0],
+                   n.xyz[1], n.xyz[2], near.feature);
+  }
+  fmt::print("{}", std::string_view(out.data(), out.size()));
+  return 0;
 }
 
 }  // namespace enc::app

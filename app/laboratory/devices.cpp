@@ -1,19 +1,191 @@
-// What is there of a rig: whether each device answers, how often it says something, how regularly and how
-// late.
+// `encounter devices`: reads the devices of a rig without commanding them. Whether each device answers, how
+// often it sends a sample, how regularly and how late, and whether a run could use it.
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/laboratory/laboratory.h"
-#include "app/laboratory/probe.h"
 #include "app/modules/modules.h"
+#include "app/run/percentiles.h"
 #include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/devices/roles.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
+#include "trial/assemble/assemble.h"
+#include "trial/devices/device_log.h"
 #include "trial/operator/signals.h"
 
 namespace enc::app {
 namespace {
+
+struct Probed {
+  std::string role, words;  // as in trial::DeviceWords
+  bool there = true;
+  std::int64_t samples = 0;            // number of new samples in that time
+  double rate = kUnset;                // Hz
+  Percentiles interval{}, age{};       // s: between samples, by their stamps; age of a sample at its arrival
+  std::string last{};                  // the last sample, in words
+  std::vector<std::string> remarks{};  // as in the report of a run
+  // Reason why a run could not use it; empty: it could.
+  std::string unusable{};
+};
+
+struct Series {
+  Time last{}, came{};  // the newest sample: when it was true, and when it was read
+  bool any = false, linked = true;
+  Health health = Health::absent;
+  std::int64_t faults = 0;              // samples
+  std::int64_t repeated = 0;            // poses of a tracker that are equal to the one before, to the bit
+  std::int64_t equal = 0;               // of them those since the last that differed, which
+  Time differed{};                      // came then
+  std::vector<double> intervals, ages;  // s
+  void add(Time t, Time now) {
+    if (any) intervals.push_back(age(t, last));
+    ages.push_back(age(now, t));
+    last = t;
+    came = now;
+    any = true;
+  }
+};
+
+template <class Sample>
+bool repeats(const Stamped<Sample>&, const Stamped<Sample>&) {
+  return false;
+}
+// A tracker that measures never gives the same pose twice.
+bool repeats(const Stamped<TrackedTool>& before, const Stamped<TrackedTool>& now) {
+  return before.value.tool == now.value.tool && before.value.X_CT.xyz == now.value.X_CT.xyz &&
+         before.value.X_CT.xyzw == now.value.X_CT.xyzw;
+}
+
+// Why a run could not use the device. `end`: when the reading ended; `refused`: Device::refused().
+std::string unusable(const Series& of, Time end, const std::string& refused) {
+  constexpr double kFrozen = 0.5;  // s; a hand that holds still moves by less than a tracker's noise
+  const auto samples = static_cast<std::int64_t>(of.ages.size());
+  constexpr std::int64_t kFew = 10;  // equal poses; fewer may be luck
+  const std::string because = refused.empty() ? "" : ": " + refused;
+  if (samples == 0) return "it sent no sample" + because;
+  if (of.faults > 0) return fmt::format("{} of {} samples report a fault", of.faults, samples);
+  if (!of.linked) return "its link was lost";
+  if (of.health != Health::ok) return fmt::format("its last sample is {}", word_of(of.health));
+  if (age(end, of.came) > 0.5 * age(end, Time{}))
+    return fmt::format("it sent nothing new in the last {:.2f} s{}", age(end, of.came), because);
+  if (samples > kFew && of.repeated == samples - 1)
+    return "all poses are equal to the bit: it repeats the last pose of a tool that it does not see";
+  if (const double frozen = age(of.came, of.differed); of.equal >= kFew && frozen >= kFrozen)
+    return fmt::format(
+        "the last {} poses, of {:.2f} s, are equal to the bit: it repeats the last pose of a tool that it "
+        "does "
+        "not see",
+        of.equal + 1, frozen);
+  return {};
+}
+
+std::string words_of(const Vec3& v, double unit) {
+  return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x() / unit, v.y() / unit, v.z() / unit);
+}
+
+std::string words_of(const Stamped<TipSample>& tip) {
+  return words_of(tip.value.X_RH.p(), kMillimetre) + " mm, of H in R";
+}
+std::string words_of(const Stamped<Wrench>& said) {
+  return words_of(said.value.force.e(), 1.0) + " N, " + words_of(said.value.torque.e(), 1.0) + " N m, in F" +
+         (said.health == Health::ok ? "" : fmt::format(", {}", word_of(said.health)));
+}
+std::string words_of(const Stamped<TrackedTool>& tool) {
+  return words_of(tool.value.X_CT.p(), kMillimetre) + fmt::format(" mm, of tool {} in C", tool.value.tool);
+}
+template <class Sample>
+std::string words_of(const Stamped<Sample>&) {
+  return "";
+}
+
+// In `all`, of each role; one beyond: none.
+std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Probed>& all) {
+  std::array<std::size_t, kRoles> place{};
+  place.fill(kRoles);
+  each_role([&](const auto& role) {
+    if (rig.*role.slot == nullptr) return;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Probed& one) { return one.role == role.table; });
+    place[static_cast<std::size_t>(role.id)] = static_cast<std::size_t>(found - all.begin());
+  });
+  return place;
+}
+
+// What is new of each role in a reading at `now`, and what is wrong with it.
+void listen(const Rig& rig, const Inputs& before, const Inputs& in, Time now,
+            std::array<Series, kRoles>& series) {
+  each_role([&](const auto& role) {
+    const auto& said = in.*role.said;
+    Series& of = series[static_cast<std::size_t>(role.id)];
+    if (!(rig.*role.slot) || said.health == Health::absent) return;
+    of.health = said.health;
+    if (of.any && said.t <= of.last) return;
+    if (said.health == Health::fault) ++of.faults;
+    if (of.any && repeats(before.*role.said, said)) {
+      ++of.repeated, ++of.equal;
+    } else {
+      of.equal = 0, of.differed = now;
+    }
+    of.add(said.t, now);
+  });
+}
+
+void tell_times(const Series& of, double seconds, Probed& device) {
+  device.samples = static_cast<std::int64_t>(of.ages.size());
+  device.rate = static_cast<double>(device.samples) / seconds;
+  device.age = percentiles_of(of.ages);
+  device.interval = percentiles_of(of.intervals);
+}
+
+// Makes every real device, reads each for this time at the loop's rate, and releases it. Sends no command:
+// nothing moves. If a machine does not answer, the other devices are not queried, because a run may hold them
+// all and would lose them. `stop` is called before each reading.
+std::vector<Probed> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
+                                  double seconds, const std::function<bool()>& stop) {
+  std::vector<Probed> all;
+  Rig rig;
+  trial::DeviceLog log;
+  for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
+    all.push_back({words.role, words.words, words.there});
+  const std::array<std::size_t, kRoles> place = places_of(rig, all);
+  std::array<Series, kRoles> series;
+  Inputs in;
+  Time end{};
+  using Wall = std::chrono::steady_clock;
+  const auto period = std::chrono::nanoseconds(from_seconds(1.0 / setup.rig.loop.rate));
+  const Wall::time_point begun = Wall::now();
+  rig.clock = std::make_unique<trial::CountingClock>(setup.rig.loop.rate);
+  for (std::int64_t i = 1; !stop(); ++i) {
+    std::this_thread::sleep_until(begun + i * period);
+    const Time now(std::chrono::duration_cast<Duration>(Wall::now() - begun));
+    if (age(now, Time{}) > seconds) break;
+    const Inputs before = in;
+    end = now;
+    rig.read(now, in);
+    listen(rig, before, in, now, series);
+  }
+  each_role([&](const auto& role) {
+    const std::size_t at = place[static_cast<std::size_t>(role.id)];
+    if (at >= all.size()) return;
+    all[at].last = words_of(in.*role.said);
+    all[at].remarks = (rig.*role.slot)->remarks();
+    Series& of = series[static_cast<std::size_t>(role.id)];
+    of.linked = (rig.*role.slot)->linked();
+    all[at].unusable = unusable(of, end, (rig.*role.slot)->refused());
+  });
+  for (std::size_t i = 0; i < kRoles; ++i)
+    if (place[i] < all.size() && series[i].any) tell_times(series[i], seconds, all[place[i]]);
+  return all;
+}
 
 std::string line_of(const Probed& device) {
   if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);

@@ -1,5 +1,5 @@
 // The fakes of all drivers of a rig, over one twin: a command on one connection shows on the others. They
-// need one thread, which the owner provides.
+// need one thread, which the owner provides. A fault of a fake has a text form: "netft:loss=5%@2s+500ms".
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "app/laboratory/fault_text.h"
 #include "core/devices/fake.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
@@ -17,6 +16,21 @@
 
 namespace enc::app {
 
+struct Fault {
+  std::string driver;  // driver whose fake has the fault
+  Trouble trouble;
+  double at = 0.0;        // s of the fakes' time
+  double lasts = kUnset;  // s; unset: to the end
+};
+
+// DRIVER:KIND[=VALUE][@TIME][+TIME]. Throws Error (kind input) with what was expected. `where`: of the
+// message.
+[[nodiscard]] Fault fault_of(const std::string& text, const std::string& where);
+[[nodiscard]] std::string text_of(const Trouble& trouble);
+// The kinds, each with its value, for --help: "loss=5%, jitter=20ms, ..."
+[[nodiscard]] std::string fault_examples();
+
+// The fakes of all drivers of a rig.
 struct FakesOptions {
   trial::DriverSource drivers{};
   std::uint64_t seed = 1;

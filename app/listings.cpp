@@ -1,9 +1,15 @@
+// `encounter params`: each name that --set takes. `encounter scenes`: the shipped scenes, a line each.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/common/options.h"
+#include "app/common/words.h"
 #include "app/modules/modules.h"
+#include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_names.h"
 
 namespace enc::app {
 namespace {
@@ -37,6 +43,20 @@ int params(const ParamsOptions& options) {
                     {"confidence", p.confidence},
                     {"meaning", p.meaning}});
   fmt::print("{}\n", json.dump(2));
+  return 0;
+}
+
+int scenes() {
+  const std::vector<models::ListedScene> listed = models::listed_scenes(models::models_dir());
+  std::size_t widest = 0;
+  for (const models::ListedScene& scene : listed) widest = std::max(widest, scene.name.size());
+  for (const models::ListedScene& scene : listed) {
+    const std::string text = !scene.mistake.empty() ? "CANNOT BE READ: " + scene.mistake
+                             : scene.rig == "sim"   ? scene.title
+                                                    : fmt::format("{} (rig {})", scene.title, scene.rig);
+    fmt::print("{:<{}}  {}\n", models::printable(scene.name), widest, models::printable(text));
+  }
+  if (listed.empty()) throw no_scenes();
   return 0;
 }
 
