@@ -1,15 +1,16 @@
-#include <cstdlib>
 #include <exception>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include "app/common/options.h"
 #include "app/modules/modules.h"
+#include "app/process.h"
 #include "core/base/error.h"
 #include "core/devices/roles.h"
 #include "models/schema/wording.h"
@@ -42,14 +43,6 @@ bool library_there(const char* name) {
   return handle != nullptr;
 }
 
-bool program_there(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
 // Tried, and given back: whether a limit and a right suffice is the kernel's to say.
 void say_real_time(Doctor& doctor) {
   const trial::RealTime tried(true);
@@ -61,14 +54,14 @@ void say_real_time(Doctor& doctor) {
 // The keys of a driver's table.
 class Keys final : public Settings {
  public:
-  std::string names;
+  std::vector<std::string> names;
   void value(const Setting& key, double&) override { add(key); }
   void value(const Setting& key, std::int64_t&) override { add(key); }
   void value(const Setting& key, std::string&) override { add(key); }
   void value(const Setting& key, std::vector<double>&) override { add(key); }
 
  private:
-  void add(const Setting& key) { names += (names.empty() ? "" : ", ") + std::string(key.name); }
+  void add(const Setting& key) { names.emplace_back(key.name); }
 };
 
 // Which roles a driver fills, and with which keys of its own.
@@ -76,18 +69,19 @@ void say_driver(Doctor& doctor, const std::string& name) {
   try {
     const ModuleInfo& module = load_module(name);
     if (module.driver == nullptr) return;
-    std::string roles;
+    std::vector<std::string_view> roles;
     each_role([&](const auto& role) {
-      if (module.driver->*role.make != nullptr) roles += (roles.empty() ? "" : ", ") + std::string(role.name);
+      if (module.driver->*role.make != nullptr) roles.emplace_back(role.name);
     });
-    if (module.driver->camera != nullptr) roles += roles.empty() ? "stereo camera" : ", stereo camera";
+    if (module.driver->camera != nullptr) roles.emplace_back("stereo camera");
     Keys keys;
     if (module.driver->settings != nullptr) module.driver->settings(keys);
-    doctor.say(true, Need::may,
-               fmt::format("driver {}: {}; {}", name, roles,
-                           keys.names.empty() ? "no keys of its own"
-                                              : fmt::format("[driver.{}] {}", name, keys.names)),
-               "");
+    doctor.say(
+        true, Need::may,
+        fmt::format("driver {}: {}; {}", name, fmt::join(roles, ", "),
+                    keys.names.empty() ? "no keys of its own"
+                                       : fmt::format("[driver.{}] {}", name, fmt::join(keys.names, ", "))),
+        "");
   } catch (const Error& e) {
     doctor.say(false, Need::may, "driver " + name, e.what());
   }
@@ -113,7 +107,7 @@ void say_vision(Doctor& doctor) {
   say_module(doctor, "vision", "vision, for scenes with a camera", "./encounter run with such a scene");
   say_module(doctor, "calibration", "OpenCV, for calibrations out of images",
              "./encounter calibrate stereo FOLDER");
-  doctor.say(program_there("ffmpeg"), Need::may, "ffmpeg, for videos as a stereo camera",
+  doctor.say(!program_path("ffmpeg").empty(), Need::may, "ffmpeg, for videos as a stereo camera",
              "apt-get install ffmpeg; folders of images do without");
 }
 
@@ -160,15 +154,14 @@ int doctor() {
   doctor.say(unfit.empty(), Need::must, "MuJoCo " + sim::mujoco_version(), unfit);
   const std::string problem = models_problem();
   doctor.say(problem.empty(), Need::must, "scenes, rigs and responses in " + models::models_dir(), problem);
-  std::string modules;
-  for (const std::string& name : modules_there()) modules += (modules.empty() ? "" : ", ") + name;
-  doctor.say(!modules.empty(), Need::may, "modules: " + modules,
+  const std::vector<std::string> modules = modules_there();
+  doctor.say(!modules.empty(), Need::may, fmt::format("modules: {}", fmt::join(modules, ", ")),
              "none beside the program; pictures and drivers need them");
   for (const std::string& name : drivers_there()) say_driver(doctor, name);
   doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
   say_renderers(doctor);
   say_vision(doctor);
-  doctor.say(program_there("gnuplot"), Need::may, "gnuplot for the plots of a report",
+  doctor.say(!program_path("gnuplot").empty(), Need::may, "gnuplot for the plots of a report",
              "./encounter bench installs it");
   say_real_time(doctor);
   doctor.say(std::thread::hardware_concurrency() >= 2, Need::may,

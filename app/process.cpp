@@ -1,7 +1,9 @@
 #include "app/process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -81,6 +83,19 @@ std::vector<std::string> mapped_libraries() {
     if (name.find(".so") != std::string::npos) names.insert(name);
   }
   return {names.begin(), names.end()};
+}
+
+std::string program_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  const std::string folders = path == nullptr ? "/usr/local/bin:/usr/bin" : path;
+  for (std::size_t at = 0; at <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', at), folders.size());
+    const std::filesystem::path file = std::filesystem::path(folders.substr(at, end - at)) / name;
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none) && access(file.c_str(), X_OK) == 0) return file.string();
+    at = end + 1;
+  }
+  return {};
 }
 
 }  // namespace enc::app

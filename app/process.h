@@ -1,5 +1,5 @@
-// Resources of this process by the kernel's account, so that "left out" can be checked; and checks that its
-// output was written.
+// This process: its resources by the kernel's account, so that "left out" can be checked, checks that its
+// output was written, and the programs that it can start.
 #pragma once
 
 #include <string>
@@ -23,7 +23,9 @@ void clear_progress();
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();
 [[nodiscard]] double cpu_seconds();  // since the start of the process, loading included
-[[nodiscard]] std::vector<std::string>
-mapped_libraries();  // File names of shared objects, in order, each once.
+// File names of shared objects, in order, each once.
+[[nodiscard]] std::vector<std::string> mapped_libraries();
+// Full path of a program in PATH; empty: it is not installed.
+[[nodiscard]] std::string program_path(const std::string& name);
 
 }  // namespace enc::app

@@ -8,13 +8,16 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "app/view/encoder.h"
+#include "app/process.h"
 #include "core/base/error.h"
+#include "core/base/image.h"
+#include "hw_drivers/child/child.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -42,21 +45,45 @@ std::string ending_of(const std::string& path) {
   return models::lower_case(fs::path(path).extension().string());
 }
 
+// ffmpeg reads raw frames from a pipe, writes its output for `file` in the given format, and ends with the
+// pipe.
+std::vector<std::string> encoding(const FilmFormat& format, const std::string& file) {
+  const std::string ffmpeg = program_path("ffmpeg");
+  std::vector<std::string> words{ffmpeg,         "-nostdin",
+                                 "-hide_banner", "-loglevel",
+                                 "error",        "-y",
+                                 "-f",           "rawvideo",
+                                 "-pix_fmt",     "rgb24",
+                                 "-s",           fmt::format("{}x{}", format.width, format.height),
+                                 "-r",           std::to_string(format.rate),
+                                 "-i",           "-"};
+  const std::vector<std::string>& options = endings().at(format.ending);
+  words.insert(words.end(), options.begin(), options.end());
+  words.push_back("file:" + file);  // a colon in the name is no protocol
+  return words;
+}
+
 class EncodedFilm final : public FilmFile {
  public:
   EncodedFilm(const std::string& path, const FilmFormat& format, models::Existing existing)
-      : file_(path, existing),
-        encoder_(ffmpeg_path(), format.width, format.height, format.rate, endings().at(format.ending),
-                 file_.aside()) {}
-  void add(const Image& frame) override { encoder_.add(frame); }
+      : file_(path, existing), ffmpeg_(encoding(format, file_.aside()), Child::Pipe::write) {}
+  void add(const Image& frame) override {
+    if (!ffmpeg_.write(frame.rgb)) fail(ffmpeg_.wait());
+  }
   void keep() override {
-    encoder_.finish();
+    if (const Child::End end = ffmpeg_.wait(); !end.success) fail(end);
     file_.keep();
   }
 
  private:
+  [[noreturn]] void fail(const Child::End& end) {
+    throw Error(fmt::format(
+        "{}: ffmpeg failed: {}; choose another ending, or a name without one for a folder of PNGs",
+        file_.aside(), end.error.empty() ? end.how : end.error));
+  }
+
   models::OutFile file_;
-  Encoder encoder_;  // ended before its file is removed
+  Child ffmpeg_;  // ended before its file is removed
 };
 
 std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.png", number); }
@@ -171,7 +198,7 @@ FilmFormat film_format(const std::string& path) {
   // A GIF is large: half the size and half the rate.
   if (ending == ".gif") format = {640, 360, 15};
   format.ending = ending;
-  format.folder = ending.empty() || ffmpeg_path().empty();
+  format.folder = ending.empty() || program_path("ffmpeg").empty();
   return format;
 }
 

@@ -9,13 +9,15 @@
 
 #include "core/base/words.h"
 #include "hw_drivers/images/files/image_file.h"
-#include "hw_drivers/images/files/pair_search.h"
 
 namespace enc::images {
 
 enum class Layout : std::uint8_t { pairs, side_by_side };
 constexpr auto words(Layout) { return enum_words("pairs", "side_by_side"); }
 
+struct PairFiles {
+  std::string left, right;  // side_by_side: both are one file
+};
 struct PairList {
   Layout layout = Layout::pairs;
   ImageSize size;  // each of the two images

@@ -1,5 +1,5 @@
 // A source of stereo frames: a folder of images, or a video that ffmpeg reads. A source may block, so a
-// separate thread reads it (playback.h).
+// separate thread reads it (image_camera.h).
 #pragma once
 
 #include <memory>
@@ -31,9 +31,5 @@ struct Reel {
 
 // Checks everything that can be checked beforehand. Throws Error in one line.
 [[nodiscard]] std::unique_ptr<FrameSource> open_reel(const Reel& reel);
-
-// The two kinds.
-[[nodiscard]] std::unique_ptr<FrameSource> open_folder(const Reel& reel);
-[[nodiscard]] std::unique_ptr<FrameSource> open_video(const Reel& reel);
 
 }  // namespace enc::images

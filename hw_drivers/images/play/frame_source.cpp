@@ -1,21 +1,63 @@
-// A video of two images side by side, through ffmpeg, where there is one. It writes each frame as PPM, which
-// is RGB as it is behind a line with its size: so nobody has to be asked for the size beforehand.
+#include "hw_drivers/images/play/frame_source.h"
+
 #include <atomic>
 #include <charconv>
+#include <filesystem>
 #include <mutex>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "hw_drivers/images/play/child.h"
-#include "hw_drivers/images/play/frame_source.h"
+#include "hw_drivers/child/child.h"
 
 namespace enc::images {
 namespace {
 
+class FolderSource final : public FrameSource {
+ public:
+  explicit FolderSource(const Reel& reel)
+      : reader_(list_pairs(reel.path, reel.layout)), repeat_(reel.repeat), words_(reel.path) {
+    const std::size_t count = reader_.list().pairs.size();
+    if (reel.start >= static_cast<std::int64_t>(count))
+      throw Error(fmt::format("{}: has {} frames and start is {}; expected at most {}; correct start",
+                              reel.path, count, reel.start, count - 1));
+    next_ = static_cast<std::size_t>(reel.start);
+  }
+  bool next(ImagePair& into) override {
+    if (next_ == reader_.list().pairs.size()) {
+      if (!repeat_) return false;
+      next_ = 0;
+    }
+    reader_.read(next_++, into);
+    return true;
+  }
+  [[nodiscard]] ImageSize size() const override { return reader_.list().size; }
+  [[nodiscard]] std::string words() const override {
+    return fmt::format("{}, {} pairs", words_, reader_.list().pairs.size());
+  }
+
+ private:
+  PairReader reader_;
+  bool repeat_;
+  std::string words_;
+  std::size_t next_ = 0;
+};
+
+// A video of two images side by side, through ffmpeg, where there is one. It writes each frame as PPM, which
+// is RGB as it is behind a line with its size: so nobody has to be asked for the size beforehand.
 std::vector<std::string> command(const std::string& path) {
   return {"ffmpeg",     "-nostdin", "-v",  "error",    "-i",    "file:" + path, "-map",        "0:v:0", "-f",
           "image2pipe", "-c:v",     "ppm", "-pix_fmt", "rgb24", "-vsync",       "passthrough", "-"};
+}
+
+// The first line of ffmpeg's standard error, or how it ended; empty on success.
+std::string last_words(Child& ffmpeg) {
+  Child::End end = ffmpeg.wait();
+  std::string& line = end.error;
+  if (const std::size_t part = line.find("] "); line.starts_with('[') && part != std::string::npos)
+    line.erase(0, part + 2);  // which part of ffmpeg says it, and where that is in memory
+  if (!line.empty()) return line;
+  return end.success ? "" : end.how;
 }
 
 class VideoSource final : public FrameSource {
@@ -39,7 +81,7 @@ class VideoSource final : public FrameSource {
   bool next(ImagePair& into) override {
     if (!std::exchange(waiting_, false) && !read_header()) {
       if (stopped_) return false;
-      if (const std::string words = child_->last_words(); !words.empty())
+      if (const std::string words = last_words(*child_); !words.empty())
         throw Error(
             fmt::format("{}: ffmpeg stopped: {}; expected a video that it can read", reel_.path, words));
       if (!reel_.repeat) return false;
@@ -49,7 +91,7 @@ class VideoSource final : public FrameSource {
     if (child_->read(reinterpret_cast<char*>(both_.rgb.data()), both_.rgb.size()) != both_.rgb.size()) {
       if (stopped_) return false;
       throw Error(fmt::format("{}: is cut off within a frame; expected a whole video; {}", reel_.path,
-                              child_->last_words()));
+                              last_words(*child_)));
     }
     split(both_.view(), into);
     return true;
@@ -67,7 +109,7 @@ class VideoSource final : public FrameSource {
     const std::lock_guard lock(child_changes_);
     if (stopped_) return;
     try {
-      child_ = std::make_unique<Child>(command(reel_.path));
+      child_ = std::make_unique<Child>(command(reel_.path), Child::Pipe::read);
     } catch (const Error& e) {
       throw Error(
           fmt::format("{}: {}; expected ffmpeg for a video; install it (apt-get install ffmpeg), or give a "
@@ -76,7 +118,7 @@ class VideoSource final : public FrameSource {
     }
   }
   [[noreturn]] void refuse_empty() {
-    const std::string words = child_->last_words();
+    const std::string words = last_words(*child_);
     throw Error(fmt::format("{}: ffmpeg finds no frame in it ({}); expected a video or a folder of images",
                             reel_.path, words.empty() ? "no error told" : words));
   }
@@ -121,6 +163,19 @@ class VideoSource final : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_video(const Reel& reel) { return std::make_unique<VideoSource>(reel); }
+std::unique_ptr<FrameSource> open_reel(const Reel& reel) {
+  std::error_code none;
+  if (!std::filesystem::exists(reel.path, none))
+    throw Error(
+        fmt::format("{}: is not there; expected a folder of images or a video; see path in "
+                    "[driver.images], from the folder that the program was started in",
+                    reel.path));
+  if (std::filesystem::is_directory(reel.path, none)) return std::make_unique<FolderSource>(reel);
+  if (!std::filesystem::is_regular_file(reel.path, none))
+    throw Error(fmt::format(
+        "{}: is neither a file nor a folder; expected a folder of images or a video; copy it into one",
+        reel.path));
+  return std::make_unique<VideoSource>(reel);
+}
 
 }  // namespace enc::images
