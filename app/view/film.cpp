@@ -1,22 +1,28 @@
 #include "app/view/film.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "app/built.h"
+#include "app/common/options.h"
+#include "app/common/words.h"
 #include "app/modules/modules.h"
 #include "app/process.h"
 #include "app/view/film_file.h"
 #include "app/view/moment/depict.h"
+#include "app/view/moment/moment.h"
 #include "app/view/recorded/source.h"
-#include "app/view/view.h"
 #include "core/base/error.h"
 #include "models/files.h"
+#include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_names.h"
 #include "sim/view/view.h"
 #include "trial/operator/signals.h"
 #include "trial/trial.h"
@@ -28,10 +34,8 @@ using Wall = std::chrono::steady_clock;
 
 constexpr double kLongest = 3600.0;  // s: 108,000 frames
 
-void check_film(const ViewOptions& options) {
-  if (options.at && !(*options.at >= 0.0 && *options.at <= kLongest))
-    throw Error("--at-s is a time from 0 to 3600 s");
-  if (options.seconds && !(*options.seconds > 0.0 && *options.seconds <= kLongest))
+void check_length(double seconds) {
+  if (!(seconds > 0.0 && seconds <= kLongest))
     throw Error("--for-s: expected a positive number of seconds, at most 3600 for a film");
 }
 
@@ -101,8 +105,13 @@ trial::TrialOptions trial_options_of(const ViewOptions& options) {
 
 }  // namespace
 
+void check_moment(const std::optional<double>& at) {
+  if (at && !(*at >= 0.0 && *at <= kLongest)) throw Error("--at-s is a time from 0 to 3600 s");
+}
+
 FilmReport film(const ViewOptions& options) {
-  check_film(options);
+  check_moment(options.at);
+  if (options.seconds) check_length(*options.seconds);
   const FilmFormat format = film_format(options.video);
   const auto& module = *static_cast<const sim::ViewModule*>(load_module("view").view);
   Source source(options, trial_options_of(options));  // first: what it reads is never written
@@ -132,6 +141,78 @@ std::string film_text(const std::string& file, const FilmReport& report) {
   return fmt::format("{}: {} frames, the world from {:.3f} to {:.3f} s{}; {:.0f} ms a frame\n", file,
                      report.frames, report.from, report.to,
                      report.signal != 0 ? ", where it was stopped" : "", 1e3 * report.wall / report.frames);
+}
+
+// ---- `encounter tour`: a film of each shipped scene
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBefore = 1.0;      // s of the film before the first touch
+constexpr double kSearched = 120.0;  // s in which a touch is looked for
+
+// When something is touched first; 0: not soon.
+double first_touch(const ViewOptions& options) {
+  models::Setup setup = models::load(options.scene, options.rig, options.set);
+  leave_out_vision(setup);
+  trial::TrialOptions how;
+  how.seed = options.seed;
+  trial::Trial trial(setup, how);
+  while (trial.tick()) {
+    const double now = seconds(trial.now().t.time_since_epoch());
+    if (touching(trial.truth())) return now;
+    if (now > kSearched) break;
+  }
+  return 0.0;
+}
+
+// "camera/wall" is camera_wall.mp4; where ffmpeg is not installed, camera_wall is a folder.
+std::string film_name(const std::string& folder, std::string scene) {
+  std::replace(scene.begin(), scene.end(), '/', '_');
+  const std::string film = (fs::path(folder) / (scene + ".mp4")).string();
+  return film_format(film).folder ? (fs::path(folder) / scene).string() : film;
+}
+
+// Before the first of an hour of films is made.
+void refuse_existing(const std::string& film, bool force) {
+  std::error_code none;
+  if (force || !fs::exists(film, none)) return;
+  throw Error(fmt::format(
+      "{}: is there already; expected a folder without these films; choose another --out, or give "
+      "--force to replace them",
+      film));
+}
+
+}  // namespace
+
+int tour(const TourOptions& options) {
+  check_length(options.seconds);
+  const std::vector<models::ListedScene> listed = models::listed_scenes(models::models_dir());
+  if (listed.empty()) throw no_scenes();
+  for (const models::ListedScene& scene : listed)
+    refuse_existing(film_name(options.out, scene.name), options.force);
+  const models::OutFolder folder(options.out);
+  int code = 0;
+  for (const models::ListedScene& scene : listed) {
+    ViewOptions one;
+    one.scene = scene.name;
+    one.video = film_name(options.out, scene.name);
+    one.seconds = options.seconds;
+    one.force = options.force;
+    try {
+      one.at = std::max(0.0, first_touch(one) - kBefore);
+      const FilmReport report = film(one);
+      fmt::print("{}", film_text(one.video, report));
+      std::fflush(stdout);
+      if (report.signal != 0) return 128 + report.signal;
+      if (report.diverged) code = 4;
+    } catch (const Error& e) {  // one scene; the others may do
+      fmt::print(stderr, "encounter: {}: {}\n", scene.name, models::printable(e.what()));
+      code = std::max(code, static_cast<int>(e.kind()));
+    }
+  }
+  return code;
 }
 
 }  // namespace enc::app

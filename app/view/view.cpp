@@ -1,31 +1,104 @@
-#include "app/view/view.h"
+// `encounter view`: a picture of the simulated world at a moment, from beside or through the scene's camera.
+#include "sim/view/view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/built.h"
+#include "app/common/options.h"
 #include "app/modules/modules.h"
 #include "app/view/film.h"
 #include "app/view/moment/depict.h"
+#include "app/view/moment/moment.h"
 #include "app/view/recorded/source.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
+#include "core/vision/vision_module.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
-#include "sim/view/view.h"
 #include "trial/trial.h"
 
 namespace enc::app {
 namespace {
 
+// Throws Error for options that a picture cannot have.
+void check_picture(const ViewOptions& options) {
+  if (options.shot.empty())
+    throw Error("--at-s, --close-up and --through-camera are of a picture in a file: add --shot picture.png");
+  const std::string ending = models::lower_case(std::filesystem::path(options.shot).extension().string());
+  if (!ending.empty() && ending != ".png")
+    throw Error(
+        fmt::format("{}: --shot writes a PNG; expected a name that ends in .png; choose one", options.shot));
+  check_moment(options.at);
+}
+
+void check_camera(const models::Setup& setup) {
+  if (!setup.scene.camera)
+    throw Error(
+        fmt::format("{}:1:1: the scene has no camera; expected [camera] beside [tracker]; leave out "
+                    "--through-camera or take models/scenes/camera/wall.toml",
+                    setup.scene_path));
+}
+
+// Where nothing of the background is known the arm is left in.
+void note_unknown(const std::vector<std::uint8_t>& known) {
+  if (std::all_of(known.begin(), known.end(), [](auto on) { return on == 0; }))
+    print_notes({"warning: the background is not known yet, so the arm was left in; choose a later --at-s"});
+}
+
+// Handles --through-camera: the image of the scene's left camera.
+int through_camera(const ViewOptions& options) {
+  check_picture(options);
+  const models::Setup setup = load_setup(options);
+  check_camera(setup);
+  const auto& vision = *static_cast<const VisionModule*>(load_module("vision").vision);
+  const auto& pictures = *static_cast<const sim::ViewModule*>(load_module("view").view);
+  models::OutFile file(options.shot, models::existing(options.force));
+  std::optional<Image> left;  // of this tick
+  trial::TrialOptions how;
+  how.seed = options.seed;
+  how.seconds = options.at.value_or(4.0);
+  how.drivers = load_module;
+  how.look = [&](const Stamped<StereoFrame>& frame) {
+    const ImageView& from = frame.value.left;
+    left.emplace(from.width, from.height);
+    std::copy_n(from.rgb, left->rgb.size(), left->rgb.begin());
+  };
+  trial::Trial trial(setup, how);
+  print_notes(setup.notes);
+  const auto view = vision.augmented(believed_spec(setup, trial.scene()), trial.scene().objects);
+  BelievedMoment moment;
+  Image raw;
+  double exposed = kUnset;
+  while (trial.tick()) {
+    if (!left) continue;
+    raw = std::move(*left);
+    left.reset();
+    view->see(raw.view(), moment.of(trial));
+    exposed = seconds(trial.now().t.time_since_epoch());
+  }
+  if (std::isnan(exposed))
+    throw Error("the camera gave no image until then; expected a later --at-s", {}, ErrorKind::device);
+  const bool removed = options.through_camera == "removed", augmented = options.through_camera == "augmented";
+  if (removed || augmented) note_unknown(view->known().on);
+  file.write(pictures.png(removed ? view->removed() : augmented ? view->augmented() : raw));
+  file.keep();
+  fmt::print("{}: {} x {} pixels, the left camera's at {:.3f} s\n", options.shot, raw.width, raw.height,
+             exposed);
+  return 0;
+}
+
 // Half of the hold is over. A blow, which is not held, is over at once.
 bool deepest(const Moment& m, double& held) {
   const double hold_time = m.setup.scene.user->hold_time;
-  if (!(hold_time > 0.0)) return touching(m) || m.truth.phase == sim::Phase::release;
+  if (!(hold_time > 0.0)) return touching(m.truth) || m.truth.phase == sim::Phase::release;
   if (m.truth.phase == sim::Phase::hold) held += m.scene.dt;
   return held >= 0.5 * hold_time;
 }
@@ -74,6 +147,29 @@ int video(const ViewOptions& options) {
   return report.diverged ? 4 : 0;
 }
 
+// Writes options.shot. options.at unset: during the hold of the first press, else at 4 s.
+int picture(const ViewOptions& options) {
+  const bool close_up = options.close_up;
+  check_picture(options);
+  const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
+  Source source(options, options_of(options));  // first: what it reads is never written
+  models::OutFile file(options.shot, models::existing(options.force));
+  if (!run_until(source, moment_for(options, source))) {
+    fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n",
+               source.trial().world().diverged_at(), source.trial().world().divergence());
+    return 4;
+  }
+  const Moment moment = source.moment();
+  sim::ViewRequest request = depict(moment, camera_for(moment, close_up), close_up);
+  show(moment, source.data(), request);
+  file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
+  file.keep();
+  if (!source.doubt().empty()) print_notes({options.scene + ": " + source.doubt()});
+  fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
+             seconds(moment.now.t.time_since_epoch()));
+  return 0;
+}
+
 // Options that would do nothing.
 void refuse_idle(const ViewOptions& options) {
   const bool in_file = !options.shot.empty() || !options.video.empty();
@@ -95,29 +191,6 @@ void refuse_idle(const ViewOptions& options) {
 
 }  // namespace
 
-void leave_out_vision(models::Setup& setup) {
-  if (!setup.scene.camera) return;
-  setup.scene.camera.reset();
-  setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
-}
-
-Moment moment_of(trial::Trial& trial) {
-  sim::World& world = trial.world();
-  return {trial.setup(),
-          trial.scene(),
-          world.physics().model(),
-          world.physics().data(),
-          world.machine ? &world.machine->machine() : nullptr,
-          world.pusher.has_value(),
-          world.X_WR(),
-          world.machine ? world.machine->state().pose : Pose<'R', 'H'>(),
-          world.q_WT(),
-          world.truth(),
-          trial.state(),
-          trial.outputs(),
-          trial.now()};
-}
-
 int view(const ViewOptions& options) {
   refuse_idle(options);
   const bool in_file = !options.shot.empty() || !options.video.empty() || !options.through_camera.empty();
@@ -127,40 +200,7 @@ int view(const ViewOptions& options) {
   if (options.shot.empty() && options.through_camera.empty() && !options.at && !options.close_up)
     return window(options);
   if (!options.through_camera.empty()) return through_camera(options);
-  return picture(options, options.close_up ? Look::contact : Look::machine);
-}
-
-void check(const ViewOptions& options) {
-  if (options.shot.empty())
-    throw Error("--at-s, --close-up and --through-camera are of a picture in a file: add --shot picture.png");
-  const std::string ending = models::lower_case(std::filesystem::path(options.shot).extension().string());
-  if (!ending.empty() && ending != ".png")
-    throw Error(
-        fmt::format("{}: --shot writes a PNG; expected a name that ends in .png; choose one", options.shot));
-  if (options.at && !(*options.at >= 0.0 && *options.at <= 3600.0))
-    throw Error("--at-s is a time from 0 to 3600 s");
-}
-
-int picture(const ViewOptions& options, Look look) {
-  const bool close_up = look == Look::contact;
-  check(options);
-  const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
-  Source source(options, options_of(options));  // first: what it reads is never written
-  models::OutFile file(options.shot, models::existing(options.force));
-  if (!run_until(source, moment_for(options, source))) {
-    fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n",
-               source.trial().world().diverged_at(), source.trial().world().divergence());
-    return 4;
-  }
-  const Moment moment = source.moment();
-  sim::ViewRequest request = depict(moment, camera_for(moment, close_up), close_up);
-  show(moment, source.data(), request);
-  file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
-  file.keep();
-  if (!source.doubt().empty()) print_notes({options.scene + ": " + source.doubt()});
-  fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
-             seconds(moment.now.t.time_since_epoch()));
-  return 0;
+  return picture(options);
 }
 
 }  // namespace enc::app

@@ -33,7 +33,7 @@ void add_core(const Moment& m, sim::ViewRequest& request) {
     ball(tool, kTool);
     if (surface.finite() && std::isfinite(m.out.gap)) request.rods.push_back({tool, surface, kLine, kGap});
   }
-  const Point<'W'> target = m.machine != nullptr ? (m.X_WR * m.out.tip).origin() : m.out.wanted;
+  const Point<'W'> target = m.look.target(m);
   if (target.finite()) ball(target, kTarget);
 }
 

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/window/camera_feed.h"
 #include "app/window/controls.h"
-#include "app/window/history/charts.h"
-#include "app/window/history/timeline.h"
+#include "app/window/feed.h"
+#include "app/window/history/history.h"
 #include "sim/window/window.h"
 #include "trial/operator/run_watch.h"
 

@@ -21,8 +21,6 @@ constexpr sim::Colour kJacket{0.30F, 0.34F, 0.42F, 1.0F};
 constexpr sim::Colour kMarkerArm{0.35F, 0.38F, 0.45F, 1.0F};
 constexpr sim::Colour kHandle{0.16F, 0.42F, 0.72F, 1.0F};
 constexpr sim::Colour kProp{0.90F, 0.55F, 0.20F, 1.0F};
-// m of arrow for each N: a hexapod carries 12 N, an arm a few.
-constexpr double kForceScale = 0.005, kArmForceScale = 0.015;
 constexpr std::size_t kMostNamed = 12;  // objects with a label
 
 sim::Colour colour_of(Material material) {
@@ -43,52 +41,6 @@ Point<'W'> middle_of_objects(const Moment& m) {
   Vec3 sum = Vec3::Zero();
   for (const Object& object : m.scene.objects) sum += object.X_WO.p();
   return Point<'W'>(Vec3(sum / static_cast<double>(std::max<std::size_t>(1, m.scene.objects.size()))));
-}
-
-// Links and base as rods. Its prop is a body of the simulated world.
-void add_arm(const Moment& m, sim::ViewRequest& request) {
-  for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.truth.joints, m.X_WR)) {
-    const Vec<'W'> half(Vec3(part.half.z() * part.axes.col(2)));
-    request.rods.push_back({part.middle - half, part.middle + half, part.half.x(), colour_of(part.material),
-                            part.form == PartForm::cylinder});
-  }
-}
-
-// The belt that the drum's prop carries: two rollers, and what runs over them.
-void add_belt(const Moment& m, sim::ViewRequest& request) {
-  const int front = mj_name2id(m.model, mjOBJ_GEOM, "prop_front");
-  if (front < 0 || !m.setup.scene.prop || m.setup.scene.prop->kind != PropKind::drum) return;
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Mat3 axes = RowMajor::Map(m.data->geom_xmat + std::ptrdiff_t{9} * front);
-  const Point<'W'> middle(Vec3(Vec3::Map(m.data->geom_xpos + std::ptrdiff_t{3} * front)));
-  const Vec3 half = 0.5 * m.setup.scene.prop->size;
-  const Vec<'W'> ahead(Vec3((half.x() - half.z()) * axes.col(0))), across(Vec3(half.y() * axes.col(1)));
-  for (const Point<'W'>& roller : {middle - ahead, middle + ahead})
-    request.rods.push_back({roller - across, roller + across, half.z(), kProp, true});
-  request.boxes.push_back({middle, Quat(axes), Vec3(half.x() - half.z(), half.y(), half.z()), kProp});
-}
-
-// Each leg as a rod in a jacket, from its base joint to its platform joint.
-void add_legs(const Moment& m, sim::ViewRequest& request) {
-  if (m.machine == nullptr) {
-    add_arm(m, request);
-    add_belt(m, request);
-    const Vec3 foot = (m.X_WR * Point<'R'>(0, 0, -0.200)).e(), there = middle_of_objects(m).e();
-    request.floor = Point<'W'>(0.5 * (foot.x() + there.x()), 0.5 * (foot.y() + there.y()), foot.z());
-    return;
-  }
-  const Hexapod& machine = *m.machine;
-  const Pose<'W', 'R'>& X_WR = m.X_WR;
-  const Pose<'W', 'H'> X_WH = X_WR * m.platform;
-  for (int leg = 0; leg < 6; ++leg) {
-    const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
-    const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
-    request.rods.push_back({from, to, 0.0055, kLeg});
-    request.rods.push_back({from, from + 0.55 * (to - from), 0.0105, kJacket});
-    request.rods.push_back({from, from, 0.0145, kMarkerArm});  // joints, as balls
-    request.rods.push_back({to, to, 0.0125, kMarkerArm});
-  }
-  request.floor = X_WR * Point<'R'>(0, 0, -0.020);
 }
 
 // The rods between a tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
@@ -139,18 +91,13 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   const double azimuth = request.camera.azimuth;
   const double beside = scale * (m.scene.probe() ? 0.048 : 0.020);  // a real ball hides more
   const Vec<'W'> right(beside * std::sin(azimuth), -beside * std::cos(azimuth), 0);
-  if (touching(m)) {
-    const Vec<'W'> along =
-        scale * (m.machine == nullptr ? kArmForceScale : kForceScale) * truth.contact_force;
+  if (touching(m.truth)) {
+    const Vec<'W'> along = scale * m.look.force_scale * truth.contact_force;
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
-    request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
-                                          m.scene.probe()                  ? "ball"
-                                          : m.pushed                       ? "pusher"
-                                          : m.scene.impedance() != nullptr ? "finger"
-                                                                           : "tool",
-                                          truth.contact_force.norm()),
-                              to - 0.6 * along, false});
+    request.labels.push_back(
+        {fmt::format("force of the {}: {:.1f} N", m.look.presser(m), truth.contact_force.norm()),
+         to - 0.6 * along, false});
   }
   const Contact& contact = contact_of(m.state);
   if (m.out.mode != Mode::contact || !contact.X_WN.valid()) return;
@@ -202,19 +149,30 @@ void add_object_labels(const Moment& m, sim::ViewRequest& request) {
   }
 }
 
-// An arm, its prop and the finger that meets it.
-void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
-  const sim::Truth& truth = m.truth;
-  const SeenParts seen = seen_parts(m.setup.scene);
-  label(request, seen.prop, truth.tip, false);
-  add_object_labels(m, request);
-  if (truth.tool_tip.finite()) label(request, seen.tool, truth.tool_tip, true);
-  if (!request.title.empty()) request.labels.push_back({"arm", m.X_WR * Point<'R'>(0, 0, 0), true});
+// ---- the hexapod
+
+const char* hexapod_presser(const Moment& m) {
+  return m.scene.probe() ? "ball" : m.pushed ? "pusher" : "tool";
 }
 
-void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
+// Each leg as a rod in a jacket, from its base joint to its platform joint.
+void add_legs(const Moment& m, sim::ViewRequest& request) {
+  const Hexapod& machine = *m.machine;
+  const Pose<'W', 'R'>& X_WR = m.X_WR;
+  const Pose<'W', 'H'> X_WH = X_WR * m.platform;
+  for (int leg = 0; leg < 6; ++leg) {
+    const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
+    const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
+    request.rods.push_back({from, to, 0.0055, kLeg});
+    request.rods.push_back({from, from + 0.55 * (to - from), 0.0105, kJacket});
+    request.rods.push_back({from, from, 0.0145, kMarkerArm});  // joints, as balls
+    request.rods.push_back({to, to, 0.0125, kMarkerArm});
+  }
+  request.floor = X_WR * Point<'R'>(0, 0, -0.020);
+}
+
+void add_hexapod_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
   const sim::Truth& truth = m.truth;
-  if (m.machine == nullptr) return add_arm_labels(m, request);
   const auto in_H = [&](double x, double y, double z) { return m.X_WR * m.platform * Point<'H'>(x, y, z); };
   request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
   add_object_labels(m, request);
@@ -231,7 +189,89 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   request.labels.push_back({"six legs (hexapod)", leg + 0.4 * (in_H(0, 0, -0.19) - leg), false});
 }
 
+void aim_at_hexapod(const Moment& m, bool close_up, sim::Camera& camera) {
+  camera.azimuth = 1.75;  // from the front and a little from the right
+  camera.distance = close_up ? 0.22 : 1.52;
+  camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.092);
+  const std::optional<UserSpec>& user = m.setup.scene.user;
+  if (!close_up && user && user->session && !user->session->other_tool.empty()) {  // it waits high up
+    camera.distance = 1.78;
+    camera.look_at = Point<'W'>(0, 0, -0.046);
+  }
+}
+
+Point<'W'> hexapod_target(const Moment& m) { return (m.X_WR * m.out.tip).origin(); }
+
+// It carries 12 N.
+constexpr MachineLook kHexapodLook{.force_scale = 0.005,
+                                   .removed = false,
+                                   .presser = hexapod_presser,
+                                   .add_parts = add_legs,
+                                   .add_labels = add_hexapod_labels,
+                                   .aim = aim_at_hexapod,
+                                   .target = hexapod_target};
+
+// ---- the arm
+
+// Links and base as rods. Its prop is a body of the simulated world.
+void add_links(const Moment& m, sim::ViewRequest& request) {
+  for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.truth.joints, m.X_WR)) {
+    const Vec<'W'> half(Vec3(part.half.z() * part.axes.col(2)));
+    request.rods.push_back({part.middle - half, part.middle + half, part.half.x(), colour_of(part.material),
+                            part.form == PartForm::cylinder});
+  }
+}
+
+// The belt that the drum's prop carries: two rollers, and what runs over them.
+void add_belt(const Moment& m, sim::ViewRequest& request) {
+  const int front = mj_name2id(m.model, mjOBJ_GEOM, "prop_front");
+  if (front < 0 || !m.setup.scene.prop || m.setup.scene.prop->kind != PropKind::drum) return;
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Mat3 axes = RowMajor::Map(m.data->geom_xmat + std::ptrdiff_t{9} * front);
+  const Point<'W'> middle(Vec3(Vec3::Map(m.data->geom_xpos + std::ptrdiff_t{3} * front)));
+  const Vec3 half = 0.5 * m.setup.scene.prop->size;
+  const Vec<'W'> ahead(Vec3((half.x() - half.z()) * axes.col(0))), across(Vec3(half.y() * axes.col(1)));
+  for (const Point<'W'>& roller : {middle - ahead, middle + ahead})
+    request.rods.push_back({roller - across, roller + across, half.z(), kProp, true});
+  request.boxes.push_back({middle, Quat(axes), Vec3(half.x() - half.z(), half.y(), half.z()), kProp});
+}
+
+void add_arm(const Moment& m, sim::ViewRequest& request) {
+  add_links(m, request);
+  add_belt(m, request);
+  const Vec3 foot = (m.X_WR * Point<'R'>(0, 0, -0.200)).e(), there = middle_of_objects(m).e();
+  request.floor = Point<'W'>(0.5 * (foot.x() + there.x()), 0.5 * (foot.y() + there.y()), foot.z());
+}
+
+// The arm, its prop and the finger that meets it.
+void add_arm_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>&) {
+  const sim::Truth& truth = m.truth;
+  const SeenParts seen = seen_parts(m.setup.scene);
+  label(request, seen.prop, truth.tip, false);
+  add_object_labels(m, request);
+  if (truth.tool_tip.finite()) label(request, seen.tool, truth.tool_tip, true);
+  if (!request.title.empty()) request.labels.push_back({"arm", m.X_WR * Point<'R'>(0, 0, 0), true});
+}
+
+// An arm is smaller than the hexapod, and stands behind its tip.
+void aim_at_arm(const Moment& m, bool close_up, sim::Camera& camera) {
+  camera.azimuth = 2.2;
+  camera.distance = close_up ? 0.22 : 1.00;
+  camera.look_at = close_up ? m.truth.tip : middle_of_objects(m) + Vec<'W'>(-0.05, 0, 0.04);
+}
+
+// It carries a few newtons.
+constexpr MachineLook kArmLook{.force_scale = 0.015,
+                               .removed = true,
+                               .presser = [](const Moment&) { return "finger"; },
+                               .add_parts = add_arm,
+                               .add_labels = add_arm_labels,
+                               .aim = aim_at_arm,
+                               .target = [](const Moment& m) { return m.out.wanted; }};
+
 }  // namespace
+
+const MachineLook& look_of(const models::Setup& setup) { return setup.scene.arm ? kArmLook : kHexapodLook; }
 
 void shift_objects(const Moment& m, mjData* data) {
   for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
@@ -265,22 +305,9 @@ void name_objects(const Moment& m, sim::ViewRequest& request) {
 
 sim::Camera camera_for(const Moment& m, bool close_up) {
   sim::Camera camera;
-  camera.azimuth = 1.75;                        // from the front and a little from the right
   camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
-  camera.distance = close_up ? 0.22 : 1.52;
   camera.opening = 0.52;
-  if (m.machine == nullptr) {  // an arm is smaller, and stands behind its tip
-    camera.azimuth = 2.2;
-    camera.distance = close_up ? 0.22 : 1.00;
-    camera.look_at = close_up ? m.truth.tip : middle_of_objects(m) + Vec<'W'>(-0.05, 0, 0.04);
-    return camera;
-  }
-  camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.092);
-  const std::optional<UserSpec>& user = m.setup.scene.user;
-  if (!close_up && user && user->session && !user->session->other_tool.empty()) {  // it waits high up
-    camera.distance = 1.78;
-    camera.look_at = Point<'W'>(0, 0, -0.046);
-  }
+  m.look.aim(m, close_up, camera);
   return camera;
 }
 
@@ -290,10 +317,10 @@ sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_u
   request.camera = camera;
   if (!close_up)
     request.title = fmt::format("{}, at {:.2f} s", m.setup.scene.title, seconds(m.now.t.time_since_epoch()));
-  add_legs(m, request);
+  m.look.add_parts(m, request);
   const Point<'W'> marker = add_tool_frames(m, request);
   add_arrows(m, request, close_up ? 0.5 : 1.0);
-  add_labels(m, request, marker);
+  m.look.add_labels(m, request, marker);
   return request;
 }
 
@@ -301,7 +328,8 @@ sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool c
   sim::ViewRequest request = depict(m, camera, close_up);
   request.labels.clear();
   const char* gap = close_up ? "\n" : "     ";  // a close-up has the tool in its middle
-  const std::string force = touching(m) ? fmt::format("{}{:.1f} N", gap, m.truth.contact_force.norm()) : "";
+  const std::string force =
+      touching(m.truth) ? fmt::format("{}{:.1f} N", gap, m.truth.contact_force.norm()) : "";
   request.title = fmt::format("{}{:.2f} s{}{}{}", close_up ? "" : m.setup.scene.title + "\n",
                               seconds(m.now.t.time_since_epoch()), gap, mode_name(m.out.mode), force);
   return request;

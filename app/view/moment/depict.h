@@ -6,6 +6,23 @@
 
 namespace enc::app {
 
+// How one kind of machine is drawn: all that differs between pictures of a hexapod and of an arm.
+struct MachineLook {
+  double force_scale;  // m of arrow for each N
+  bool removed;        // the augmented view leaves it out
+  // What presses on its tip, in words.
+  const char* (*presser)(const Moment& m);
+  // The machine itself, and the floor under it.
+  void (*add_parts)(const Moment& m, sim::ViewRequest& request);
+  // `marker`: one of the held tool, where it has any.
+  void (*add_labels)(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker);
+  // Sets the default camera's azimuth, distance and place to look at.
+  void (*aim)(const Moment& m, bool close_up, sim::Camera& camera);
+  // Where the core sends its tip.
+  Point<'W'> (*target)(const Moment& m);
+};
+[[nodiscard]] const MachineLook& look_of(const models::Setup& setup);
+
 // The default camera: the whole machine, or a close-up of the contact.
 [[nodiscard]] sim::Camera camera_for(const Moment& m, bool close_up);
 // The caller sets `data`, which may be another copy than the moment's.

@@ -2,8 +2,11 @@
 // to tick refers to copies.
 #pragma once
 
+#include <vector>
+
 #include "core/control/step.h"
 #include "core/machine/hexapod.h"
+#include "core/vision/augment/augmented_view.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/truth/truth.h"
@@ -11,13 +14,16 @@
 
 namespace enc::app {
 
+struct MachineLook;
+
 struct Moment {
   const models::Setup& setup;
   const Scene& scene;
   const mjModel* model;
-  const mjData* data;      // poses of all geoms
-  const Hexapod* machine;  // null: the scene has an arm
-  bool pushed;             // a pusher acts instead of a hand
+  const mjData* data;       // poses of all geoms
+  const MachineLook& look;  // how the machine is drawn (depict.h)
+  const Hexapod* machine;   // null: the scene has an arm
+  bool pushed;              // a pusher acts instead of a hand
   Pose<'W', 'R'> X_WR;
   Pose<'R', 'H'> platform;  // true pose of the hexapod's platform
   Quat q_WT;                // true orientation of the held tool
@@ -32,8 +38,39 @@ void leave_out_vision(models::Setup& setup);
 // Valid for a trial with a twin, after a tick.
 [[nodiscard]] Moment moment_of(trial::Trial& trial);
 
-[[nodiscard]] inline bool touching(const Moment& m) {
-  return m.truth.touching && m.truth.contact_force.norm() > 0.01;
+[[nodiscard]] inline bool touching(const sim::Truth& truth) {
+  return truth.touching && truth.contact_force.norm() > 0.01;
 }
+
+// A moment of a run by value, which the window shows now or later.
+struct Still {
+  sim::Truth truth;
+  State state;
+  Outputs out;
+  Tick now;
+  Pose<'R', 'H'> platform;
+  Quat q_WT = Quat::Identity();
+  bool halted = false;     // by hand
+  bool simulated = true;   // every device: the truth has all touches
+  std::vector<double> at;  // all geoms and sites of the model, in the order of mjData
+};
+
+// Takes the present moment of a trial with a twin. `simulated`: as in Still. If false, tool and tip are those
+// reported by the devices, not the twin's.
+void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to);
+// The moment for a picture; `data`, of the trial's model, receives the poses.
+[[nodiscard]] Moment moment_of(trial::Trial& trial, const Still& still, mjData* data);
+
+// Inputs of the augmented view (core/vision/augment) for a run, all as the core has them.
+[[nodiscard]] AugmentedSpec believed_spec(const models::Setup& setup, const Scene& scene);
+
+// The moment after the tick in which the image came.
+class BelievedMoment {
+ public:
+  [[nodiscard]] AugmentedMoment of(trial::Trial& trial);
+
+ private:
+  Quat q_WN_ = Quat::Identity();  // orientation of the last near surface
+};
 
 }  // namespace enc::app

@@ -1,19 +1,78 @@
 #include "app/view/recorded/source.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
 #include "app/built.h"
 #include "core/base/error.h"
+#include "core/control/step.h"
 #include "models/files.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 namespace {
 
 double time_of(const RecordedTick& frame) { return seconds(frame.tick.t.time_since_epoch()); }
 
+std::uint64_t seed_of(const RecordTexts& texts) {
+  std::uint64_t seed = 1;
+  if (const auto said = texts.find("seed"); said != texts.end())
+    (void)std::from_chars(said->second.data(), said->second.data() + said->second.size(), seed);
+  return seed;
+}
+
 }  // namespace
+
+Playback::Playback(const std::string& path) : record_(path, Partial::yes) {
+  if (record_.ticks() == 0)
+    throw Error(path + ": holds no whole tick; there is nothing to see; record it again");
+  models::Setup setup = models::setup_of(record_.texts(), path);
+  leave_out_vision(setup);
+  if (!record_.damage().empty())
+    doubt_ = "damaged, and not read from there on: " + record_.damage();
+  else if (!record_.sealed())
+    doubt_ = "the record is not sealed: it was cut off";
+  // Whether somebody steered the hand stands at the end of a record.
+  const bool unknown_hand = !record_.sealed() && setup.scene.user.has_value();
+  simulated_ = !trial::slots_of(setup).real && !unknown_hand;
+  if (unknown_hand) doubt_ += "; tool and tip are drawn where the devices said";
+  if (const auto hand = record_.end_texts().find("hand"); hand != record_.end_texts().end())
+    hand_ = trial::SteeringLog::read(hand->second, path);
+  trial_ = std::make_unique<trial::Trial>(setup, options());
+}
+
+trial::TrialOptions Playback::options() {
+  trial::TrialOptions options;
+  options.seed = seed_of(record_.texts());
+  options.seconds = 1e5;  // longer than any record: next() says when it ends
+  options.draw_all = true;
+  options.steer = [this](std::int64_t tick) { return hand_.at(tick); };
+  // A twin follows a machine that was real.
+  options.law = [this](const Scene& scene, const Tick&, const Inputs&, State& state, Outputs& out) {
+    const Stamped<TipSample>& tip = frame_.in.tip;
+    if (!simulated_ && trial_->world().machine && tip.health != Health::absent)
+      trial_->world().machine->lead(tip.value);
+    step(scene, frame_.tick, frame_.in, state, out);
+  };
+  options.watch = [this](const trial::Glance& glance) {
+    see_({glance.scene, frame_.tick, glance.truth, frame_.in, glance.out, simulated_, glance.state});
+  };
+  return options;
+}
+
+bool Playback::next(const std::function<void(const trial::Glance&)>& see) {
+  if (!record_.next(frame_)) return false;
+  see_ = see;
+  if (!trial_->tick()) return false;
+  if (first_difference_ < 0 && trial_->result().hash != frame_.hash) {
+    first_difference_ = frame_.tick.index;
+    doubt_ += fmt::format("{}the core differs from the record from tick {} on", doubt_.empty() ? "" : "; ",
+                          first_difference_);
+  }
+  return true;
+}
 
 Source::Source(const ViewOptions& options, const trial::TrialOptions& how) : how_(how) {
   if (!is_record(options.scene)) {

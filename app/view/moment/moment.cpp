@@ -1,8 +1,9 @@
-#include "app/view/recorded/still.h"
+#include "app/view/moment/moment.h"
 
 #include <algorithm>
 
 #include "app/view/moment/depict.h"
+#include "core/control/world/moving.h"
 
 namespace enc::app {
 namespace {
@@ -46,6 +47,30 @@ void put_tool(const mjModel* model, const mjData* data, const View& view, const 
   }
 }
 
+Pose<'R', 'H'> platform_of(const sim::World& world) {
+  return world.machine ? world.machine->state().pose : Pose<'R', 'H'>();
+}
+
+// Reads nothing of the trial that changes from tick to tick: another thread may run it.
+Moment moment_with(trial::Trial& trial, const mjData* data, const Pose<'R', 'H'>& platform, const Quat& q_WT,
+                   const sim::Truth& truth, const State& state, const Outputs& out, const Tick& now) {
+  const sim::World& world = trial.world();
+  return {trial.setup(),
+          trial.scene(),
+          trial.world().physics().model(),
+          data,
+          look_of(trial.setup()),
+          world.machine ? &world.machine->machine() : nullptr,
+          world.pusher.has_value(),
+          world.X_WR(),
+          platform,
+          q_WT,
+          truth,
+          state,
+          out,
+          now};
+}
+
 }  // namespace
 
 void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to) {
@@ -59,7 +84,7 @@ void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated
   to.state = *glance.state;
   to.out = glance.out;
   to.now = glance.tick;
-  to.platform = world.machine ? world.machine->state().pose : Pose<'R', 'H'>();
+  to.platform = platform_of(world);
   to.q_WT = world.q_WT();
   to.simulated = simulated;
   if (simulated) return;
@@ -71,28 +96,52 @@ void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated
   if (view.tool >= 0 && view.X_WT.valid()) to.q_WT = view.X_WT.q();
 }
 
+void leave_out_vision(models::Setup& setup) {
+  if (!setup.scene.camera) return;
+  setup.scene.camera.reset();
+  setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
+}
+
+Moment moment_of(trial::Trial& trial) {
+  sim::World& world = trial.world();
+  return moment_with(trial, world.physics().data(), platform_of(world), world.q_WT(), world.truth(),
+                     trial.state(), trial.outputs(), trial.now());
+}
+
 Moment moment_of(trial::Trial& trial, const Still& still, mjData* data) {
-  const sim::World& world = trial.world();
   const mjModel* model = trial.world().physics().model();
   const double* from = still.at.data();
   for (const PoseArray& part : kPoseArrays) {
     std::copy_n(from, part.count(model), part.to(data));
     from += part.count(model);
   }
-  const Moment moment{trial.setup(),
-                      trial.scene(),
-                      model,
-                      data,
-                      world.machine ? &world.machine->machine() : nullptr,
-                      world.pusher.has_value(),
-                      world.X_WR(),
-                      still.platform,
-                      still.q_WT,
-                      still.truth,
-                      still.state,
-                      still.out,
-                      still.now};
+  const Moment moment =
+      moment_with(trial, data, still.platform, still.q_WT, still.truth, still.state, still.out, still.now);
   shift_objects(moment, data);
+  return moment;
+}
+
+AugmentedSpec believed_spec(const models::Setup& setup, const Scene& scene) {
+  AugmentedSpec spec;
+  spec.camera = setup.rig.camera;
+  spec.segmentation = setup.rig.vision.segmentation;
+  if (look_of(setup).removed) spec.arm = setup.rig.arm.machine;
+  if (setup.scene.prop) spec.prop = setup.scene.prop->size;
+  spec.X_WR = scene.X_WR;
+  spec.X_WC = scene.X_WC;
+  return spec;
+}
+
+AugmentedMoment BelievedMoment::of(trial::Trial& trial) {
+  const Scene& scene = trial.scene();
+  AugmentedMoment moment;
+  moment.joints = trial.inputs().arm.value.joints;
+  if (const Contact& contact = contact_of(trial.state()); contact.X_WN.valid()) q_WN_ = contact.X_WN.q();
+  moment.q_WN = q_WN_;
+  const Stamped<TrackedTool>& tool = trial.inputs().tool;
+  if (tool.health == Health::ok && tool.value.tool >= 0) moment.finger = tool.value.X_CT.origin();
+  for (const Object& object : scene.objects)
+    moment.moved.push_back(shift_of(object, moved_in(trial.state())));
   return moment;
 }
 
