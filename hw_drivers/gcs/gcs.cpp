@@ -1,6 +1,6 @@
 // A hexapod on a PI C-887 controller, over GCS 2.0 and TCP (docs/guide/laboratory.md).
 #include "core/devices/module.h"
-#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/drive/settings.h"
 #include "hw_drivers/gcs/fake/server.h"
 

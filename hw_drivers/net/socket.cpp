@@ -20,7 +20,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 
 namespace enc::net {
 namespace {
@@ -286,6 +286,14 @@ Socket listen_tcp(const std::string& address, std::uint16_t port) {
 
 Socket bind_udp(const std::string& address, std::uint16_t port) {
   return Opener::bind_to(address, port, SOCK_DGRAM);
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t kMost = 100;
+  std::string shown(text.substr(0, kMost));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return shown;
 }
 
 std::string place(const std::string& host, std::uint16_t port) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/base/time.h"
 
@@ -71,6 +72,8 @@ class Socket {
 // Fakes only: opens a port at an address of this machine. Port 0: a free one, reported by port().
 [[nodiscard]] Socket listen_tcp(const std::string& address, std::uint16_t port);
 [[nodiscard]] Socket bind_udp(const std::string& address, std::uint16_t port);
+// What another device sent, for a message of one line: at most 100 characters, each printable or '?'.
+[[nodiscard]] std::string printable(std::string_view text);
 // "192.168.0.20:50000", "[::1]:50000"
 [[nodiscard]] std::string place(const std::string& host, std::uint16_t port);
 

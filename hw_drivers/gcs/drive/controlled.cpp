@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "hw_drivers/gcs/wire/answer.h"
-#include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
+#include "hw_drivers/gcs/wire/text.h"
 
 namespace enc::gcs {
 namespace {

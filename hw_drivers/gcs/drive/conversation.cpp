@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
+#include "hw_drivers/gcs/wire/text.h"
 
 namespace enc::gcs {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "core/base/sample.h"
 #include "hw_drivers/gcs/drive/settings.h"
-#include "hw_drivers/gcs/wire/answer.h"
 #include "hw_drivers/gcs/wire/coordinates.h"
+#include "hw_drivers/gcs/wire/text.h"
 
 namespace enc::gcs {
 

@@ -1,5 +1,4 @@
-// A hexapod on a PI C-887, over GCS 2.0. The constructor queries it. From then on a separate thread owns the
-// link; the loop gives it the newest set-point and takes the newest position.
+// The drivers of a hexapod on a PI C-887, over GCS 2.0.
 #pragma once
 
 #include <array>
@@ -13,12 +12,15 @@
 #include "hw_drivers/gcs/drive/controlled.h"
 #include "hw_drivers/gcs/drive/conversation.h"
 #include "hw_drivers/gcs/wire/error_text.h"
+#include "hw_drivers/gcs/wire/text.h"
 
 namespace enc::gcs {
 
-// The caller of turn(): a thread, on the wall clock; or the loop, in the link's time.
+// The caller of GcsManipulator::turn(): a thread, on the wall clock; or the loop, in the link's time.
 enum class Turns : std::uint8_t { thread, called };
 
+// The constructor queries the controller. From then on a separate thread owns the link; the loop gives it the
+// newest set-point and takes the newest position.
 class GcsManipulator final : public Manipulator {
  public:
   GcsManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link,
@@ -70,5 +72,41 @@ class GcsManipulator final : public Manipulator {
   std::atomic<bool> linked_ = true, end_ = false;
   std::thread thread_;
 };
+
+// Driver for a fake controller whose time advances by a cycle with each set-point. It has no parallel
+// activity: each reading is the result of the last set-point, however long the answer takes. So a run over
+// this protocol is the same each time.
+class LockstepManipulator final : public Manipulator {
+ public:
+  // Throws Error (kind device) as inspect() does, and if the controller has its own time.
+  LockstepManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link);
+
+  [[nodiscard]] std::string describe() const override { return machine_.describe(); }
+  [[nodiscard]] bool is_fake() const override { return machine_.found().fake; }
+  [[nodiscard]] bool linked() const noexcept override { return linked_; }
+  [[nodiscard]] Reach reach() const override { return machine_.reach(); }
+  // Both wait for the answer, at most timeout_ms.
+  Stamped<TipSample> read(Time now) noexcept override;
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override;
+  void stop() noexcept override;
+
+ private:
+  void send(std::string_view bytes) noexcept;
+  [[nodiscard]] std::string_view
+  hear() noexcept;  // the next answer, valid until the next call; empty: link lost
+  void lose(const std::string& why) noexcept;
+
+  Controlled machine_;
+  double period_;  // s
+  AnswerReader reader_;
+  std::array<char, kMostText> bytes_{};
+  std::string_view heard_;  // unread part of bytes_
+  TipSample sample_;
+  Health said_ = Health::ok;  // health of the last set-point
+  bool linked_ = true, told_ = false;
+};
+
+// The driver, connected over TCP by its table.
+[[nodiscard]] std::unique_ptr<Manipulator> connected(const Offer& offer);
 
 }  // namespace enc::gcs

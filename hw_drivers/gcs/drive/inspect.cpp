@@ -8,22 +8,16 @@
 
 #include "core/base/error.h"
 #include "core/devices/fake.h"
-#include "hw_drivers/gcs/wire/answer.h"
-#include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
+#include "hw_drivers/gcs/wire/text.h"
+#include "hw_drivers/net/socket.h"
 
 namespace enc::gcs {
 namespace {
 
 [[noreturn]] void refuse(const std::string& words) { throw Error(words, {}, ErrorKind::device); }
 
-// Words of another device on one line, whatever bytes it sent.
-std::string shown(std::string_view answer) {
-  std::string text(trimmed(answer).substr(0, 100));
-  for (char& c : text)
-    if (c < ' ' || c > '~') c = '?';
-  return text;
-}
+std::string shown(std::string_view answer) { return net::printable(trimmed(answer)); }
 
 struct Inspector {
   const Ask& ask;

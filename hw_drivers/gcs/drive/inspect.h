@@ -7,7 +7,7 @@
 
 #include "core/machine/reach.h"
 #include "hw_drivers/gcs/drive/settings.h"
-#include "hw_drivers/gcs/wire/travel.h"
+#include "hw_drivers/gcs/wire/coordinates.h"
 
 namespace enc::gcs {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hw_drivers/gcs/fake/commands.h"
-#include "hw_drivers/gcs/wire/command.h"
+#include "hw_drivers/gcs/wire/text.h"
 
 namespace enc::gcs {
 namespace {

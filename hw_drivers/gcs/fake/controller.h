@@ -9,11 +9,10 @@
 #include <string_view>
 
 #include "core/devices/manipulator.h"
-#include "hw_drivers/gcs/fake/points.h"
-#include "hw_drivers/gcs/fake/profile.h"
+#include "hw_drivers/gcs/fake/path.h"
+#include "hw_drivers/gcs/wire/coordinates.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 #include "hw_drivers/gcs/wire/text.h"
-#include "hw_drivers/gcs/wire/travel.h"
 
 namespace enc::gcs {
 

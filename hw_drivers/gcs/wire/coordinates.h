@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/frames.h"
+#include "core/machine/reach.h"
 
 namespace enc::gcs {
 
@@ -37,5 +38,15 @@ struct Stand {
 [[nodiscard]] Pose<'R', 'H'> pose_of(const Coordinates& at, const Stand& stand) noexcept;
 // Returns false if V is +-90 degrees, where U and W are ambiguous, or if the input is not a pose.
 [[nodiscard]] bool coordinates_of(const Pose<'R', 'H'>& X_RH, const Stand& stand, Coordinates& at) noexcept;
+
+// Range of a machine on each of the controller's axes, from its zero, as TMN? and TMX? report it.
+struct Travel {
+  Coordinates low{}, high{};
+
+  [[nodiscard]] Coordinates both_sides() const noexcept;  // the smaller of the two on each axis
+  // Limits `at` to the range; returns true if that changed it.
+  bool clamp(Coordinates& at) const noexcept;
+};
+[[nodiscard]] Travel travel_of(const Reach& reach, const Stand& stand) noexcept;
 
 }  // namespace enc::gcs

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace enc::gcs {
@@ -67,6 +68,76 @@ std::string_view trimmed(std::string_view text) noexcept {
   const std::size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+// ---- commands
+
+bool add_move(Text& text, const Coordinates& to) noexcept {
+  const Coordinates wire = to_wire_units(to);
+  for (const double value : wire)
+    if (!std::isfinite(value)) return false;
+  text.add("MOV");
+  for (std::size_t i = 0; i < kAxes; ++i) text.add(' ').add(kAxisNames[i]).add(' ').add(wire[i]);
+  text.add(kLineEnd);
+  return true;
+}
+
+void add_velocity(Text& text, double velocity) noexcept {
+  text.add("VLS ").add(millimetres(velocity)).add(kLineEnd);
+}
+
+void add_servo(Text& text, bool on) noexcept {
+  text.add("SVO");
+  for (const char axis : kAxisNames) text.add(' ').add(axis).add(on ? " 1" : " 0");
+  text.add(kLineEnd);
+}
+
+void add_points(Text& text, double cycle) noexcept {
+  text.add("SPA X 0x19001900 1").add(kLineEnd).add("SCT T ").add(1e3 * cycle).add(kLineEnd);
+}
+void add_own_path(Text& text) noexcept { add_line(text, "SPA X 0x19001900 0"); }
+
+void add_line(Text& text, std::string_view words) noexcept { text.add(words).add(kLineEnd); }
+
+// ---- answers
+
+std::size_t AnswerReader::take(std::string_view bytes) noexcept {
+  std::size_t taken = 0;
+  while (taken < bytes.size() && !complete_ && !overflown()) {
+    const char byte = bytes[taken++];
+    const std::string_view before = answer_.view();
+    complete_ = byte == '\n' && (before.empty() || before.back() != ' ');
+    answer_.add(byte);
+    if (overflown()) complete_ = false;
+  }
+  return overflown() ? bytes.size() : taken;
+}
+
+void AnswerReader::next() noexcept {
+  if (overflown()) return;
+  answer_.clear();
+  complete_ = false;
+}
+
+bool read_axes(std::string_view answer, std::string_view axes, std::span<double> values) noexcept {
+  std::uint32_t seen = 0;  // a bit for each axis
+  while (!answer.empty()) {
+    const std::size_t end = std::min(answer.find('\n'), answer.size());
+    const std::string_view line = trimmed(answer.substr(0, end));
+    answer.remove_prefix(std::min(end + 1, answer.size()));
+    const std::size_t axis = line.size() < 3 || line[1] != '=' ? std::string_view::npos : axes.find(line[0]);
+    if (axis == std::string_view::npos || axis >= values.size() || ((seen >> axis) & 1U) != 0) return false;
+    if (!read_number(line.substr(2), values[axis])) return false;
+    seen |= 1U << axis;
+  }
+  return seen == (1U << axes.size()) - 1;
+}
+
+bool read_single(std::string_view answer, double& number) noexcept {
+  return read_number(trimmed(answer), number);
+}
+bool read_error(std::string_view answer, int& number) noexcept {
+  return read_number(trimmed(answer), number);
 }
 
 }  // namespace enc::gcs

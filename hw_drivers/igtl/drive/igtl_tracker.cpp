@@ -6,9 +6,38 @@
 
 #include "core/base/error.h"
 #include "core/devices/fake.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 
 namespace enc::igtl {
+
+// ---- the connection
+
+Line::Line(const IgtlSettings& settings)
+    : streams_(settings.streams()),
+      socket_(streams_ ? net::connect_tcp(settings.address, static_cast<std::uint16_t>(settings.port),
+                                          from_seconds(settings.timeout))
+                       : net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))) {}
+
+std::span<const std::byte> Line::next() noexcept {
+  if (!streams_) return std::span(datagram_).first(socket_.receive(datagram_));
+  constexpr int kMost = 32;  // pieces of a picture that are passed over at once: 2 MiB
+  for (int i = 0; i < kMost; ++i) {
+    const std::span<const std::byte> message = stream_.next();
+    if (!message.empty() || stream_.lost()) return message;
+    const std::size_t came = socket_.receive(stream_.room());
+    if (came == 0) return {};
+    stream_.came(came);
+  }
+  return stream_.next();
+}
+
+void Line::say(const Written& message) noexcept {
+  const std::size_t sent = socket_.send(message.bytes());
+  stuck_ = stuck_ || (sent > 0 && sent < message.bytes().size());
+}
+
+// ---- the device
+
 namespace {
 
 constexpr int kMostMessages = 64;      // of a poll: a flood does not hold up the loop
@@ -16,14 +45,6 @@ constexpr int kMostWaiting = 4096;     // before the first: more than a socket h
 constexpr int kFew = 8;                // messages of a poll in which nothing old is left,
 constexpr int kSettled = 3;            // so many times running
 constexpr std::int32_t kEachPose = 1;  // ms, the shortest interval that can be asked for: every pose
-
-// As a terminal may show it.
-std::string shown(const Name<20>& name) {
-  std::string text(name.view());
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
 
 // Why what a server sends is no message.
 const char* fault(Wrong why) {
@@ -174,7 +195,7 @@ std::string IgtlTracker::refused() const {
   add(counts.checksum, "{} with a wrong CRC{}",
       counts.no_checksum == counts.checksum ? ": 0, the server does not compute it" : "");
   add(counts.unknown, "{} of tools that the scene does not name, such as '{}'; expected {}",
-      shown(counts.stranger), reception_.expected());
+      net::printable(counts.stranger.view()), reception_.expected());
   add(counts.standing, "{} with a stamp that stands still");
   return text;
 }

@@ -12,7 +12,7 @@
 #include "hw_drivers/igtl/drive/settings.h"
 #include "hw_drivers/igtl/wire/content.h"
 #include "hw_drivers/igtl/wire/message.h"
-#include "hw_drivers/net/clock_tie.h"
+#include "hw_drivers/net/clocks.h"
 
 namespace enc::igtl {
 

@@ -1,6 +1,6 @@
 // Messages of OpenIGTLink: 58 bytes of header, then the content, all big-endian. With a header of version 2
 // (protocol 3), 12 bytes of extended header with the message's number come first, and metadata last. Each
-// message is a datagram, or follows the last one in a stream (stream.h).
+// message is a datagram, or follows the last one in a stream.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace enc::igtl {
 
@@ -81,5 +83,34 @@ class Written {
 
 // The value of a key in metadata; empty: no such key.
 [[nodiscard]] std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept;
+
+// Extracts messages from a stream of bytes, in any pieces. It skips messages longer than any message of a
+// tracker, such as a picture; no buffer grows.
+class Stream {
+ public:
+  static constexpr std::size_t kMost = 1U << 13U;  // largest message: some hundred tools
+
+  void begin() noexcept { *this = Stream(std::move(bytes_)); }  // starts another stream, with no data yet
+  // Space for the next bytes, never empty unless lost(); then the number of bytes that came.
+  [[nodiscard]] std::span<std::byte> room() noexcept;
+  void came(std::size_t count) noexcept { end_ += count; }
+  // The next message, header and body; empty: not complete yet. Valid until room() is called.
+  [[nodiscard]] std::span<const std::byte> next() noexcept;
+  // True if the bytes are not a header: the start of the next message is then unknown.
+  [[nodiscard]] bool lost() const noexcept { return lost_; }
+  [[nodiscard]] std::int64_t skipped() const noexcept { return skipped_; }  // messages that were too long
+
+  Stream() : bytes_(kRoom) {}
+
+ private:
+  static constexpr std::size_t kRoom = 1U << 16U;
+  explicit Stream(std::vector<std::byte> bytes) noexcept : bytes_(std::move(bytes)) {}
+
+  std::vector<std::byte> bytes_;
+  std::size_t begin_ = 0, end_ = 0;  // range of the bytes not yet returned
+  std::uint64_t passing_ = 0;        // remaining bytes of a message that is too long
+  std::int64_t skipped_ = 0;
+  bool lost_ = false;
+};
 
 }  // namespace enc::igtl

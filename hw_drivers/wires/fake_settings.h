@@ -1,5 +1,4 @@
-// Ports that are free at present, as settings for the fakes of models/rigs/fakes.toml, because tests and
-// benchmarks run beside each other.
+// Settings for models/rigs/fakes.toml, of tests and benchmarks.
 #pragma once
 
 #include <string>
@@ -9,6 +8,9 @@
 #include "hw_drivers/net/socket.h"
 
 namespace enc::wires {
+
+// Ports that are free at present, as settings for the fakes of models/rigs/fakes.toml, because tests and
+// benchmarks run beside each other.
 
 inline std::vector<std::string> free_ports() {
   std::vector<std::string> set;
@@ -21,6 +23,15 @@ inline std::vector<std::string> free_ports() {
                                   {"netft.port", records.port()},
                                   {"igtl.port", tools.port()}})
     set.push_back("rig.driver." + std::string(key) + "=" + std::to_string(port));
+  return set;
+}
+
+// The time limits of a real rig, as settings. models/rigs/fakes.toml allows ten times as much, because on the
+// wall clock fakes share the processor with the run; in virtual time and in lockstep no data are late.
+
+inline std::vector<std::string> tight_times(std::vector<std::string> more = {}) {
+  std::vector<std::string> set{"rig.loop.late_cycles=5", "rig.force.stale_ms=5"};
+  set.insert(set.end(), more.begin(), more.end());
   return set;
 }
 

@@ -1,5 +1,4 @@
-// A path of points, one for each cycle (parameter 0x19001900 = 1, SCT): straight from one to the next, each
-// in a cycle or at the speed limit. When no point is left, it stands at the last one.
+// The path of the fake's platform: the controller's own, or by points of the client.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +9,32 @@
 
 namespace enc::gcs {
 
+// The path of a platform to its commanded position: all six coordinates start and end together, within
+// velocity and acceleration limits. A new command during motion bends the path.
+struct ProfileLimits {
+  double velocity = 0.0, acceleration = 0.0;  // m/s, m/s^2; a degree counts as a millimetre
+};
+
+class Profile {
+ public:
+  void reset(const Coordinates& at) noexcept;  // it stands there
+  void go(const Coordinates& to) noexcept;
+  // Brakes on its path, `hardness` times as hard as its acceleration limit, and stays where that ends.
+  void halt(double hardness) noexcept;
+  void step(double dt, const ProfileLimits& limits) noexcept;
+
+  [[nodiscard]] const Coordinates& at() const noexcept { return at_; }
+  [[nodiscard]] const Coordinates& aim() const noexcept { return to_; }
+  [[nodiscard]] bool moving() const noexcept { return moving_; }
+
+ private:
+  Coordinates at_{}, to_{}, velocity_{};
+  double hardness_ = 0.0;  // deceleration factor; 0: moving
+  bool moving_ = false;
+};
+
+// A path of points, one for each cycle (parameter 0x19001900 = 1, SCT): straight from one to the next, each
+// in a cycle or at the speed limit. When no point is left, it stands at the last one.
 class Points {
  public:
   static constexpr std::size_t kMost = 64;

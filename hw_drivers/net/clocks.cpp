@@ -1,12 +1,18 @@
-#include "hw_drivers/net/clock_tie.h"
+#include "hw_drivers/net/clocks.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 namespace enc::net {
+
+Duration steady_now() noexcept {
+  return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
 namespace {
 
 constexpr double kBin = 0.5e9;  // ns of a bin

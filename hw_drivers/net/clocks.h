@@ -1,3 +1,44 @@
+// The clocks of the drivers, of the loop and of a device, and how they are related.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "core/base/frames.h"
+#include "core/base/time.h"
+
+namespace enc::net {
+
+// The clock of the drivers: measures ages and late answers. It does not give experiment time, which each
+// read() and poll() receives.
+[[nodiscard]] Duration steady_now() noexcept;  // any start, common to all threads
+
+// Converts arrival times to the loop's clock within a tick. If the process was stopped, a tick reads data
+// that came long after its begin; with the time of the tick, such data would seem to arrive before they were
+// sent.
+class Arrival {
+ public:
+  // keeps_wall_time: the loop's clock follows wall time. Otherwise no data come later than their tick.
+  explicit Arrival(bool keeps_wall_time) : follows_(keeps_wall_time) {}
+
+  // Call in each tick, before of(). now: time of the tick; steady: steady_now().
+  void begin(Time now, Duration steady) noexcept {
+    least_ = std::min(least_, steady.count() - now.time_since_epoch().count());
+  }
+  // Time by the loop's clock for a time by steady_now().
+  [[nodiscard]] Time of(Time now, Duration steady) const noexcept {
+    return follows_ ? Time(Duration(steady.count() - least_)) : now;
+  }
+
+ private:
+  bool follows_;
+  std::int64_t least_ = std::numeric_limits<std::int64_t>::max();  // ns, between the two clocks
+};
+
 // Relates the clock of a device to the loop's, using only the device's stamps and their arrival times. It is
 // the only place where the two clocks meet. The quickest messages took a given time. The lower bound line of
 // all messages of the last half minute gives offset and drift of the device's clock; messages above it were
@@ -7,17 +48,6 @@
 // crystals. A forward step of the clock is followed at once, because no message arrives before it is sent. It
 // is counted as a step if it exceeds 20 ms plus 200 ppm of the observed time. A backward step looks like a
 // delay, and makes its stamps too old: a caller that sees stamps go back must call forget().
-#pragma once
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-
-#include "core/base/frames.h"
-#include "core/base/time.h"
-
-namespace enc::net {
 
 // The device's clock against the loop's: it is `ahead` of the loop's time, and gains `drift` each second.
 struct ClockEstimate {

@@ -1,4 +1,4 @@
-#include "hw_drivers/gcs/fake/profile.h"
+#include "hw_drivers/gcs/fake/path.h"
 
 #include <algorithm>
 #include <cmath>
