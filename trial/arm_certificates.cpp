@@ -38,7 +38,7 @@ certificate::Hand hand_of(const RigSpec& rig) {
 // four places of its surface beside that, if the arm gets there.
 std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std::size_t i,
                              const Candidate& of) {
-  const Impedance& law = *scene.impedance();
+  const Impedance& law = impedance_of(scene);
   const Object& object = scene.objects[i];
   const Pose<'R', 'W'> X_RW = scene.X_WR.inverse();
   const TouchedPlace touched = touched_place(setup, scene, i);
@@ -90,7 +90,7 @@ std::vector<Candidate> candidates_of(const models::Setup& setup, const Scene& sc
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     Candidate& one = all.emplace_back();
-    one.asked = stiffest_asked(*scene.impedance(), object);
+    one.asked = stiffest_asked(impedance_of(scene), object);
     const Interaction kind = object.interaction.kind;
     if (kind == Interaction::hit || kind == Interaction::passive) one.kind = kind;
     std::vector<Place> places = places_of(setup, scene, i, one);
@@ -108,8 +108,8 @@ std::vector<Candidate> candidates_of(const models::Setup& setup, const Scene& sc
 
 }  // namespace
 
-std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene) {
-  const Impedance& law = *scene.impedance();
+std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene, bool /*whole*/) {
+  const Impedance& law = impedance_of(scene);
   Place home;
   home.at = Point<'W'>(0, 0, 0);
   home.loop = loop_at(law, hand_of(setup.rig), scene.dt, law.arm.zero(),

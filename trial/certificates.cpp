@@ -53,7 +53,10 @@ void add_large_signal(Certified& at, const Steadiness& loop, const Object& objec
                                              : Side::at);
 }
 
-std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& scene, bool whole) {
+}  // namespace
+
+std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Scene& scene, bool whole) {
+  if (!scene.has_force) return {};
   const Steadiness loop(setup.rig);
   const double ramp = ramp_of(setup), linear = lowest_stable_stiffness(loop_of(setup.rig));
   const bool damped = setup.rig.admittance.damping == Damping::observed;
@@ -77,18 +80,10 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
   return found;
 }
 
-}  // namespace
-
 bool Certified::beyond() const {
   const Class verdict = certificate.verdict;
   if (free_tip()) return verdict == Class::held || verdict == Class::local || verdict == Class::unstable;
   return verdict == Class::unheld || verdict == Class::local || verdict == Class::unstable;
-}
-
-std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene, bool whole) {
-  if (scene.impedance()) return arm_certificates(setup, scene);
-  if (!scene.has_force) return {};
-  return of_admittance(setup, scene, whole);
 }
 
 std::string name_of(const Certified& certified) {

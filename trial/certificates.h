@@ -38,8 +38,11 @@ struct Certified {
 [[nodiscard]] std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene,
                                                      bool whole = false);
 
-// The certificates of an arm; certificates_of() includes them.
-[[nodiscard]] std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene);
+// The certificates of each family of machines (family.h). An arm's are always whole.
+[[nodiscard]] std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Scene& scene,
+                                                          bool whole);
+[[nodiscard]] std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene,
+                                                      bool whole);
 
 // "object 'wall'", or the other thing that the certificate is for.
 [[nodiscard]] std::string name_of(const Certified& certified);

@@ -3,14 +3,15 @@
 
 #include "core/control/scene/scene.h"
 #include "core/control/step.h"
+#include "trial/limits.h"
 
 namespace enc::trial {
 
 class FingerLoop {
  public:
   explicit FingerLoop(Scene made) : scene(std::move(made)) {
-    const PerJoint home = scene.impedance()->arm.zero();
-    in.arm.value = {home, {}, scene.impedance()->arm.tip(home), Vec<'R'>::zero()};
+    const Arm& arm = impedance_of(scene).arm;
+    in.arm.value = {arm.zero(), {}, arm.tip(arm.zero()), Vec<'R'>::zero()};
     tick_.dt = from_seconds(scene.dt);
     tick_.index = -1;
     tick_.t = Time(-tick_.dt);

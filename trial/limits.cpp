@@ -34,7 +34,7 @@ double asked_at(const Impedance& law, const Object& object, double depth) {
 }
 
 ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::size_t i) {
-  const Impedance& law = *scene.impedance();
+  const Impedance& law = impedance_of(scene);
   const Object& object = scene.objects[i];
   const std::optional<UserSpec>& user = setup.scene.user;
   const bool pressed = is_pressed(setup, i);
@@ -62,11 +62,10 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
 
 TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
   TouchedPlace found{touched_point(setup, scene, i), {}, {}, is_pressed(setup, i)};
-  if (const Impedance* law = scene.impedance()) {
-    found.joints = law->arm.zero();
-    static_cast<void>(law->arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
-    found.way = scene.X_WR.inverse() * found.at.normal;
-  }
+  const Arm& arm = impedance_of(scene).arm;
+  found.joints = arm.zero();
+  static_cast<void>(arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
+  found.way = scene.X_WR.inverse() * found.at.normal;
   return found;
 }
 
@@ -75,10 +74,9 @@ double stiffest_asked(const Impedance& law, const Object& object) {
   return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
 }
 
-std::vector<ArmStrength> strengths_of(const models::Setup& setup, const Scene& scene) {
+std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
   std::vector<ArmStrength> found;
-  if (scene.impedance())
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
   return found;
 }
 

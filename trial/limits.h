@@ -10,7 +10,10 @@
 
 namespace enc::trial {
 
-// Place at which an object is touched: the user's press, or the point nearest to home. Arm only: its joints
+// Law of an arm; only for the scene of an arm.
+[[nodiscard]] inline const Impedance& impedance_of(const Scene& scene) { return *scene.impedance(); }
+
+// Place at which an arm touches an object, the user's press or the point nearest to home, with the joints
 // there and the outward normal in R.
 struct TouchedPlace {
   PressPoint at;
@@ -37,5 +40,6 @@ struct ArmStrength {
 
 // One entry for each object; empty for a machine that is not an arm.
 [[nodiscard]] std::vector<ArmStrength> strengths_of(const models::Setup& setup, const Scene& scene);
+[[nodiscard]] std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene);
 
 }  // namespace enc::trial

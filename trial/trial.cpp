@@ -105,7 +105,10 @@ void refuse_uncalibrated(const models::Setup& setup, const std::string& machine)
 }  // namespace
 
 Trial::Trial(models::Setup setup, TrialOptions options)
-    : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
+    : setup_(std::move(setup)),
+      options_(std::move(options)),
+      scene_(prepare_setup(setup_)),
+      family_(family_of(scene_)) {
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
   if (options_.lockstep) refuse_lockstep(slots, options_);
   const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
@@ -261,7 +264,8 @@ bool Trial::tick() {
     record_->write(now_, in_, out_, hash_.value);
     result_.stopped = record_->full();
   }
-  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_, simulated_, &state_, &gate_, period});
+  if (options_.watch)
+    options_.watch({scene_, now_, truth(), in_, out_, simulated_, &state_, &gate_, period, family_});
   if (world_) result_.diverged_at = world_->diverged_at();
   return true;
 }

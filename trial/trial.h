@@ -73,6 +73,7 @@ class Trial {
   TrialOptions options_;
   std::unique_ptr<RealTime> real_time_;  // made before the devices, whose threads inherit its priority
   Scene scene_;
+  const Family& family_;
   std::unique_ptr<sim::World> world_;
   sim::Truth unknown_;
   DeviceLog log_;

@@ -11,6 +11,7 @@
 #include "core/devices/stereo_camera.h"
 #include "sim/truth/truth.h"
 #include "trial/assemble/assemble.h"
+#include "trial/family.h"
 #include "trial/gate.h"
 #include "trial/steered/hand_word.h"
 
@@ -28,6 +29,7 @@ struct Glance {
   const Gate* gate = nullptr;    // gate between core and devices, if available
   // ns of the wall clock from the last step() to this one; 0: this is the first.
   std::uint32_t period_ns = 0;
+  const Family& family = family_of(scene);  // what its machine does in its own way
 };
 
 // A law that replaces step(), such as guide(), which moves an arm without a finger.

@@ -65,7 +65,6 @@ const ArmLedger::Posture& ArmLedger::posture(const PerJoint& q, const Impedance&
 }
 
 bool ArmLedger::tick(const Glance& glance) {
-  if (glance.scene.impedance() == nullptr) return false;
   dt_ = glance.scene.dt;
   read_[static_cast<std::size_t>(reads_++ % static_cast<std::int64_t>(kRing))] = glance.truth.joints;
   return true;
@@ -74,7 +73,7 @@ bool ArmLedger::tick(const Glance& glance) {
 void ArmLedger::rest(const Glance& glance) { aim_ = recall<Meeting>(*glance.state).aim; }
 
 ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known>& was) {
-  const Impedance& law = *glance.scene.impedance();
+  const Impedance& law = impedance_of(glance.scene);
   Known now;
   now.joints = glance.truth.joints;
   now.rates = glance.truth.work.rates;

@@ -15,7 +15,7 @@ class LedgerMeasure {
   // Measures a run with these options, and requests the twin's work.
   LedgerMeasure(const models::Setup& setup, TrialOptions& options) {
     options.work = true;
-    if (setup.scene.arm) arm_.emplace(ArmLedger(setup));
+    if (family_of(setup).takes_force) arm_.emplace(ArmLedger(setup));
   }
   void see(const Glance& glance) {
     if (!glance.simulated) return;

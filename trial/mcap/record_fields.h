@@ -12,6 +12,7 @@
 
 #include "core/base/words.h"
 #include "core/record/record.h"
+#include "trial/family.h"
 
 namespace enc::trial {
 
@@ -37,11 +38,9 @@ void moment_fields(F& f, Time t) {
   f.integer("sec", "", nanoseconds(t) / kSecond);
   f.integer("nsec", "", nanoseconds(t) % kSecond);
 }
-// A device without a sample has no stamp.
 template <class F, class T>
 void stamp_field(F& f, const Stamped<T>& said) {
-  const bool none = said.health == Health::absent;
-  f.number("stamp_s", "when it was true", none ? kUnset : seconds(said.t.time_since_epoch()));
+  f.number("stamp_s", "when it was true", stamp_of(said));
 }
 template <class F>
 void three_fields(F& f, const std::array<double, 3>& xyz) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "models/schema/wording.h"
+#include "trial/family.h"
 #include "trial/mcap/core_fields.h"
 #include "trial/mcap/json_schema.h"
 #include "trial/mcap/record_fields.h"
@@ -21,17 +22,6 @@ std::vector<std::string> names_of(const std::vector<Spec>& specs) {
   std::vector<std::string> names;
   names.reserve(specs.size());
   for (const Spec& spec : specs) names.push_back(spec.name);
-  return names;
-}
-
-// "joint_1_rad", or "joint_1_m" of a slide.
-std::vector<std::string> joint_names(const Arm& arm, std::string_view per) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < arm.joints(); ++i) {
-    const bool slide =
-        arm.machine().kind == ArmKind::chain && arm.machine().links[i].kind == JointKind::slide;
-    names.push_back(fmt::format("joint_{}_{}{}", i + 1, slide ? "m" : "rad", per));
-  }
   return names;
 }
 
@@ -83,9 +73,9 @@ RecordMcap::RecordMcap(McapWriter& file, const models::Setup& setup, const Scene
     else
       put_about(about_, name, text);
   }
-  if (const Impedance* law = scene.impedance()) {
-    joints_ = joint_names(law->arm, "");
-    joint_speeds_ = joint_names(law->arm, "_per_s");
+  for (const std::string& unit : family_of(scene).joint_units(scene)) {
+    joints_.push_back(fmt::format("joint_{}_{}", joints_.size() + 1, unit));
+    joint_speeds_.push_back(joints_.back() + "_per_s");
   }
   add_channels();
 }
@@ -114,7 +104,7 @@ void RecordMcap::add_channels() {
   }
   if (scene_.has_force)
     wrench_ = channel("/wrench", "encounter.Wrench", [&](auto& f) { wrench_fields(f, any.in.wrench); });
-  if (scene_.impedance() != nullptr)
+  if (!joints_.empty())
     arm_ = channel("/arm", "encounter.Arm",
                    [&](auto& f) { arm_fields(f, joints_, joint_speeds_, any.in, any.out); });
   if (scene_.clamped_tool >= 0)

@@ -52,7 +52,6 @@ bool FarWatch::see(const Glance& glance) {
 }
 
 void FingerMeasure::see(const Glance& glance) {
-  if (!glance.scene.impedance()) return;
   way_.make_room();  // of the first tick
   const double now = seconds(glance.truth.t.time_since_epoch());
   if (far_.see(glance)) {

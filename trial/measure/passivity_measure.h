@@ -22,9 +22,7 @@ struct PassivityFigures {
 
 // True if the rig asks for a passivity controller.
 [[nodiscard]] inline bool controlled(const Scene& scene) {
-  if (const Impedance* law = scene.impedance()) return law->rig.passivity != PassivityForm::none;
-  const Render* render = scene.render();
-  return render != nullptr && render->passivity != PassivityForm::none;
+  return family_of(scene).passivity_form(scene) != PassivityForm::none;
 }
 
 class PassivityMeasure {
@@ -40,10 +38,7 @@ class PassivityMeasure {
 };
 
 inline void PassivityMeasure::see(const Glance& glance) {
-  const Passivity* now = nullptr;
-  if (glance.state != nullptr)
-    now = glance.scene.impedance() != nullptr ? &recall<enc::Meeting>(*glance.state).tamed.energy
-                                              : &recall<Rendering>(*glance.state).spent.energy;
+  const Passivity* now = glance.state != nullptr ? &glance.family.passivity(*glance.state) : nullptr;
   const bool on = now != nullptr && now->on;
   if (on && (!on_ || contacts_.back().contact != glance.out.contacts)) {
     PassivityFigures& begun = contacts_.emplace_back();
@@ -54,7 +49,7 @@ inline void PassivityMeasure::see(const Glance& glance) {
   if (!on) return;
   PassivityFigures& contact = contacts_.back();
   contact.given = std::max(contact.given, now->given);
-  const bool force = glance.scene.impedance() != nullptr;
+  const bool force = glance.family.takes_force;
   contact.dissipated = force ? now->dissipated : kUnset;
   contact.most = force ? std::max(contact.most, now->most) : kUnset;
   if ((glance.out.why & kPassive) != 0) contact.acted += glance.scene.dt;

@@ -45,6 +45,8 @@ bool drawn(const models::Setup& setup) {
 
 PressMeasure::PressMeasure(const models::Setup& setup)
     : setup_(setup),
+      takes_force_(family_of(setup).takes_force),
+      follows_(drawn(setup) && !takes_force_),
       followers_{follower(setup, IdealFollower::Sees::held),
                  follower(setup, IdealFollower::Sees::carried_on)} {}
 
@@ -167,7 +169,7 @@ void PressMeasure::follow(const Glance& glance) {
 void PressMeasure::see(const Glance& glance) {
   const sim::Truth& truth = glance.truth;
   if (!glance.simulated || truth.press < 0 || glance.scene.objects.empty()) return;
-  if (drawn(setup_) && !glance.scene.impedance()) follow(glance);
+  if (follows_) follow(glance);
   const std::size_t index = glance.out.object >= 0 ? static_cast<std::size_t>(glance.out.object) : 0;
   const Object& object = glance.scene.objects[index];
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
@@ -188,7 +190,7 @@ void PressMeasure::see(const Glance& glance) {
     meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
     const double force = -dot(truth.contact_force, at_tip.normal);
     compare(glance, *press, object, deflection, force);
-    if (!glance.scene.impedance()) judge_law(glance, object, deflection, force);
+    if (!takes_force_) judge_law(glance, object, deflection, force);
   }
   contacts_before_ = glance.out.contacts;
   mode_before_ = glance.out.mode;

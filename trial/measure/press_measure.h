@@ -74,9 +74,8 @@ class PressMeasure {
   [[nodiscard]] const std::vector<Departure>& departures() const { return departures_; }
   [[nodiscard]] double energy_in() const { return energy_in_; }    // J, tool to tip
   [[nodiscard]] double energy_out() const { return energy_out_; }  // J, tip to tool
-  [[nodiscard]] double greatest_outside() const {
-    return greatest_outside_;
-  }  // m, tip outside the undeformed object after it was inside; NaN: never inside
+  // m, tip outside the undeformed object after it was inside; NaN: never inside.
+  [[nodiscard]] double greatest_outside() const { return greatest_outside_; }
   [[nodiscard]] double greatest_tension() const { return greatest_tension_; }  // N, pull on the tool
 
  private:
@@ -89,6 +88,7 @@ class PressMeasure {
   void judge_law(const Glance& glance, const Object& object, double deflection, double force);
 
   const models::Setup& setup_;
+  bool takes_force_, follows_;  // an arm; a hexapod whose hand has a drawn path
   // Followers of the point under the tool, on the hand's target object.
   std::array<IdealFollower, 2> followers_;
   std::vector<Departure> departures_ = with_room<Departure>();

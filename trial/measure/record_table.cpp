@@ -20,12 +20,6 @@ void add(std::string& row, double x) {
 
 void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 
-// When it was true; nothing where there never was one.
-template <class V>
-void add_stamp(std::string& row, const Stamped<V>& sample) {
-  add(row, sample.health == Health::absent ? kUnset : seconds(sample.t.time_since_epoch()));
-}
-
 // How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
 // the object was made to answer to, which is filtered.
 double pressing(const Scene& scene, const Outputs& out) {
@@ -62,7 +56,7 @@ std::string source_of(const models::Setup& setup) {
 }  // namespace
 
 RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
-    : scene_(scene), source_(source_of(setup)) {
+    : scene_(scene), family_(family_of(scene)), source_(source_of(setup)) {
   for (const ToolSpec& tool : setup.scene.tools) tools_.push_back(as_cell(tool.name));
 }
 
@@ -95,8 +89,7 @@ std::string_view RecordTable::header() {
 
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
-  const Point<'W'> tip =
-      scene_.X_WR * (scene_.impedance() != nullptr ? in.arm.value.tip : in.tip.value.X_RH.origin());
+  const Point<'W'> tip = scene_.X_WR * family_.tip(in);
   for (const double x : tip.xyz) add(row, kMmPerM * x);
   for (const double x : out.felt.xyz) add(row, x);
   add(row, kMmPerM * out.deflection);
@@ -107,8 +100,8 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   seen ? add_tip(row, in.tool) : add_empty(row, 4);
   row += ',' + (number > 0 ? source_ : "");
   seen ? add_markers(row, in.tool.value) : add_empty(row, 8);
-  scene_.impedance() != nullptr ? add_stamp(row, in.arm) : add_stamp(row, in.tip);
-  add_stamp(row, in.wrench);
+  add(row, family_.tip_stamp(in));
+  add(row, stamp_of(in.wrench));
   return row + '\n';
 }
 

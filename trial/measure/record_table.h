@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/record/record.h"
-#include "models/setup/scene_file.h"
+#include "trial/family.h"
 
 namespace enc::trial {
 
@@ -27,6 +27,7 @@ class RecordTable {
   void add_markers(std::string& row, const TrackedTool& tool) const;
 
   const Scene& scene_;
+  const Family& family_;
   std::string source_;              // push only: the pressed object
   std::vector<std::string> tools_;  // names
   Time tool_t_ = Time::min();       // stamp of the tracker's newest packet so far

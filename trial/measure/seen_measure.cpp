@@ -72,7 +72,7 @@ SeenShift fit(const SeenPress* first, std::size_t n) {
 }  // namespace
 
 void SeenMeasure::see(const Glance& glance) {
-  if (!glance.scene.impedance() || !glance.scene.has_tracker) return;
+  if (!glance.scene.has_tracker) return;
   remember(glance);
   const Stamped<TrackedTool>& seen = glance.in.tool;
   if (seen.health != Health::ok || seen.t == newest_) return;

@@ -14,9 +14,8 @@ constexpr double kAverage = 0.3;  // s
 
 void TouchMeasure::see(const Glance& glance) {
   plan_.see(glance);
-  if (glance.scene.impedance()) see_motors(glance);
   see_contact(glance);
-  if (glance.scene.impedance()) return;
+  if (glance.family.takes_force) return see_motors(glance);
   if (glance.out.mode == Mode::hold) return forget_swing();
   const bool known = glance.in.tip.value.X_RH.valid() && glance.out.force.finite();
   if (known && glance.out.first_touch.finite()) see_swing(glance);
@@ -59,7 +58,7 @@ void TouchMeasure::see_contact(const Glance& glance) {
 // the next pictures, so what lasts no longer than a finger may stay unseen is late, and not empty.
 void TouchMeasure::end_contact(const Glance& glance) {
   touching_ = false;
-  const bool arm = glance.scene.impedance() != nullptr;
+  const bool arm = glance.family.takes_force;
   if (arm && contact_.lasted < glance.scene.tracker.lost_age) return;
   const bool believed = arm ? !contact_.told || contact_.pushed > kHidden * contact_.lasted : contact_.felt;
   if (glance.simulated ? !contact_.touched : !believed) empty_.push_back(contact_.began);

@@ -31,7 +31,8 @@ struct FeltMeasure {
 
 // Sets `watch` of these options, and must outlive the trial that uses them.
 struct RunMeasures {
-  RunMeasures(const models::Setup& setup, TrialOptions& options) : presses(setup), ledger(setup, options) {
+  RunMeasures(const models::Setup& setup, TrialOptions& options)
+      : presses(setup), ledger(setup, options), meets_finger_(family_of(setup).takes_force) {
     options.watch = [this](const Glance& glance) { see(glance); };
   }
   RunMeasures(const RunMeasures&) = delete;
@@ -42,22 +43,26 @@ struct RunMeasures {
     felt.see(glance);
     pushes.see(glance);
     travel.see(glance);
-    fingers.see(glance);
     touches.see(glance);
-    seen.see(glance);
     passivity.see(glance);
     ledger.see(glance);
+    if (!meets_finger_) return;
+    fingers.see(glance);
+    seen.see(glance);
   }
 
   PressMeasure presses;
   FeltMeasure felt;
   ProbeMeasure pushes;
   TravelMeasure travel;
-  FingerMeasure fingers;
+  FingerMeasure fingers;  // arm only
   TouchMeasure touches;
-  SeenMeasure seen;
+  SeenMeasure seen;  // arm only
   PassivityMeasure passivity;
   LedgerMeasure ledger;
+
+ private:
+  const bool meets_finger_;
 };
 
 }  // namespace enc::trial

@@ -61,7 +61,7 @@ void DrivenArm::tick() {
 bool DrivenArm::straight_way(const Point<'W'>& to) const {
   constexpr double kStep = 5e-3;  // m
   constexpr double kLeap = 0.5;   // rad or m
-  const Arm& arm = trial_.scene().impedance()->arm;
+  const Arm& arm = impedance_of(trial_.scene()).arm;
   const Point<'W'> from = reading();
   const int steps = static_cast<int>(std::ceil((to - from).norm() / kStep));
   PerJoint before = trial_.inputs().arm.value.joints;
