@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/control/scene/steadiness.h"
+#include "core/control/task/meet/arm_loop.h"
 #include "trial/assemble/assemble.h"
 
 namespace enc::trial {
@@ -161,6 +164,221 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
 std::string key_of(const Certified& certified) {
   if (certified.unknown() && !certified.certificate.missing.starts_with("what")) return "rig.arm.loop";
   return certified.free_tip() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
+}
+
+// The certificates of an arm: stiff is what is hard. A whole one takes a millisecond, and a scene may have
+// hundreds of objects. So of those that are equally stiff and of one class only the one that is nearest to
+// its bounds has a whole one, at the worst of a few places; one look at the eigenvalues tells which that is.
+
+namespace {
+
+constexpr double kBeside = 0.05;  // m: so far beside the first place others are tried. A hand's breadth
+
+struct Place {
+  Point<'W'> at;
+  bool pressed = false;
+  ArmLoopAt loop;
+  double radius = kUnset;  // of the eigenvalues, at the stiffness that all are compared at
+};
+
+struct Candidate {
+  double asked = 0.0;                     // N/m
+  Interaction kind = Interaction::slide;  // or hit, or passive: of these the law is another one
+  Place worst;
+  Class look = Class::unknown;
+};
+
+certificate::Hand hand_of(const RigSpec& rig) {
+  return {0.0, rig.contact.hand_damping, rig.contact.hand_stiffness};
+}
+
+// Where it is touched; and, but where the plan of a simulated user presses it or it is met in its middle,
+// four places of its surface beside that, if the arm gets there.
+std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std::size_t i,
+                             const Candidate& of) {
+  const Impedance& law = impedance_of(scene);
+  const Object& object = scene.objects[i];
+  const Pose<'R', 'W'> X_RW = scene.X_WR.inverse();
+  const TouchedPlace touched = touched_place(setup, scene, i);
+  const bool planned = touched.pressed && setup.rig.tracker.driver == "sim";
+  std::vector<Place> places;
+  const auto add = [&](const Point<'W'>& at, const PerJoint& q, const Vec<'R'>& way) {
+    places.push_back(
+        {at, planned, loop_at(law, hand_of(setup.rig), scene.dt, q, way, of.asked, of.kind), kUnset});
+  };
+  add(touched.at.point, touched.joints, touched.way);
+  if (planned || object.met_in_its_middle()) return places;
+  const Vec3 normal = touched.at.normal.e(), across = normal.unitOrthogonal();
+  for (const Vec3& way : {across, Vec3(-across), Vec3(normal.cross(across)), Vec3(across.cross(normal))}) {
+    const Nearest near =
+        object.surface.nearest(object.X_OW * (touched.at.point + Vec<'W'>(Vec3(kBeside * way))));
+    const Point<'W'> at = object.X_WO * near.point;
+    PerJoint q = touched.joints;
+    if (law.arm.reaches(X_RW * at, law.rig.least_dexterity, q))
+      add(at, q, X_RW * (object.X_WO * near.normal));
+  }
+  return places;
+}
+
+// The stiffness at which all that ask for as much are compared: where the first is at its bound. What has
+// eigenvalues outside of the circle there has a lower one.
+double compared_at(const Place& first, double asked) {
+  const double critical = certificate::critical_stiffness(first.loop.loop, first.loop.asked.damper);
+  return critical > 0.0 && std::isfinite(critical) ? critical : asked;
+}
+
+Certified certified(const std::string& object, const Place& place, double asked) {
+  Certified found{object, asked, certificate::certify(place.loop.loop, place.loop.steps, place.loop.asked)};
+  found.place = place.at;
+  found.pressed = place.pressed;
+  return found;
+}
+
+// The matrix of all directions is large where many periods are under way: there the normal alone is looked
+// at.
+double radius_at(const certificate::SampledLoop& loop, double stiffness, double damper) {
+  constexpr int kMany = 16;
+  const bool large = certificate::late(loop).whole + loop.ticks > kMany;
+  return certificate::spectral_radius(large ? loop.along() : loop, stiffness, damper);
+}
+
+std::vector<Candidate> candidates_of(const models::Setup& setup, const Scene& scene) {
+  std::map<std::pair<double, Interaction>, double> compared;
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    Candidate& one = all.emplace_back();
+    one.asked = stiffest_asked(impedance_of(scene), object);
+    const Interaction kind = object.interaction.kind;
+    if (kind == Interaction::hit || kind == Interaction::passive) one.kind = kind;
+    std::vector<Place> places = places_of(setup, scene, i, one);
+    const auto [at, fresh] = compared.try_emplace({one.asked, one.kind});
+    if (fresh) at->second = compared_at(places.front(), one.asked);
+    for (Place& place : places) {
+      place.radius = radius_at(place.loop.loop, at->second, place.loop.asked.damper.at(at->second));
+      if (&place == &places.front() || place.radius > one.worst.radius) one.worst = place;
+    }
+    const ArmLoopAt& loop = one.worst.loop;
+    one.look = certificate::linear_class(loop.loop, loop.steps, loop.asked);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene, bool /*whole*/) {
+  const Impedance& law = impedance_of(scene);
+  Place home;
+  home.at = Point<'W'>(0, 0, 0);
+  home.loop = loop_at(law, hand_of(setup.rig), scene.dt, law.arm.zero(),
+                      scene.X_WR.inverse() * Vec<'W'>(0, 0, 1), law.rig.stiffness, Interaction::slide);
+  std::vector<Certified> found{certified("", home, law.rig.stiffness)};
+  const std::vector<Candidate> all = candidates_of(setup, scene);
+  std::map<std::tuple<double, Interaction, Class>, std::size_t> worst;
+  const auto alike = [](const Candidate& one) { return std::tuple(one.asked, one.kind, one.look); };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [at, fresh] = worst.try_emplace(alike(all[i]), i);
+    if (!fresh && all[i].worst.radius > all[at->second].worst.radius) at->second = i;
+  }
+  std::map<std::size_t, Certified> whole;
+  for (const auto& [key, i] : worst)
+    whole.emplace(i, certified(setup.scene.objects[i].name, all[i].worst, all[i].asked));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t of = worst.at(alike(all[i]));
+    Certified& one = found.emplace_back(whole.at(of));
+    if (of != i) one.like = std::exchange(one.object, setup.scene.objects[i].name);
+  }
+  return found;
+}
+
+namespace {
+
+bool is_pressed(const models::Setup& setup, std::size_t i) {
+  const std::optional<UserSpec>& user = setup.scene.user;
+  return user && user->kind == UserKind::press_release &&
+         pressed_object(setup.scene.objects, user->object, "user") == i;
+}
+
+PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  if (is_pressed(setup, i)) return press_point(setup.scene, *setup.scene.user);
+  const Object& object = scene.objects[i];
+  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  return {object.X_WO * near.point, object.X_WO * near.normal};
+}
+
+// The force of a press to a depth, the most on the way.
+double asked_at(const Impedance& law, const Object& object, double depth) {
+  constexpr int kSteps = 50;
+  double most = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double d = depth * i / kSteps;
+    const Felt felt = felt_at(object.interaction, object.stiffness, law.rig.stiffness, d);
+    most = std::max(most, felt.stiffness * (d - felt.sunk));
+  }
+  return most;
+}
+
+ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  const Impedance& law = impedance_of(scene);
+  const Object& object = scene.objects[i];
+  const std::optional<UserSpec>& user = setup.scene.user;
+  const bool pressed = is_pressed(setup, i);
+  const TouchedPlace at = touched_place(setup, scene, i);
+  const PerJoint& q = at.joints;
+  const PerJoint held = law.arm.gravity(q, law.prop_mass, Payload::exact);
+  const Vec<'R'>& out = at.way;
+  const Motors::Strength strength = law.motors.strength(law.arm, q, held, out);
+  ArmStrength found{setup.scene.objects[i].name, strength.peak, strength.lasting};
+  if (!pressed || object.interaction.kind == Interaction::passive) return found;
+  const double deepest =
+      user->depths.empty() ? user->depth : *std::max_element(user->depths.begin(), user->depths.end());
+  found.asked = std::isnan(user->push) ? asked_at(law, object, deepest) : user->push;
+  found.asked_for = user->hold_time + 0.5 * (user->press_time + user->release_time);
+  found.holds_for = law.motors.holds_for(law.arm, q, held, out, found.asked);
+  found.presses = static_cast<std::int64_t>(user->approach.size()) * user->repeats;
+  const double fastest = *std::max_element(user->approach.begin(), user->approach.end());
+  const double pause = user->rest_time + user->approach_from / fastest;
+  found.gives_way_in =
+      law.motors.gives_way_in(law.arm, q, held, out, found.asked, {found.asked_for, pause, found.presses});
+  return found;
+}
+
+}  // namespace
+
+TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  TouchedPlace found{touched_point(setup, scene, i), {}, {}, is_pressed(setup, i)};
+  const Arm& arm = impedance_of(scene).arm;
+  found.joints = arm.zero();
+  static_cast<void>(arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
+  found.way = scene.X_WR.inverse() * found.at.normal;
+  return found;
+}
+
+double stiffest_asked(const Impedance& law, const Object& object) {
+  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
+  return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
+}
+
+std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
+  std::vector<ArmStrength> found;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
+  return found;
+}
+
+std::string beyond_text(const ArmStrength& at) {
+  if (at.asked > at.peak)
+    return fmt::format(
+        "object '{}' is pressed with {:.2f} N, and there the motors push with at most {:.2f} N; press "
+        "less deep, or make it softer",
+        at.object, at.asked, at.peak);
+  if (at.gives_way_in > 0)
+    return fmt::format(
+        "object '{}' is pressed with {:.2f} N for {:.0f} s{}, and cold motors hold that for {:.0f} s (for "
+        "hours {:.2f} N); press less deep, or shorter{}",
+        at.object, at.asked, at.asked_for,
+        at.presses > 1 ? fmt::format(", press {} of {}", at.gives_way_in, at.presses) : "", at.holds_for,
+        at.lasting, at.presses > 1 ? ", or rest longer" : "");
+  return {};
 }
 
 }  // namespace enc::trial

@@ -9,7 +9,6 @@
 #include "core/devices/signals.h"
 #include "models/setup/scene_file.h"
 #include "trial/certificates.h"
-#include "trial/limits.h"
 
 namespace enc::trial {
 

@@ -3,7 +3,7 @@
 
 #include "core/control/scene/scene.h"
 #include "core/control/step.h"
-#include "trial/limits.h"
+#include "trial/certificates.h"
 
 namespace enc::trial {
 

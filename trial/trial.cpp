@@ -13,10 +13,9 @@
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "sim/clock.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"
 #include "trial/certificates.h"
-#include "trial/limits.h"
 #include "trial/lists/room.h"
 
 namespace enc::trial {

@@ -21,10 +21,9 @@
 #include "trial/certificates.h"
 #include "trial/devices/device_log.h"
 #include "trial/gate.h"
-#include "trial/steered/faults.h"
+#include "trial/steered/steering.h"
 #include "trial/time/real_time.h"
 #include "trial/trial_options.h"
-#include "trial/trial_result.h"
 
 namespace enc::trial {
 

@@ -12,10 +12,21 @@
 #include "core/devices/roles.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
+#include "models/setup/scene_sizes.h"
 #include "trial/assemble/driver_device.h"
 #include "trial/assemble/vision.h"
 
 namespace enc::trial {
+
+Scene prepare_setup(const models::Setup& setup) {
+  try {
+    return prepare(setup.scene, setup.rig);
+  } catch (const Error& e) {
+    throw Error(models::place_of(setup, e.key()) + ": " + e.what() + models::mesh_advice(setup, e.key()), {},
+                e.kind());
+  }
+}
+
 namespace {
 
 // The tracker is vision: what has a driver is its camera.

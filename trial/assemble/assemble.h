@@ -1,4 +1,5 @@
-// Builds the devices of a set-up: the twin for simulated slots, drivers for the slots that the rig names.
+// Prepares a set-up and builds its devices: the twin for simulated slots, drivers for the slots that the rig
+// names.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "core/control/scene/scene.h"
 #include "core/devices/module.h"
 #include "core/devices/rig.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
-#include "trial/assemble/prepare.h"
 
 namespace enc::trial {
+
+// prepare(); an error names its place in the file.
+[[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 
 // Timing mode of the run and its devices (Offer).
 struct Keeping {

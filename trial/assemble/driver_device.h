@@ -11,7 +11,6 @@
 #include "core/devices/driver.h"
 #include "models/setup/driver_table.h"
 #include "trial/assemble/assemble.h"
-#include "trial/assemble/prepare.h"
 
 namespace enc::trial {
 

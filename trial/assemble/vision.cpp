@@ -7,7 +7,6 @@
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
 #include "trial/assemble/driver_device.h"
-#include "trial/camera/arm_things.h"
 #include "trial/camera/kept_frames.h"
 #include "trial/trackers/threaded_tracker.h"
 

@@ -8,15 +8,37 @@
 
 #include "core/devices/pose_tracker.h"
 #include "core/devices/stereo_camera.h"
+#include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
+#include "sim/camera/shown.h"
 #include "sim/camera/stage.h"
 #include "sim/world.h"
 #include "trial/assemble/assemble.h"
 
 namespace enc::trial {
 
-// The twin's true camera and its surroundings, by seed.
-[[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
+// An arm's parts for the twin's camera: grey and blue metal, far from the hue of skin.
+[[nodiscard]] inline sim::Rgb colour_of(Material material) {
+  switch (material) {
+    case Material::metal:
+      return {0.25F, 0.26F, 0.28F};
+    case Material::dark:
+      return {0.08F, 0.085F, 0.095F};
+    case Material::painted:
+      return {0.10F, 0.14F, 0.22F};
+    case Material::plate:
+      break;
+  }
+  return {0.60F, 0.62F, 0.64F};
+}
+
+[[nodiscard]] inline sim::Thing thing_of(const ArmPart& part, const Pose<'C', 'W'>& X_CW) {
+  const sim::ThingShape shape = part.form == PartForm::capsule    ? sim::ThingShape::capsule
+                                : part.form == PartForm::cylinder ? sim::ThingShape::cylinder
+                                                                  : sim::ThingShape::box;
+  return {shape, X_CW * part.middle, X_CW.q().toRotationMatrix() * part.axes, part.half,
+          colour_of(part.material)};
+}
 
 // Receives each new pair of images before the tracker does.
 using Look = std::function<void(const Stamped<StereoFrame>&)>;
@@ -33,7 +55,7 @@ struct VisionOffer {
   std::string keep{}, kept{};
 };
 
-// The true head, with which the twin's cameras draw.
+// The twin's true camera and its surroundings, by seed: with this head its cameras draw.
 [[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
 
 // Loads the needed modules. Throws Error (kind device) if a module or a device is missing, or Error with its

@@ -17,7 +17,6 @@
 #include <optional>
 
 #include "trial/ledger/ledger.h"
-#include "trial/trial.h"
 
 namespace enc::trial {
 

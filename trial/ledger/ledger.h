@@ -9,9 +9,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "trial/trial.h"
 
 namespace enc::trial {
 
@@ -37,6 +40,30 @@ struct ContactLedger {
   [[nodiscard]] double largest() const;  // over the terms named in the balance, and their parts
   // Residual as a share of the largest term; 0 if all are 0.
   [[nodiscard]] double closure() const;
+};
+
+// The contacts of a run with their balances, on one family of machines.
+class Balance {
+ public:
+  virtual ~Balance() = default;
+  virtual void see(const Glance& glance) = 0;  // call at each tick of a simulated run
+  // A contact that lasts at the end of the run has its terms up to then.
+  [[nodiscard]] virtual std::vector<ContactLedger> contacts() const = 0;
+};
+
+// The energy balance of every contact of a run, for any machine.
+class LedgerMeasure {
+ public:
+  // Measures a run with these options, and requests the twin's work.
+  LedgerMeasure(const models::Setup& setup, TrialOptions& options);
+  void see(const Glance& glance) {
+    if (glance.simulated) balance_->see(glance);
+  }
+  // Call this while the trial that owns the objects is alive.
+  [[nodiscard]] std::vector<ContactLedger> contacts() const { return balance_->contacts(); }
+
+ private:
+  std::unique_ptr<Balance> balance_;
 };
 
 // Largest surplus among the contacts that were pushed, J; without a push, no hand feels it.

@@ -1,8 +1,11 @@
 // Lists that grow while the loop runs reserve their memory beforehand, so that a tick never allocates.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "core/base/frames.h"
 
 namespace enc::trial {
 
@@ -17,5 +20,33 @@ template <class T>
   list.clear();
   return list;
 }
+
+// Positions of the prop in the last ticks.
+class Way {
+ public:
+  static constexpr std::size_t kMost = 1 << 14;  // ticks: 16 s at 1 kHz; older ones are forgotten
+
+  // Call once, before a tick adds to it.
+  void make_room() {
+    if (ring_.empty()) ring_.resize(kMost);
+  }
+  void clear() noexcept { size_ = 0; }
+  void add(const Point<'W'>& at) {
+    make_room();
+    ring_[next_] = at;
+    next_ = (next_ + 1) % kMost;
+    size_ = std::min(size_ + 1, kMost);
+  }
+  // Number of consecutive last ticks within `within` (m) of a place; 0 if the last tick is not.
+  [[nodiscard]] std::size_t there(const Point<'W'>& place, double within) const {
+    std::size_t n = 0;
+    while (n < size_ && (ring_[(next_ + kMost - 1 - n) % kMost] - place).norm() <= within) ++n;
+    return n;
+  }
+
+ private:
+  std::vector<Point<'W'>> ring_;
+  std::size_t next_ = 0, size_ = 0;
+};
 
 }  // namespace enc::trial

@@ -1,17 +1,186 @@
 #include "trial/mcap/record_mcap.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/words.h"
+#include "core/control/scene/scene.h"
+#include "core/record/record.h"
 #include "models/schema/wording.h"
 #include "trial/family.h"
-#include "trial/mcap/core_fields.h"
-#include "trial/mcap/json_schema.h"
-#include "trial/mcap/record_fields.h"
+#include "trial/mcap/json.h"
 
 namespace enc::trial {
 namespace {
+
+// ---- the fields of a tick on each channel, with unit and meaning, for JsonMessage and JsonSchema
+
+// Empty for an index of -1 or out of range.
+std::optional<std::string_view> name_at(const std::vector<std::string>& names, std::int32_t i) {
+  if (i < 0 || static_cast<std::size_t>(i) >= names.size()) return {};
+  return names[static_cast<std::size_t>(i)];
+}
+// A record comes from a file, so a number may be no value of the enum; it has no word.
+template <class Enum>
+std::string_view word_if_any(Enum value) {
+  return static_cast<std::size_t>(value) < kWords<Enum>.size() ? word_of(value) : "unknown";
+}
+
+// Time as in an MCAP file, which has no times before the start of the experiment.
+std::uint64_t nanoseconds(Time t) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(t.time_since_epoch().count(), 0));
+}
+template <class F>
+void moment_fields(F& f, Time t) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  f.integer("sec", "", nanoseconds(t) / kSecond);
+  f.integer("nsec", "", nanoseconds(t) % kSecond);
+}
+template <class F, class T>
+void stamp_field(F& f, const Stamped<T>& said) {
+  f.number("stamp_s", "when it was true", stamp_of(said));
+}
+template <class F>
+void three_fields(F& f, const std::array<double, 3>& xyz) {
+  f.number("x", "", xyz[0]);
+  f.number("y", "", xyz[1]);
+  f.number("z", "", xyz[2]);
+}
+// Left out if all three numbers are unknown.
+template <class F>
+void vector_field(F& f, std::string_view name, std::string_view about, const detail::Triple& v) {
+  const bool any = std::any_of(v.xyz.begin(), v.xyz.end(), [](double x) { return std::isfinite(x); });
+  f.object_if(name, about, any, [&](auto& inner) { three_fields(inner, v.xyz); });
+}
+template <class F>
+void turn_fields(F& f, const std::array<double, 4>& xyzw) {
+  three_fields(f, {xyzw[0], xyzw[1], xyzw[2]});
+  f.number("w", "", xyzw[3]);
+}
+
+// foxglove.PoseInFrame: viewers know these names.
+template <class F, char A, char B>
+void pose_fields(F& f, Time t, const Pose<A, B>& X) {
+  static constexpr char kFrame = A;
+  f.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
+  f.text("frame_id", "", std::string_view(&kFrame, 1));
+  f.object("pose", "", [&](auto& pose) {
+    pose.object("position", "m", [&](auto& inner) { three_fields(inner, X.xyz); });
+    pose.object("orientation", "", [&](auto& inner) { turn_fields(inner, X.xyzw); });
+  });
+}
+
+// foxglove.FrameTransforms
+struct FixedFrame {
+  std::string_view parent, child;
+  std::array<double, 4> xyzw{};
+  std::array<double, 3> xyz{};
+};
+template <class F>
+void frames_fields(F& f, Time t, const std::vector<FixedFrame>& frames) {
+  f.list("transforms", "", frames, [&](auto& one, const FixedFrame& frame) {
+    one.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
+    one.text("parent_frame_id", "", frame.parent);
+    one.text("child_frame_id", "", frame.child);
+    one.object("translation", "m", [&](auto& inner) { three_fields(inner, frame.xyz); });
+    one.object("rotation", "", [&](auto& inner) { turn_fields(inner, frame.xyzw); });
+  });
+}
+
+template <class F>
+void wrench_fields(F& f, const Stamped<Wrench>& wrench) {
+  f.text("frame", "of both, which is the sensor's", "F");
+  vector_field(f, "force_N", "on the haptic-tip's side: weight, inertia and zero error are in it",
+               wrench.value.force);
+  vector_field(f, "torque_Nm", "about the origin of F", wrench.value.torque);
+  f.text("health", "what the sensor says of itself", word_if_any(wrench.health));
+  stamp_field(f, wrench);
+}
+
+template <class F>
+void arm_fields(F& f, const std::vector<std::string>& joints, const std::vector<std::string>& speeds,
+                const Inputs& in, const Outputs& out) {
+  const ArmSample& arm = in.arm.value;
+  for (std::size_t i = 0; i < joints.size(); ++i) f.number(joints[i], "of the encoder", arm.joints[i]);
+  for (std::size_t i = 0; i < speeds.size(); ++i) f.number(speeds[i], "", arm.joint_velocities[i]);
+  vector_field(f, "tip_m", "where the encoders say that the tip is, in R", arm.tip);
+  vector_field(f, "tip_velocity_m_per_s", "in R", arm.velocity);
+  vector_field(f, "told_force_N", "that it is told to push with, in R; gravity included", out.arm_force);
+  vector_field(f, "wanted_m", "where its tip shall be, in W", out.wanted);
+  f.number("gain", "of its stiffness along the surface's normal; 1 in free space", out.gain);
+  f.number("prop_speed_m_per_s", "of a driven prop's surface against the prop", out.prop_speed);
+  vector_field(f, "prop_facing", "that the prop's front shall face, unit, in R", out.prop_facing);
+  f.text("health", "what the arm says of itself", word_if_any(in.arm.health));
+  stamp_field(f, in.arm);
+}
+
+// The haptic core, the gripper and the display.
+std::string_view mode_word(Mode mode) {
+  return static_cast<int>(mode) < kModes ? mode_name(mode) : "unknown";
+}
+// Empty for a device that the scene lacks.
+std::optional<std::string_view> health_if(bool has, Health health) {
+  if (!has) return {};
+  return word_if_any(health);
+}
+
+template <class F>
+void core_fields(F& f, const Scene& scene, const std::vector<std::string>& objects,
+                 const std::vector<std::string>& tools, const RecordedTick& frame) {
+  const Inputs& in = frame.in;
+  const Outputs& out = frame.out;
+  f.integer("tick", "number of the cycle", frame.tick.index);
+  f.text("mode", "away, follow, contact, restore, hold, probe or travel", mode_word(out.mode));
+  f.text("why", "reasons and notices; empty: none", why_text(out.why));
+  f.integer("why_bits", "the same, as bits", out.why);
+  f.text_if("object", "the nearest, or the one in contact", name_at(objects, out.object));
+  f.text_if("tool", "that the tracker sees", name_at(tools, out.view.tool));
+  f.integer("contacts", "since the start", out.contacts);
+  f.number("gap_m", "of the tool's tip to the surface; negative inside", out.gap);
+  f.number("deflection_m", "wanted; of a probe: measured, negative before it touches", out.deflection);
+  vector_field(f, "force_N", "on the tip, low-passed, in N: z along the outward normal", out.force);
+  vector_field(f, "felt_N", "the same before the low-pass, in W", out.felt);
+  vector_field(f, "first_touch_m", "centre of the tip at the first touch of the contact, in W",
+               out.first_touch);
+  vector_field(f, "tool_tip_m", "centre of the tool's tip as tracked, in W", out.view.tip);
+  f.text_if("tool_health", "what the tracker says of itself", health_if(scene.has_tracker, in.tool.health));
+  f.text_if("tip_health", "what the machine says of itself", health_if(scene.has_manipulator, in.tip.health));
+  f.text_if("wrench_health", "what the sensor says of itself", health_if(scene.has_force, in.wrench.health));
+  f.integer("missed_cycles", "that passed before this one without a tick", in.missed);
+  f.flag("withheld", "what the machine is told was not sent", in.withheld);
+  f.flag("resumed", "the machine's link came back", in.resumed);
+}
+
+template <class F>
+void surface_fields(F& f, const std::vector<std::string>& objects, const Stamped<DentSample>& dent) {
+  f.text_if("object", "that is dented", name_at(objects, dent.value.object));
+  f.number("depth_m", "of the tip's lowest point below the undeformed surface", dent.value.depth);
+  vector_field(f, "tip_m", "centre of the tip that dents it, in O", dent.value.tip.centre);
+  f.text("health", "what the display says of itself", word_if_any(dent.health));
+  stamp_field(f, dent);
+}
+
+template <class F>
+void gripper_fields(F& f, const Stamped<GripSample>& grip, const Grip& told) {
+  f.flag("told_closed", "what it is told", told.closed);
+  f.number("told_force_N", "", told.force);
+  f.text("phase", "open, closing, closed or opening", word_if_any(grip.value.phase));
+  f.number("opening_m", "between the jaws", grip.value.opening);
+  f.number("force_N", "on what is clamped", grip.value.force);
+  f.flag("holding", "something is between the jaws", grip.value.holding);
+  f.text("health", "what the gripper says of itself", word_if_any(grip.health));
+  stamp_field(f, grip);
+}
+
+// ---- the file
 
 constexpr std::string_view kMesh = "mesh:";
 // What is said of every file. A text of the record that is named so gets another name.

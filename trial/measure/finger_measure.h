@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "trial/lists/room.h"
-#include "trial/lists/way.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

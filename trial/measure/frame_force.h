@@ -1,6 +1,4 @@
-// Effect of a new picture on the force along the normal. A second core runs beside the first one from the
-// same state but without that picture: until the next picture it continues with the previous one, on
-// otherwise equal readings.
+// Effect of a disturbance on the force along the surface's normal: of a new picture, or of jitter.
 #pragma once
 
 #include <vector>
@@ -9,6 +7,9 @@
 
 namespace enc::trial {
 
+// Effect of a new picture. A second core runs beside the first one from the
+// same state but without that picture: until the next picture it continues with the previous one, on
+// otherwise equal readings.
 class FrameForce {
  public:
   // Call this in place of step(); it returns the results of step().
@@ -32,5 +33,28 @@ class FrameForce {
 // Largest change among the pictures during a contact, or among those before one; unset if there is no such
 // picture, or one of them is unset.
 [[nodiscard]] double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched);
+
+// Force in each tick of a run, N; unset without a contact. felt_apart() compares two runs of a scene.
+class FeltWay {
+ public:
+  void see(const Glance& glance) {
+    felt_.push_back(glance.out.mode == Mode::contact ? glance.out.force.xyz[2] : kUnset);
+  }
+  [[nodiscard]] const std::vector<double>& felt() const { return felt_; }
+
+ private:
+  std::vector<double> felt_;
+};
+
+struct FeltApart {
+  std::size_t ticks = 0;  // ticks in which both were in contact
+  // Largest difference in one tick, N. It includes the encoders' steps: a contact 1 ms later has them in
+  // other ticks.
+  double tick = 0.0;
+  // Largest difference of the means over a frame in which both were in contact throughout, N.
+  double frame = 0.0;
+};
+// `frame`: ticks.
+[[nodiscard]] FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);
 
 }  // namespace enc::trial

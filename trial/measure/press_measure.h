@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trial/lists/room.h"
-#include "trial/travel/ideal_follower.h"
+#include "trial/measure/ideal_follower.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

@@ -1,19 +1,39 @@
-// The operator of a run. On a terminal, space stops the motion, r resumes, q ends the run; without one,
-// SIGUSR1 stops and SIGUSR2 resumes. A terminating signal or a closed terminal ends the run; a suspension
-// pauses it.
+// The operator of a run: the question before an armed machine moves for the first time, and the stop and the
+// end of the motion.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "trial/operator/consent.h"
-#include "trial/operator/keys.h"
+#include "trial/assemble/assemble.h"
 #include "trial/operator/signals.h"
+#include "trial/operator/terminal.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 
+// True if a real device will move once it is armed.
+[[nodiscard]] bool moves_device(const models::Setup& setup);
+// One line for each device that will move, and one with its reach, speed or force. `devices`: their own
+// descriptions.
+[[nodiscard]] std::string motion_text(const models::Setup& setup, const Scene& scene,
+                                      const std::vector<DeviceWords>& devices);
+// That text, and the steps before Enter.
+[[nodiscard]] std::string motion_question(const models::Setup& setup, const Scene& scene,
+                                          const std::vector<DeviceWords>& devices);
+
+// Throws Error (kind input) if there is no terminal for the question.
+void refuse_unasked();
+// Prints the question and waits for Enter, or until `stopped`. Any other line, or the end of the input, means
+// no. Keys typed before the question do not count.
+enum class Answer : std::uint8_t { yes, no, stopped };
+[[nodiscard]] Answer ask(const std::string& question, const std::function<bool()>& stopped);
+
+// On a terminal, space stops the motion, r resumes, q ends the run; without one,
+// SIGUSR1 stops and SIGUSR2 resumes. A terminating signal or a closed terminal ends the run; a suspension
+// pauses it.
 class Operator {
  public:
   // A suspension pauses the run, which then continues. After this call, a suspension first stops everything

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/base/latest.h"
-#include "trial/operator/queue.h"
+#include "trial/time/real_time.h"
 #include "trial/trial_options.h"
 
 namespace enc::trial {

@@ -1,10 +1,12 @@
 #include "trial/time/real_time.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -87,5 +89,26 @@ RealTime::~RealTime() {
   before.sched_priority = priority_before_;
   pthread_setschedparam(pthread_self(), policy_before_, &before);
 }
+
+std::jthread beside_loop(std::function<void(const std::stop_token&)> work) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
+  std::jthread thread([work = std::move(work)](const std::stop_token& stop) {
+    constexpr sched_param kNone{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);
+    work(stop);
+  });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return thread;
+}
+
+RecordThread::RecordThread(RecordWriter& writer)
+    : thread_(beside_loop([&writer](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+          writer.drain();
+          std::this_thread::sleep_for(kLook);
+        }
+      })) {}
 
 }  // namespace enc::trial

@@ -1,19 +1,25 @@
-// A tracker that works in its own thread, such as vision with a real camera. The haptic loop only hands over
-// the time and checks for a new result.
+// A tracker that works in its own thread, such as vision with a real camera; and its stand-in in virtual
+// time, whose results arrive as irregularly and are repeatable.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/base/latest.h"
 #include "core/devices/pose_tracker.h"
+#include "sim/truth/random.h"
 
 namespace enc::trial {
 
+// The haptic loop only hands over the time and checks for a new result.
 class ThreadedTracker final : public PoseTracker {
  public:
   // Throws Error (kind device) if no thread is available. From now on only that thread calls the tracker:
@@ -56,6 +62,50 @@ class ThreadedTracker final : public PoseTracker {
   Word heard_;  // the loop's copy
   std::uint32_t told_ = 0;
   std::thread thread_;
+};
+
+// Results and stamps are unchanged, but each arrives at a random time around its due time.
+class JitteredTracker final : public PoseTracker {
+ public:
+  struct Spec {
+    Duration latency{};  // time from the stamp to the due time
+    Duration jitter{};   // largest deviation from the due time, either way
+    std::uint64_t seed = 1;
+  };
+  // `tracker` must return its results at the exposure or soon after (its own latency 0), so that a result can
+  // arrive before its due time. A result never arrives before the tracker has it, nor before an older one,
+  // because a thread works on one after the other.
+  JitteredTracker(std::unique_ptr<PoseTracker> tracker, const Spec& spec)
+      : tracker_(std::move(tracker)), spec_(spec), draw_(spec.seed, "jitter") {}
+
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+    if (Stamped<TrackedTool> told; tracker_->poll(now, told) && count_ < line_.size()) {
+      const double early_or_late = (2.0 * draw_.uniform() - 1.0) * seconds(spec_.jitter);
+      last_ = std::max({last_, now, told.t + spec_.latency + from_seconds(early_or_late)});
+      line_[(first_ + count_++) % line_.size()] = {told, last_};
+    }
+    bool due = false;
+    for (; count_ > 0 && line_[first_].due <= now; --count_, due = true) {
+      newest = line_[first_].told;
+      first_ = (first_ + 1) % line_.size();
+    }
+    return due;
+  }
+  [[nodiscard]] std::string describe() const override { return tracker_->describe(); }
+  [[nodiscard]] bool linked() const noexcept override { return tracker_->linked(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return tracker_->remarks(); }
+
+ private:
+  struct Waiting {
+    Stamped<TrackedTool> told;
+    Time due{};
+  };
+  std::unique_ptr<PoseTracker> tracker_;
+  Spec spec_;
+  sim::Stream draw_;
+  std::array<Waiting, 64> line_;  // a ring
+  std::size_t first_ = 0, count_ = 0;
+  Time last_ = Time::min();
 };
 
 }  // namespace enc::trial

@@ -1,6 +1,7 @@
 #include "trial/identify/ball/ball_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,8 +9,123 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 
 namespace enc::trial {
+
+std::span<const BallNumber> ball_numbers() {
+  using Ball = StandingBall;
+  static constexpr std::array<BallNumber, kBallNumbers> kAll{{
+      {"rubber_modulus_MPa", kMegapascal, 2.6e6, true, true,
+       [](Ball& b) -> double& { return b.law.rubber_modulus; }, "push deeper or more often"},
+      {"pressure_kPa", kKilopascal, 10e3, true, false, [](Ball& b) -> double& { return b.law.pressure; },
+       "push deeper or more often, or measure it and hold it"},
+      {"felt_modulus_MPa", kMegapascal, 0.2e6, true, true,
+       [](Ball& b) -> double& { return b.law.felt_modulus; },
+       "push more often, or measure where the ball begins and hold nearer_mm"},
+      {"friction", 1.0, 0.1, false, false, [](Ball& b) -> double& { return b.law.friction; },
+       "come back as well as push, more often"},
+      {"friction_travel_mm", kMillimetre, 0.6e-3, false, true,
+       [](Ball& b) -> double& { return b.law.friction_travel; }, "come back as well as push, more often"},
+      {"relaxing_fast", 1.0, 0.05, false, false, [](Ball& b) -> double& { return b.law.relaxing[0]; },
+       "push faster (probe.speed_mm_s = 20)"},
+      {"relaxing_middle", 1.0, 0.05, false, false, [](Ball& b) -> double& { return b.law.relaxing[1]; },
+       "push faster and stay at depth (probe.dwell_s = 4)"},
+      {"relaxing_slow", 1.0, 0.05, false, false, [](Ball& b) -> double& { return b.law.relaxing[2]; },
+       "stay at depth (probe.dwell_s = 4), several times"},
+      {"nearer_mm", kMillimetre, 0.1e-3, false, false, [](Ball& b) -> double& { return b.nearer; },
+       "push more often"},
+      {"wall_mm", kMillimetre, 3.5e-3, true, true, [](Ball& b) -> double& { return b.law.wall; },
+       "measure it on a cut ball and hold it"},
+      {"felt_mm", kMillimetre, 3e-3, true, true, [](Ball& b) -> double& { return b.law.felt; },
+       "measure it and hold it: with felt_modulus only what both make together is known"},
+      {"relaxation_fast_s", 1.0, 0.05, false, true, [](Ball& b) -> double& { return b.law.relaxation[0]; },
+       "push faster (probe.speed_mm_s = 20)"},
+      {"relaxation_middle_s", 1.0, 0.5, false, true, [](Ball& b) -> double& { return b.law.relaxation[1]; },
+       "stay at depth (probe.dwell_s = 4), several times"},
+      {"relaxation_slow_s", 1.0, 5.0, false, true, [](Ball& b) -> double& { return b.law.relaxation[2]; },
+       "stay at depth for longer than it is"},
+  }};
+  return kAll;
+}
+
+namespace {
+
+using models::LoopPoint;
+
+constexpr double kMean = 0.01;  // s
+
+// m/s, with which a push comes to its first reading.
+double speed_in(const std::vector<LoopPoint>& push) {
+  const LoopPoint& later = push[std::min<std::size_t>(push.size() - 1, 10)];
+  const double time = later.time - push.front().time;
+  return time > 0.0 ? std::max(1e-6, (later.deflection - push.front().deflection) / time) : 1e-6;
+}
+
+// From when the ball was left until the first reading: free, then in from the surface at a steady speed.
+void come_in(const sim::BallPlant& ball, sim::BallPlantState& state, const std::vector<LoopPoint>& push,
+             double free_since, double nearer) {
+  const double depth = std::max(0.0, push.front().deflection + nearer);
+  const double way_in = depth / speed_in(push);
+  ball.step(state, 0.0, std::max(0.0, push.front().time - way_in - free_since));
+  ball.step(state, depth, way_in);
+}
+
+}  // namespace
+
+BallLoops::BallLoops(std::vector<Pushes> runs) : runs_(std::move(runs)) {
+  std::vector<double> measured;
+  for (const Pushes& run : runs_)
+    for (const auto& push : run) {
+      readings_ += push.size();
+      bool first = true;
+      for (std::size_t from = 0, to = 0; from < push.size(); from = to) {
+        models::NoisyMean mean{0.0, 0.0, first};
+        double force = 0.0;
+        for (; to < push.size() && push[to].time < push[from].time + kMean - 1e-9; ++to) {
+          mean.time += push[to].time;
+          mean.weight += 1.0;
+          force += push[to].force;
+        }
+        mean.time /= mean.weight;
+        means_.push_back(mean);
+        measured.push_back(force / mean.weight);
+        first = false;
+      }
+    }
+  measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(), static_cast<Eigen::Index>(measured.size()));
+}
+
+std::size_t BallLoops::pushes() const {
+  std::size_t count = 0;
+  for (const Pushes& run : runs_) count += run.size();
+  return count;
+}
+
+Eigen::VectorXd BallLoops::predicted(const sim::BallPlant& ball, double nearer) const {
+  Eigen::VectorXd force(measured_.size());
+  Eigen::Index at = 0;
+  for (const Pushes& run : runs_) {
+    sim::BallPlantState state;
+    double before = run.empty() ? 0.0 : run.front().front().time - 1e3;
+    for (const auto& push : run) {
+      come_in(ball, state, push, before, nearer);
+      before = push.front().time;
+      std::size_t i = 0;
+      while (i < push.size()) {
+        const auto n = static_cast<std::size_t>(means_[static_cast<std::size_t>(at)].weight);
+        double sum = 0.0;
+        for (const std::size_t end = i + n; i < end; ++i) {
+          sum += ball.step(state, push[i].deflection + nearer, push[i].time - before);
+          before = push[i].time;
+        }
+        force[at++] = sum / static_cast<double>(n);
+      }
+    }
+  }
+  return force;
+}
+
 namespace {
 
 const BallNumber& number_at(std::size_t i) { return ball_numbers()[i]; }

@@ -2,14 +2,296 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
+#include "core/control/carry.h"
+#include "core/control/track/minimum_jerk.h"
+#include "core/devices/mode.h"
+#include "core/machine/arm.h"
 
 namespace enc::trial {
+namespace {
+
+constexpr double kSpeed = 0.020;       // m/s, of the tip: as in [VHMR 4.1]
+constexpr double kTurning = 0.10;      // rad/s: the platform is 0.2 m below the tip, so its joints do 20 mm/s
+constexpr double kPeak = 1.875;        // of a minimum-jerk way: its greatest speed over the mean one
+constexpr double kShareOfSpeed = 0.8;  // of what the machine can
+constexpr double kAcceleration = 0.1;  // m/s^2, a quarter of what the machine can
+constexpr double kPeakAcceleration = 5.7735;  // of a minimum-jerk way: over length / time^2
+constexpr double kClosing = 5.0;              // s: no gripper takes longer
+constexpr double kPatience = 5.0;             // s, to come to rest
+constexpr double kTurnOff = M_PI / 180.0;     // rad, beside what it lags behind
+constexpr double kTurnPatience = 0.050;       // s
+// Of the weight: a tilt by 10 degrees changes it by 2 sin(5 degrees), 0.174 of it, and a machine that speeds
+// up by 0.1 m/s^2 by 0.01.
+constexpr double kWeightTurned = 0.22;
+constexpr double kTouched = 10.0;       // N: a cable is less, and whoever is in the way feels no more
+constexpr double kLongestHold = 1.0;    // s
+constexpr double kStillSpeed = 0.2e-3;  // m/s
+constexpr double kNear = 0.2e-3;        // m, of what rests from where it was sent
+constexpr double kNearTurn = 2e-3;      // rad
+constexpr double kStillTime = 0.3;      // s of rest before anything counts
+constexpr double kMeasured = 1.0;       // s
+
+// The tool, what carries, watches and weighs it, and nothing else.
+models::Setup bare(models::Setup setup) {
+  SceneSpec& scene = setup.scene;
+  if (!scene.gripper || !scene.manipulator)
+    throw Error(
+        fmt::format("{}: no tool is clamped in this scene; expected [manipulator], [gripper] and a "
+                    "[[tool]]; give another --scene, such as clamped_tool.toml",
+                    models::place_of(setup, "manipulator")));
+  scene.objects.clear();
+  scene.behaviours.clear();
+  scene.user.reset();
+  scene.probe.reset();
+  scene.pusher.reset();
+  scene.display.reset();
+  if (setup.rig.force.driver != "none" && !scene.force) scene.force.emplace();
+  if (setup.rig.tracker.driver != "none" && !scene.tracker) scene.tracker.emplace();
+  // Whatever it says of ways: the machine is sent from here.
+  scene.travel.emplace();
+  scene.travel->speed = std::min(scene.travel->speed, setup.rig.manipulator.speed);
+  scene.travel->start = Vec3::Zero();
+  scene.travel->stops = {0.0, 1e-3};
+  return setup;
+}
+
+Pose<'W', 'H'> between(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, double share) {
+  return {from.q().slerp(share, to.q()), Vec3(from.p() + share * (to.p() - from.p()))};
+}
+
+// A rig that is slow goes and turns slowly.
+double way_time(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, const Reach& reach) {
+  const double length = (to.p() - from.p()).norm();
+  const double speed = std::min(kSpeed, kShareOfSpeed * reach.speed);
+  const double acceleration = std::min(kAcceleration, kShareOfSpeed * reach.acceleration);
+  const double turning = kTurning * speed / kSpeed;
+  return std::max({0.2, kPeak * length / speed, kPeak * from.q().angularDistance(to.q()) / turning,
+                   std::sqrt(kPeakAcceleration * length / acceleration)});
+}
+
+// Mean of turns that differ by little.
+class MeanTurn {
+ public:
+  void add(const Quat& q) { sum_ += sum_.dot(q.coeffs()) < 0.0 ? Eigen::Vector4d(-q.coeffs()) : q.coeffs(); }
+  [[nodiscard]] Quat mean() const { return Quat(sum_).normalized(); }
+
+ private:
+  Eigen::Vector4d sum_ = Eigen::Vector4d::Zero();
+};
+
+}  // namespace
+
+bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
+                  const Pose<'W', 'H'>& to) {
+  constexpr int kSteps = 100;
+  const Pose<'R', 'W'> X_RW = X_WR.inverse();
+  for (int i = 0; i <= kSteps; ++i)
+    if (!reach.contains(X_RW * between(from, to, static_cast<double>(i) / kSteps))) return false;
+  return true;
+}
+
+CarriedTool::CarriedTool(models::Setup setup, TrialOptions options)
+    : trial_(bare(std::move(setup)), with_law(std::move(options))) {}
+
+TrialOptions CarriedTool::with_law(TrialOptions options) {
+  options.seconds = std::numeric_limits<double>::infinity();
+  // The core keeps places within reach; a turn comes on top.
+  options.law = [this](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
+    const Pose<'R', 'H'> before = out.tip;
+    carry(scene, tick, in, wanted_, state, out);
+    if (!out.tip.valid() || scene.reach.contains(out.tip)) return;
+    out_of_reach_ = true;
+    out.tip = before;
+  };
+  return options;
+}
+
+void CarriedTool::tick() {
+  const double dt = trial_.scene().dt;
+  if (!trial_.tick()) throw CarryingEnded{};
+  now_ = seconds(trial_.now().t.time_since_epoch());
+  if (trial_.has_world() && trial_.world().diverged_at() >= 0)
+    throw Error(fmt::format("the physics diverged at tick {}: {}", trial_.world().diverged_at(),
+                            trial_.world().divergence()),
+                {}, ErrorKind::device);
+  if (trial_.gate().lost())
+    throw Error(fmt::format("{}: the link is lost; nothing moves any more; see to it and calibrate again",
+                            trial_.gate().links().back().role),
+                {}, ErrorKind::device);
+  held_ = trial_.outputs().mode == Mode::hold ? held_ + dt : 0.0;
+  watch();
+}
+
+// A calibration has no reason to go on after any trouble: whoever is there sees to it and begins again.
+void CarriedTool::watch() {
+  const auto fail = [](const std::string& what) { throw Error(what, {}, ErrorKind::device); };
+  const Scene& scene = trial_.scene();
+  const Inputs& in = trial_.inputs();
+  if (held_ > (wanted_.valid() ? 0.0 : kLongestHold))
+    fail(fmt::format(
+        "the machine is in hold: {}; expected it to carry the tool; see docs/guide/laboratory.md, "
+        "turn it back to zero and calibrate again",
+        why_text(trial_.outputs().why & kHoldReasons)));
+  if (out_of_reach_) fail("the machine was sent out of its reach; see rig.manipulator.geometry");
+  if (!wanted_.valid()) return;
+  if (!in.grip.value.holding)
+    fail(
+        "the jaws do not hold the tool any more; expected them closed on it to the end; put it between them, "
+        "turn the machine back to zero and calibrate again");
+  const Quat turn = (scene.X_WR * in.tip.value.X_RH).q();
+  const double late = 2.0 * scene.servo.lag * kTurning + kTurnOff;
+  turned_off_ = turn.angularDistance(wanted_.q()) > late ? turned_off_ + scene.dt : 0.0;
+  if (turned_off_ > kTurnPatience)
+    fail(fmt::format(
+        "the machine is turned by {:.1f} degrees from where it was sent; expected {:.1f} at most; see "
+        "the order of its rotations and its pivot, turn it back to zero and calibrate again",
+        turn.angularDistance(wanted_.q()) * 180.0 / M_PI, late * 180.0 / M_PI));
+  if (!scene.has_force || in.wrench.health != Health::ok) return;
+  if (!first_force_.finite()) first_force_ = in.wrench.value.force;
+  const double more = (in.wrench.value.force - first_force_).norm();
+  const double most = kWeightTurned * scene.force.mass * kStandardGravity + kTouched;
+  if (more > most)
+    fail(fmt::format(
+        "the force has changed by {:.1f} N since it began; expected {:.1f} N at most, of a weight "
+        "that is tilted; something is in the way: free it, turn the machine back to zero and "
+        "calibrate again",
+        more, most));
+}
+
+// Where the machine stands, and until the jaws hold what it shall carry.
+void CarriedTool::begin() {
+  const double began = now_;
+  const auto ready = [&] {
+    const Inputs& in = trial_.inputs();
+    return trial_.scene().X_WR.valid() && in.tip.health == Health::ok && in.tip.value.X_RH.valid() &&
+           trial_.outputs().tip.valid() && in.grip.value.holding && trial_.outputs().mode != Mode::hold;
+  };
+  do {
+    if (now_ - began > kClosing)
+      throw Error(
+          fmt::format("after {:.0f} s the jaws do not hold the tool, or the machine does not say where "
+                      "it is; put the tool between them and calibrate again",
+                      kClosing),
+          {}, ErrorKind::device);
+    tick();
+    const Stamped<TipSample>& tip = trial_.inputs().tip;
+    const Quat turn = (trial_.scene().X_WR * tip.value.X_RH).q();
+    if (tip.health == Health::ok && turn.angularDistance(Quat::Identity()) > kNearTurn)
+      throw Error(
+          fmt::format("the machine stands turned by {:.1f} degrees; expected it upright; turn it back to "
+                      "zero by its own means, with the tool clear, and calibrate again",
+                      turn.angularDistance(Quat::Identity()) * 180.0 / M_PI),
+          {}, ErrorKind::device);
+  } while (!ready());
+  wanted_ = trial_.scene().X_WR * trial_.outputs().tip;
+}
+
+void CarriedTool::go(const Pose<'W', 'H'>& to) {
+  if (!wanted_.valid()) begin();
+  const Pose<'W', 'H'> from = wanted_;
+  const Scene& scene = trial_.scene();
+  if (!way_in_reach(scene.reach, scene.X_WR, from, to))
+    throw Error("the way to the next pose leads out of the machine's reach; see rig.manipulator.geometry", {},
+                ErrorKind::device);
+  const double time = way_time(from, to, scene.reach);
+  for (double gone = 0.0; gone < time;) {
+    gone += scene.dt;
+    wanted_ = between(from, to, MinimumJerk(gone / time).x);
+    tick();
+  }
+  wanted_ = to;
+  rest();
+}
+
+bool CarriedTool::resting() const {
+  const Stamped<TipSample>& tip = trial_.inputs().tip;
+  const Pose<'W', 'H'> X_WH = trial_.scene().X_WR * tip.value.X_RH;
+  return held_ == 0.0 && tip.health == Health::ok && tip.value.velocity.norm() < kStillSpeed &&
+         (X_WH.p() - wanted_.p()).norm() < kNear && X_WH.q().angularDistance(wanted_.q()) < kNearTurn;
+}
+
+void CarriedTool::rest() {
+  const double began = now_;
+  double since = now_;
+  while (now_ - since < kStillTime) {
+    if (now_ - began > kPatience)
+      throw Error(
+          fmt::format(
+              "the machine does not come to rest within {:.0f} s: it is {:.2f} mm and {:.2f} "
+              "degrees from where it was sent; expected {:.1f} mm and {:.1f} degrees; see its "
+              "servo, load and limits",
+              kPatience,
+              1e3 * (trial_.scene().X_WR * trial_.inputs().tip.value.X_RH.origin() - wanted_.origin()).norm(),
+              180.0 / M_PI *
+                  (trial_.scene().X_WR * trial_.inputs().tip.value.X_RH).q().angularDistance(wanted_.q()),
+              1e3 * kNear, 180.0 / M_PI * kNearTurn),
+          {}, ErrorKind::device);
+    tick();
+    if (!resting()) since = now_;
+  }
+}
+
+CarriedStand CarriedTool::stand() {
+  const RigSpec& rig = trial_.setup().rig;
+  const Scene& scene = trial_.scene();
+  // What is on its way from before shows a machine that moved.
+  const double first = now_, begin = now_ + (scene.has_tracker ? rig.tracker.usual_age : 0.0);
+  CarriedStand stand;
+  Vec3 place = Vec3::Zero(), seen = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
+  MeanTurn turn, seen_turn;
+  std::size_t places = 0, moved = 0;  // ticks
+  constexpr std::size_t kMostMoved = 100;
+  Time told_force = trial_.inputs().wrench.t, told_tool = trial_.inputs().tool.t;
+  while (now_ < begin + kMeasured) {
+    tick();
+    const Inputs& in = trial_.inputs();
+    const bool news = in.tool.t != told_tool, sample = in.wrench.t != told_force;
+    told_tool = in.tool.t;
+    told_force = in.wrench.t;
+    if (now_ < begin) continue;
+    if (!resting()) {
+      if (++moved > kMostMoved)
+        throw Error(
+            "the machine moved while it was measured; expected it to stand; see its servo and what "
+            "shakes it",
+            {}, ErrorKind::device);
+      continue;
+    }
+    const Pose<'W', 'H'> X_WH = scene.X_WR * in.tip.value.X_RH;
+    place += X_WH.p();
+    turn.add(X_WH.q());
+    ++places;
+    if (scene.has_force && sample && in.wrench.health == Health::ok) {
+      force += in.wrench.value.force.e();
+      torque += in.wrench.value.torque.e();
+      ++stand.readings;
+    }
+    const bool of_now = seconds(in.tool.t.time_since_epoch()) >= first;
+    if (scene.has_tracker && news && of_now && in.tool.health == Health::ok &&
+        in.tool.value.tool == scene.clamped_tool && in.tool.value.X_CT.valid()) {
+      seen += in.tool.value.X_CT.p();
+      seen_turn.add(Quat(in.tool.value.X_CT.q()));
+      ++stand.packets;
+    }
+  }
+  stand.time = 0.5 * (begin + now_);
+  stand.X_WH = {turn.mean(), Vec3(place / static_cast<double>(places))};
+  if (stand.readings > 0) {
+    const auto n = static_cast<double>(stand.readings);
+    stand.wrench = {Vec<'F'>(Vec3(force / n)), Vec<'F'>(Vec3(torque / n))};
+  }
+  if (stand.packets > 0) stand.X_CT = {seen_turn.mean(), Vec3(seen / static_cast<double>(stand.packets))};
+  return stand;
+}
+
 namespace {
 
 constexpr double kTilt = 10.0 * kDegree, kTurn = 20.0 * kDegree;

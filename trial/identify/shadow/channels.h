@@ -1,23 +1,64 @@
-// The channels. Each adds its results, or the reason why this record does not allow a judgement.
+// The channels, each of which adds its results, or the reason why this record does not allow a judgement, and
+// their bounds.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "sim/plants/tracker_plant.h"
-#include "sim/world.h"
 #include "trial/identify/shadow/shadow.h"
 #include "trial/identify/shadow/tape.h"
 
 namespace enc::trial {
 
+// Largest deviation of each channel of a record for a correct twin. These bounds are not fitted to a result:
+// each follows from noise, drift, steps and clocks of the devices, rounded up, and has its reason here. The
+// residual of a certain record is its interval; a bound smaller than that gives no verdict.
+namespace bounds {
+
+// Commands go out and poses come in once a cycle of 1 kHz: a smaller time is not visible.
+inline constexpr double kMachineTime = 1.0e-3;  // s
+// The twin has no protocol. If the driver sends set-points in its own cycles, one waits for up to a cycle.
+// The answer is requested up to half a cycle later. Share of each cycle:
+inline constexpr double kMachineCycles = 1.5;
+// Commands are rounded to 3 um, a move ends within some 0.5 um rms, and the numbers of a protocol are rounded
+// to 0.1 um: 10 um on each axis covers the worst case of all. The same amount covers a machine that was
+// commanded elsewhere in between.
+inline constexpr double kMachinePlace = 20e-6;  // m
+// The larger of moving and standing error, beyond the lag, which is a time. A set-point taken a cycle earlier
+// or later than its neighbours is 50 um at 50 mm/s. Steps are 3 um. A servo of 15 Hz that is 5 % off lags 7
+// um more or less while it accelerates with 0.41 m/s^2.
+inline constexpr double kMachineRest = 50e-6;  // m rms
+// A pose scatters by 0.02 mm. Two more errors add up to 0.1 mm in a single stop: bias that rotates with the
+// direction, and the line between two round tips with sideways positions known to a few tenths. The bound is
+// twice that.
+inline constexpr double kRegistration = 0.2e-3;  // m
+// Cameras at 120 Hz and a server at 100 Hz, each with a random start, wait for each other by 1/600 s more or
+// less. That is constant in a run: 0.83 ms to either side of the mean. A packet is noticed at the next cycle,
+// 0.5 ms to either side. Together 1.33 ms.
+inline constexpr double kToolLatency = 1.5e-3;  // s
+// Stamps are compared with the machine's pose, which is queried: it may be a cycle older than its own stamp,
+// and so may the clock that reads the stamps of a protocol.
+inline constexpr double kToolStamps = 2.0e-3;  // s
+// The zero drifts by 0.002 N/sqrt(s), 0.01 N in the 20 s of a slow push, and steps are 0.025 N: some 1 % of 2
+// N, the force of half of a press. The same again for 10 um of position in 1 mm of depth.
+inline constexpr double kStiffness = 0.02;  // share
+// Force steps of 0.025 N are 0.02 mm on an object of 1 N/mm; the point at which it begins to yield is known
+// to several of them.
+inline constexpr double kObjectPlace = 0.1e-3;  // m
+// Force and pose of one cycle may be read a cycle apart, on either side of each.
+inline constexpr double kForceTime = 2.0e-3;  // s
+// Residual beyond stiffness, position and time, in addition to that of the twin's own sensor: 2 % of 2 N, the
+// force of half of a press. Another law of the object is above it, and so is a sensor with 0.05 N rms.
+inline constexpr double kForceRest = 0.04;  // N rms
+// As kStiffness, with the machine's 3 um steps and its lag in place of the position.
+inline constexpr double kRendered = 0.02;  // share
+
+}  // namespace bounds
+
 void see_machine(const Tape& tape, Shadow& shadow);   // commands -> the machine's reported poses
 void see_tool(const Tape& tape, Shadow& shadow);      // machine's poses -> tracked poses of the tool
 void see_probed(const Tape& tape, Shadow& shadow);    // probe's positions -> measured forces
 void see_rendered(const Tape& tape, Shadow& shadow);  // measured forces -> displacement of the tip
-
-// ---- shared by the channels
-// ---------------------------------------------------------------------------------
 
 // Number of simulated twins of a sensor, with different seeds for noise, drift and phases. Their scatter is
 // the difference to expect from another run of this rig.
@@ -35,62 +76,9 @@ void add(Shadow& shadow, Channel channel, Quantity quantity, const models::Inter
 void diverges_grossly(Shadow& shadow, Channel channel, std::string how);
 void cannot_judge(Shadow& shadow, Channel channel, std::string why);
 
-// The twin's machine under the commands of a record.
-class ToldMachine {
- public:
-  explicit ToldMachine(const Tape& tape);
-  // Advances to the tick of this frame, before its command; a machine that begins anew takes its reported
-  // pose.
-  void advance(const RecordedTick& frame);
-  void command(const Pose<'R', 'H'>& X_RH) { plant_.command(X_RH); }
-  [[nodiscard]] bool known() const { return known_; }
-  [[nodiscard]] TipSample said() const;
-
- private:
-  void begin(const TipSample& at);
-  sim::HexapodPlant plant_;
-  int steps_;
-  double timestep_;
-  std::int64_t tick_ = 0;
-  bool known_ = false;
-};
-
-// The twin's world with its machine at the record's poses, plus `shift` (in R, m).
-using SeeWorld = std::function<void(Time t, const sim::World& world, const TipSample& led)>;
-void lead_world(const Tape& tape, const models::Setup& twin, const Vec3& shift, const SeeWorld& see);
-
-// Packets of the twin's trackers, one for each seed, for a true pose given tick by tick.
-struct SeenPacket {
-  // Times of the tick in which it came, and of its stamp.
-  Time t{}, stamp{};
-  TrackedTool tool;
-};
-class TwinTrackers {
- public:
-  explicit TwinTrackers(const Tape& tape);
-  void advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT);
-  [[nodiscard]] const std::vector<std::vector<SeenPacket>>& packets() const { return packets_; }
-
- private:
-  const Scene& scene_;
-  std::vector<sim::TrackerPlant> plants_;
-  std::vector<Time> newest_;
-  std::vector<std::vector<SeenPacket>> packets_;
-};
-[[nodiscard]] std::vector<SeenPacket> recorded_packets(const Tape& tape);
-
 // The tool's tip in a packet, in W by the rig's calibration.
 [[nodiscard]] inline Point<'W'> tip_of(const Scene& scene, const TrackedTool& tool) {
   return scene.X_WC * (tool.X_CT * scene.tools[static_cast<std::size_t>(tool.tool)].tip.centre);
 }
-
-// Age of packets beyond that of their stamps at arrival, s: mean, and interval from blocks of time.
-[[nodiscard]] models::Interval mean_age(const std::vector<SeenPacket>& packets);
-// A tool carried by the machine, and a tool that presses its tip.
-void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
-void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
-// Properties independent of both: age of packets by their stamps, and number of packets.
-void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
-              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow);
 
 }  // namespace enc::trial

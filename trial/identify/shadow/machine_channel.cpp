@@ -7,7 +7,6 @@
 
 #include "models/identify/block_fit.h"
 #include "models/setup/driver_table.h"
-#include "trial/identify/shadow/bounds.h"
 #include "trial/identify/shadow/channels.h"
 
 namespace enc::trial {

@@ -7,8 +7,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "trial/assemble/prepare.h"
-#include "trial/identify/shadow/bounds.h"
+#include "trial/assemble/assemble.h"
 #include "trial/identify/shadow/channels.h"
 
 namespace enc::trial {

@@ -43,7 +43,7 @@ struct Divergence {
   Quantity quantity{};
   std::string axis;       // "x"; "away" from the tip; empty: no axis
   models::Interval off;   // SI
-  double bound = kUnset;  // SI, from bounds.h: a correct twin stays below it
+  double bound = kUnset;  // SI, from channels.h: a correct twin stays below it
   // True if beyond the bound, and beyond chance.
   [[nodiscard]] bool diverges() const;
   // True if this record does not determine it to within its bound, so that no conclusion is possible.

@@ -1,5 +1,4 @@
-// Reads the keys of the terminal at standard input, one by one. A separate thread watches the terminal: on a
-// busy machine the kernel can block even a non-blocking read for seconds, and the loop has no time for that.
+// The terminal of a run, which never blocks the loop: its keys, and standard error.
 #pragma once
 
 #include <atomic>
@@ -7,12 +6,15 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string_view>
 #include <thread>
 
-#include "trial/operator/queue.h"
+#include "trial/time/real_time.h"
 
 namespace enc::trial {
 
+// Reads the keys of the terminal at standard input, one by one. A separate thread watches the terminal: on a
+// busy machine the kernel can block even a non-blocking read for seconds, and the loop has no time for that.
 class Keys {
  public:
   Keys();
@@ -43,6 +45,25 @@ class Keys {
   std::atomic<bool> taken_ = false, lost_ = false, renew_ = false;
   Queue<char, 64> pressed_;
   std::jthread thread_;
+};
+
+// Standard error that never blocks its writer. A terminal after Ctrl-S or on a dead link, or a pipe whose
+// reader sleeps, gets as much as it has room for. A run that moves something writes its progress and status
+// here.
+class StandardError {
+ public:
+  StandardError();
+  ~StandardError();
+  StandardError(const StandardError&) = delete;
+  StandardError& operator=(const StandardError&) = delete;
+
+  // Number of bytes written without waiting; all of them if there is no reader any more.
+  std::size_t write(std::string_view text) const noexcept;
+  [[nodiscard]] bool terminal() const noexcept { return terminal_; }
+
+ private:
+  int own_ = -1;  // a separate non-blocking file description; the shell's own stays unchanged
+  bool terminal_ = false;
 };
 
 }  // namespace enc::trial

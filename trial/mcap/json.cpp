@@ -1,7 +1,11 @@
-#include "trial/mcap/json_schema.h"
+#include "trial/mcap/json.h"
+
+#include <cmath>
 
 namespace enc::trial {
+namespace {
 
+// The text in quotes, as in JSON.
 void add_quoted(std::string& out, std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out += '"';
@@ -19,6 +23,31 @@ void add_quoted(std::string& out, std::string_view text) {
     }
   }
   out += '"';
+}
+
+}  // namespace
+
+void JsonMessage::key(std::string_view name) {
+  if (out_.back() != '{') out_ += ',';
+  out_ += '"';
+  out_ += name;
+  out_ += "\":";
+}
+
+void JsonMessage::number(std::string_view name, std::string_view /*about*/, double x) {
+  if (!std::isfinite(x)) return;
+  key(name);
+  digits(x);
+}
+
+void JsonMessage::flag(std::string_view name, std::string_view /*about*/, bool x) {
+  key(name);
+  out_ += x ? "true" : "false";
+}
+
+void JsonMessage::text(std::string_view name, std::string_view /*about*/, std::string_view x) {
+  key(name);
+  add_quoted(out_, x);
 }
 
 void JsonSchema::add(std::string_view name, std::string_view about, std::string_view type, bool required) {

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 
-#include "trial/ledger/ledger_measure.h"
+#include "trial/ledger/ledger.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
-#include "trial/measure/probe_measure.h"
 #include "trial/measure/seen_measure.h"
+#include "trial/measure/test_measures.h"
 #include "trial/measure/touch_measure.h"
-#include "trial/travel/travel_measure.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
