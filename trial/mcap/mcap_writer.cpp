@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <utility>
 
 namespace enc::trial {
@@ -43,17 +44,27 @@ constexpr CrcTables crc_tables() {
 }
 
 // Little-endian; a text has its size in front.
-template <class T>
-void put_number(std::string& out, T x) {
+template <std::integral T>
+void put_field(std::string& out, T x) {
   for (std::size_t i = 0; i < sizeof(T); ++i) out += static_cast<char>((x >> (8 * i)) & 0xFFU);
 }
-void put_text(std::string& out, std::string_view text) {
-  put_number(out, static_cast<std::uint32_t>(text.size()));
+void put_field(std::string& out, std::string_view text) {
+  put_field(out, static_cast<std::uint32_t>(text.size()));
   out += text;
+}
+template <class... Fields>
+void put_fields(std::string& out, const Fields&... fields) {
+  (put_field(out, fields), ...);
+}
+template <class... Fields>
+std::string fields_of(const Fields&... fields) {
+  std::string out;
+  put_fields(out, fields...);
+  return out;
 }
 void begin_record(std::string& out, Op op, std::size_t size) {
   out += static_cast<char>(op);
-  put_number(out, std::uint64_t{size});
+  put_field(out, std::uint64_t{size});
 }
 std::string as_record(Op op, std::string_view content) {
   std::string out;
@@ -91,10 +102,7 @@ void McapWriter::Times::add(std::uint64_t time) {
 McapWriter::McapWriter(Sink sink, std::string_view library, std::size_t chunk)
     : sink_(std::move(sink)), chunk_size_(chunk) {
   put(kMcapMagic);
-  std::string header;
-  put_text(header, "");  // no profile
-  put_text(header, library);
-  put(as_record(Op::header, header));
+  put(as_record(Op::header, fields_of("", library)));  // no profile
 }
 
 void McapWriter::put(std::string_view bytes) {
@@ -105,12 +113,7 @@ void McapWriter::put(std::string_view bytes) {
 
 std::uint16_t McapWriter::add_schema(std::string_view name, std::string_view encoding,
                                      std::string_view data) {
-  std::string schema;
-  put_number(schema, ++schemas_);
-  put_text(schema, name);
-  put_text(schema, encoding);
-  put_text(schema, data);
-  schema = as_record(Op::schema, schema);
+  const std::string schema = as_record(Op::schema, fields_of(++schemas_, name, encoding, data));
   chunk_ += schema;
   schema_records_ += schema;
   return schemas_;
@@ -120,13 +123,9 @@ std::uint16_t McapWriter::add_channel(std::string_view topic, std::uint16_t sche
                                       std::string_view message_encoding) {
   channels_.emplace_back();
   const std::uint16_t number = number_of(channels_.size() - 1);
-  std::string channel;
-  put_number(channel, number);
-  put_number(channel, schema);
-  put_text(channel, topic);
-  put_text(channel, message_encoding);
-  put_number(channel, std::uint32_t{0});  // no metadata
-  channel = as_record(Op::channel, channel);
+  constexpr std::uint32_t kNoMetadata = 0;
+  const std::string channel =
+      as_record(Op::channel, fields_of(number, schema, topic, message_encoding, kNoMetadata));
   chunk_ += channel;
   channel_records_ += channel;
   return number;
@@ -137,10 +136,7 @@ void McapWriter::message(std::uint16_t channel, std::uint64_t log_time, std::uin
   Channel& of = channels_.at(channel - 1U);
   of.entries.push_back({log_time, chunk_.size()});
   begin_record(chunk_, Op::message, 2 + 4 + 8 + 8 + data.size());
-  put_number(chunk_, channel);
-  put_number(chunk_, static_cast<std::uint32_t>(of.messages++));
-  put_number(chunk_, log_time);
-  put_number(chunk_, publish_time);
+  put_fields(chunk_, channel, static_cast<std::uint32_t>(of.messages++), log_time, publish_time);
   chunk_ += data;
   chunk_times_.add(log_time);
   times_.add(log_time);
@@ -154,15 +150,9 @@ std::string McapWriter::write_message_indexes() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     std::vector<Entry>& entries = channels_[i].entries;
     if (entries.empty()) continue;
-    put_number(offsets, number_of(i));
-    put_number(offsets, at_);
-    std::string index;
-    put_number(index, number_of(i));
-    put_number(index, static_cast<std::uint32_t>(16 * entries.size()));
-    for (const Entry& entry : entries) {
-      put_number(index, entry.time);
-      put_number(index, entry.offset);
-    }
+    put_fields(offsets, number_of(i), at_);
+    std::string index = fields_of(number_of(i), static_cast<std::uint32_t>(16 * entries.size()));
+    for (const Entry& entry : entries) put_fields(index, entry.time, entry.offset);
     put(as_record(Op::message_index, index));
     entries.clear();
   }
@@ -172,14 +162,10 @@ std::string McapWriter::write_message_indexes() {
 // The chunk, where its messages are, and for the summary where both are.
 void McapWriter::flush_chunk() {
   if (chunk_.empty()) return;
-  std::string head;
-  put_number(head, chunk_times_.first);
-  put_number(head, chunk_times_.last);
-  put_number(head, std::uint64_t{chunk_.size()});
-  put_number(head, crc32(chunk_));
-  put_text(head, "");  // not compressed
-  put_number(head, std::uint64_t{chunk_.size()});
-  const std::uint64_t begins = at_;
+  constexpr std::string_view kNotCompressed;
+  const std::uint64_t size = chunk_.size(), begins = at_;
+  const std::string head =
+      fields_of(chunk_times_.first, chunk_times_.last, size, crc32(chunk_), kNotCompressed, size);
   std::string begin;
   begin_record(begin, Op::chunk, head.size() + chunk_.size());
   put(begin + head);
@@ -188,83 +174,42 @@ void McapWriter::flush_chunk() {
   const std::uint64_t ends = at_;
   const std::string offsets = write_message_indexes();
 
-  std::string index;
-  put_number(index, chunk_times_.first);
-  put_number(index, chunk_times_.last);
-  put_number(index, begins);
-  put_number(index, ends - begins);
-  put_text(index, offsets);
-  put_number(index, at_ - ends);
-  put_text(index, "");
-  put_number(index, std::uint64_t{chunk_.size()});
-  put_number(index, std::uint64_t{chunk_.size()});
-  chunk_indexes_ += as_record(Op::chunk_index, index);
+  chunk_indexes_ +=
+      as_record(Op::chunk_index, fields_of(chunk_times_.first, chunk_times_.last, begins, ends - begins,
+                                           offsets, at_ - ends, kNotCompressed, size, size));
   ++chunks_;
   chunk_.clear();
   chunk_times_ = {};
 }
 
 void McapWriter::attach(std::string_view name, std::string_view media_type, std::string_view data) {
-  std::string about;
-  put_text(about, name);
-  put_text(about, media_type);
-  std::string attachment;
-  put_number(attachment, std::uint64_t{0});  // when it came and when it was made: before all messages
-  put_number(attachment, std::uint64_t{0});
-  attachment += about;
-  put_number(attachment, std::uint64_t{data.size()});
+  constexpr std::uint64_t kCame = 0, kMade = 0;  // before all messages
+  const std::uint64_t size = data.size();
+  std::string attachment = fields_of(kCame, kMade, name, media_type, size);
   attachment += data;
-  put_number(attachment, crc32(attachment));
+  put_field(attachment, crc32(attachment));
   attachment = as_record(Op::attachment, attachment);
-
-  std::string index;
-  put_number(index, at_);
-  put_number(index, std::uint64_t{attachment.size()});
-  put_number(index, std::uint64_t{0});
-  put_number(index, std::uint64_t{0});
-  put_number(index, std::uint64_t{data.size()});
-  attachment_indexes_ += as_record(Op::attachment_index, index + about);
+  attachment_indexes_ += as_record(Op::attachment_index, fields_of(at_, std::uint64_t{attachment.size()},
+                                                                   kCame, kMade, size, name, media_type));
   ++attachments_;
   put(attachment);
 }
 
 void McapWriter::metadata(std::string_view name, const std::map<std::string, std::string>& texts) {
   std::string pairs;
-  for (const auto& [key, text] : texts) {
-    put_text(pairs, key);
-    put_text(pairs, text);
-  }
-  std::string metadata;
-  put_text(metadata, name);
-  put_text(metadata, pairs);
-  metadata = as_record(Op::metadata, metadata);
-
-  std::string index;
-  put_number(index, at_);
-  put_number(index, std::uint64_t{metadata.size()});
-  put_text(index, name);
-  metadata_indexes_ += as_record(Op::metadata_index, index);
+  for (const auto& [key, text] : texts) put_fields(pairs, key, text);
+  const std::string metadata = as_record(Op::metadata, fields_of(name, pairs));
+  metadata_indexes_ += as_record(Op::metadata_index, fields_of(at_, std::uint64_t{metadata.size()}, name));
   ++metadatas_;
   put(metadata);
 }
 
 std::string McapWriter::statistics() const {
   std::string counts;
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    put_number(counts, number_of(i));
-    put_number(counts, channels_[i].messages);
-  }
-  std::string all;
-  put_number(all, messages_);
-  put_number(all, schemas_);
-  put_number(all, static_cast<std::uint32_t>(channels_.size()));
-  put_number(all, attachments_);
-  put_number(all, metadatas_);
-  put_number(all, chunks_);
-  put_number(all, times_.first);
-  put_number(all, times_.last);
-  put_text(all, counts);
-  return as_record(Op::statistics, all);
+  for (std::size_t i = 0; i < channels_.size(); ++i) put_fields(counts, number_of(i), channels_[i].messages);
+  return as_record(Op::statistics,
+                   fields_of(messages_, schemas_, static_cast<std::uint32_t>(channels_.size()), attachments_,
+                             metadatas_, chunks_, times_.first, times_.last, counts));
 }
 
 // All of a kind together, then where each kind begins.
@@ -281,8 +226,7 @@ void McapWriter::write_summary() {
                                     {Op::metadata_index, metadata_indexes_}}) {
     if (records.empty()) continue;
     std::string offset(1, static_cast<char>(op));
-    put_number(offset, at_);
-    put_number(offset, std::uint64_t{records.size()});
+    put_fields(offset, at_, std::uint64_t{records.size()});
     offsets += as_record(Op::summary_offset, offset);
     put(records);
   }
@@ -290,19 +234,14 @@ void McapWriter::write_summary() {
   put(offsets);
   std::string footer;
   begin_record(footer, Op::footer, 8 + 8 + 4);
-  put_number(footer, begins);
-  put_number(footer, offsets_begin);
+  put_fields(footer, begins, offsets_begin);
   put(footer);
-  std::string crc;
-  put_number(crc, crc_);
-  put(crc);
+  put(fields_of(crc_));
 }
 
 void McapWriter::close() {
   flush_chunk();
-  std::string crc;
-  put_number(crc, crc_);
-  put(as_record(Op::data_end, crc));
+  put(as_record(Op::data_end, fields_of(crc_)));
   write_summary();
   put(kMcapMagic);
 }
