@@ -10,6 +10,7 @@
 
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
+#include "trial/ledger/arm_ledger.h"
 #include "trial/ledger/ledger_measure.h"
 
 namespace enc::trial {
