@@ -83,94 +83,47 @@ std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Sc
   return found;
 }
 
-bool Certified::beyond() const {
-  const Class verdict = certificate.verdict;
-  if (free_tip()) return verdict == Class::held || verdict == Class::local || verdict == Class::unstable;
-  return verdict == Class::unheld || verdict == Class::local || verdict == Class::unstable;
-}
-
-std::string name_of(const Certified& certified) {
-  return certified.object.empty() ? "the tip that nobody touches" : "object '" + certified.object + "'";
-}
-
-namespace {
-
-// "delay: more than 600 periods" says what is wrong with it.
-std::string missing_text(const certificate::Certificate& of) {
-  return (of.missing.find(':') == std::string::npos ? "no " : "") + of.missing;
-}
-
-std::string mend_of(const models::Setup& setup, const std::string& missing) {
-  if (!setup.rig.arm.loop) return "write [arm.loop] into the rig, as models/rigs/vishap.toml has it";
-  if (missing.starts_with("hand"))
-    return "write 'hand_stiffness_N_per_mm' and 'hand_damping_Ns_per_m' into its [contact]";
-  if (missing.starts_with("delay")) return "correct 'delay_ms' in its [arm.loop]";
-  if (missing == "damping") return "correct 'viscous_Nms' in its [arm.loop]";
-  if (missing == "friction") return "correct 'friction_Nm' in its [arm.loop]";
-  if (missing == "encoder step") return "correct 'counts' in its [arm.loop]";
-  if (missing == "mass") return "correct the masses in its [arm.machine]";
-  if (missing.starts_with("what a release does")) return "make it stiffer, so that it swings sooner";
-  return "correct its [arm]";
-}
-
-}  // namespace
-
-std::string class_text(const Certified& certified) {
-  const certificate::Certificate& of = certified.certificate;
-  const std::string words(word_of(of.verdict));
-  if (certified.unknown()) return words + ": " + missing_text(of);
-  std::string text = fmt::format("{}, at {:.3g} N/mm", words, 1e-3 * certified.asked);
-  if (std::isnan(certified.ramp))
-    text += fmt::format("; let go 0.1 mm beside its target: {}, 1 mm: {}", word_of(of.small.rest),
-                        word_of(of.large.rest));
-  return text;
-}
-
-std::string refusal_text(const models::Setup& setup, const Certified& certified) {
-  const certificate::Certificate& of = certified.certificate;
-  if (certified.unknown())
-    return fmt::format("whether {} is stable is not known: {}; {}", name_of(certified), missing_text(of),
-                       mend_of(setup, of.missing));
-  if (!certified.beyond()) return {};
-  if (certified.swing > 0.0)
-    return fmt::format(
-        "{}, pushed {:.1f} mm deep in {:g} s by a hand of {:g} N/mm, swings by {:.1f} mm: it is softer "
-        "than this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
-        name_of(certified), certified.depth * 1e3, certified.ramp, setup.rig.contact.hand_stiffness * 1e-3,
-        certified.swing * 1e3);
-  if (!std::isnan(certified.ramp))
-    return fmt::format(
-        "{} is {} under a hand of {:g} N/mm: {:.3g} N/mm, and the loop needs {:.3g}; make it "
-        "stiffer, or set rig.admittance.damping=observed",
-        name_of(certified), word_of(of.verdict), setup.rig.contact.hand_stiffness * 1e-3,
-        1e-3 * certified.asked, 1e-3 * certificate::row_of(of, "admittance").low);
-  if (certified.free_tip()) {
-    const certificate::Row& alone = certificate::row_of(of, "exact_alone");
-    return fmt::format(
-        "{} is held by {:.3g} N/mm and is {}: the loop without a hand is stable from {:.3g} to {:.3g} N/mm; "
-        "make "
-        "it {}",
-        name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * alone.low, 1e-3 * alone.bound,
-        certified.asked < alone.low ? "stiffer" : "softer");
-  }
-  const certificate::Row& held = certificate::row_of(of, "exact_with_hand");
-  return fmt::format(
-      "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
-      "to {:.3g} N/mm; make it {}",
-      name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * held.low, 1e-3 * held.bound,
-      certified.asked < held.low ? "stiffer" : "softer");
-}
-
-std::string key_of(const Certified& certified) {
-  if (certified.unknown() && !certified.certificate.missing.starts_with("what")) return "rig.arm.loop";
-  return certified.free_tip() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
-}
-
 // The certificates of an arm: stiff is what is hard. A whole one takes a millisecond, and a scene may have
 // hundreds of objects. So of those that are equally stiff and of one class only the one that is nearest to
 // its bounds has a whole one, at the worst of a few places; one look at the eigenvalues tells which that is.
-
 namespace {
+
+// Place at which an arm touches an object, the user's press or the point nearest to home, with the joints
+// there and the outward normal in R.
+struct TouchedPlace {
+  PressPoint at;
+  PerJoint joints{};
+  Vec<'R'> way;
+  bool pressed = false;  // the place is from the user's plan
+};
+
+bool is_pressed(const models::Setup& setup, std::size_t i) {
+  const std::optional<UserSpec>& user = setup.scene.user;
+  return user && user->kind == UserKind::press_release &&
+         pressed_object(setup.scene.objects, user->object, "user") == i;
+}
+
+PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  if (is_pressed(setup, i)) return press_point(setup.scene, *setup.scene.user);
+  const Object& object = scene.objects[i];
+  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  return {object.X_WO * near.point, object.X_WO * near.normal};
+}
+
+TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  TouchedPlace found{touched_point(setup, scene, i), {}, {}, is_pressed(setup, i)};
+  const Arm& arm = impedance_of(scene).arm;
+  found.joints = arm.zero();
+  static_cast<void>(arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
+  found.way = scene.X_WR.inverse() * found.at.normal;
+  return found;
+}
+
+// N/m: highest stiffness that an object asks of an arm.
+double stiffest_asked(const Impedance& law, const Object& object) {
+  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
+  return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
+}
 
 constexpr double kBeside = 0.05;  // m: so far beside the first place others are tried. A hand's breadth
 
@@ -293,19 +246,6 @@ std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene&
 
 namespace {
 
-bool is_pressed(const models::Setup& setup, std::size_t i) {
-  const std::optional<UserSpec>& user = setup.scene.user;
-  return user && user->kind == UserKind::press_release &&
-         pressed_object(setup.scene.objects, user->object, "user") == i;
-}
-
-PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i) {
-  if (is_pressed(setup, i)) return press_point(setup.scene, *setup.scene.user);
-  const Object& object = scene.objects[i];
-  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
-  return {object.X_WO * near.point, object.X_WO * near.normal};
-}
-
 // The force of a press to a depth, the most on the way.
 double asked_at(const Impedance& law, const Object& object, double depth) {
   constexpr int kSteps = 50;
@@ -345,20 +285,6 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
 
 }  // namespace
 
-TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
-  TouchedPlace found{touched_point(setup, scene, i), {}, {}, is_pressed(setup, i)};
-  const Arm& arm = impedance_of(scene).arm;
-  found.joints = arm.zero();
-  static_cast<void>(arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
-  found.way = scene.X_WR.inverse() * found.at.normal;
-  return found;
-}
-
-double stiffest_asked(const Impedance& law, const Object& object) {
-  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
-  return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
-}
-
 std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
   std::vector<ArmStrength> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
@@ -379,6 +305,89 @@ std::string beyond_text(const ArmStrength& at) {
         at.presses > 1 ? fmt::format(", press {} of {}", at.gives_way_in, at.presses) : "", at.holds_for,
         at.lasting, at.presses > 1 ? ", or rest longer" : "");
   return {};
+}
+
+bool Certified::beyond() const {
+  const Class verdict = certificate.verdict;
+  if (free_tip()) return verdict == Class::held || verdict == Class::local || verdict == Class::unstable;
+  return verdict == Class::unheld || verdict == Class::local || verdict == Class::unstable;
+}
+
+std::string name_of(const Certified& certified) {
+  return certified.object.empty() ? "the tip that nobody touches" : "object '" + certified.object + "'";
+}
+
+namespace {
+
+// "delay: more than 600 periods" says what is wrong with it.
+std::string missing_text(const certificate::Certificate& of) {
+  return (of.missing.find(':') == std::string::npos ? "no " : "") + of.missing;
+}
+
+std::string mend_of(const models::Setup& setup, const std::string& missing) {
+  if (!setup.rig.arm.loop) return "write [arm.loop] into the rig, as models/rigs/vishap.toml has it";
+  if (missing.starts_with("hand"))
+    return "write 'hand_stiffness_N_per_mm' and 'hand_damping_Ns_per_m' into its [contact]";
+  if (missing.starts_with("delay")) return "correct 'delay_ms' in its [arm.loop]";
+  if (missing == "damping") return "correct 'viscous_Nms' in its [arm.loop]";
+  if (missing == "friction") return "correct 'friction_Nm' in its [arm.loop]";
+  if (missing == "encoder step") return "correct 'counts' in its [arm.loop]";
+  if (missing == "mass") return "correct the masses in its [arm.machine]";
+  if (missing.starts_with("what a release does")) return "make it stiffer, so that it swings sooner";
+  return "correct its [arm]";
+}
+
+}  // namespace
+
+std::string class_text(const Certified& certified) {
+  const certificate::Certificate& of = certified.certificate;
+  const std::string words(word_of(of.verdict));
+  if (certified.unknown()) return words + ": " + missing_text(of);
+  std::string text = fmt::format("{}, at {:.3g} N/mm", words, 1e-3 * certified.asked);
+  if (std::isnan(certified.ramp))
+    text += fmt::format("; let go 0.1 mm beside its target: {}, 1 mm: {}", word_of(of.small.rest),
+                        word_of(of.large.rest));
+  return text;
+}
+
+std::string refusal_text(const models::Setup& setup, const Certified& certified) {
+  const certificate::Certificate& of = certified.certificate;
+  if (certified.unknown())
+    return fmt::format("whether {} is stable is not known: {}; {}", name_of(certified), missing_text(of),
+                       mend_of(setup, of.missing));
+  if (!certified.beyond()) return {};
+  if (certified.swing > 0.0)
+    return fmt::format(
+        "{}, pushed {:.1f} mm deep in {:g} s by a hand of {:g} N/mm, swings by {:.1f} mm: it is softer "
+        "than this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
+        name_of(certified), certified.depth * 1e3, certified.ramp, setup.rig.contact.hand_stiffness * 1e-3,
+        certified.swing * 1e3);
+  if (!std::isnan(certified.ramp))
+    return fmt::format(
+        "{} is {} under a hand of {:g} N/mm: {:.3g} N/mm, and the loop needs {:.3g}; make it "
+        "stiffer, or set rig.admittance.damping=observed",
+        name_of(certified), word_of(of.verdict), setup.rig.contact.hand_stiffness * 1e-3,
+        1e-3 * certified.asked, 1e-3 * certificate::row_of(of, "admittance").low);
+  if (certified.free_tip()) {
+    const certificate::Row& alone = certificate::row_of(of, "exact_alone");
+    return fmt::format(
+        "{} is held by {:.3g} N/mm and is {}: the loop without a hand is stable from {:.3g} to {:.3g} N/mm; "
+        "make "
+        "it {}",
+        name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * alone.low, 1e-3 * alone.bound,
+        certified.asked < alone.low ? "stiffer" : "softer");
+  }
+  const certificate::Row& held = certificate::row_of(of, "exact_with_hand");
+  return fmt::format(
+      "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
+      "to {:.3g} N/mm; make it {}",
+      name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * held.low, 1e-3 * held.bound,
+      certified.asked < held.low ? "stiffer" : "softer");
+}
+
+std::string key_of(const Certified& certified) {
+  if (certified.unknown() && !certified.certificate.missing.starts_with("what")) return "rig.arm.loop";
+  return certified.free_tip() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
 }
 
 }  // namespace enc::trial

@@ -56,18 +56,6 @@ struct Certified {
 // Law of an arm; only for the scene of an arm.
 [[nodiscard]] inline const Impedance& impedance_of(const Scene& scene) { return *scene.impedance(); }
 
-// Place at which an arm touches an object, the user's press or the point nearest to home, with the joints
-// there and the outward normal in R.
-struct TouchedPlace {
-  PressPoint at;
-  PerJoint joints{};
-  Vec<'R'> way;
-  bool pressed = false;  // the place is from the user's plan
-};
-[[nodiscard]] TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t object);
-// N/m: highest stiffness that an object asks of an arm.
-[[nodiscard]] double stiffest_asked(const Impedance& law, const Object& object);
-
 // Strength of an arm at an object, at the user's press or nearest to home, and the scene's demand.
 struct ArmStrength {
   std::string object;

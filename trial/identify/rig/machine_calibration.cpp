@@ -87,8 +87,7 @@ class MeanTurn {
   Eigen::Vector4d sum_ = Eigen::Vector4d::Zero();
 };
 
-}  // namespace
-
+// True if the whole path of go() between two poses is within reach.
 bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
                   const Pose<'W', 'H'>& to) {
   constexpr int kSteps = 100;
@@ -97,6 +96,8 @@ bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W'
     if (!reach.contains(X_RW * between(from, to, static_cast<double>(i) / kSteps))) return false;
   return true;
 }
+
+}  // namespace
 
 CarriedTool::CarriedTool(models::Setup setup, TrialOptions options)
     : trial_(bare(std::move(setup)), with_law(std::move(options))) {}

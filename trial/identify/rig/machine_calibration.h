@@ -27,10 +27,6 @@ struct CarriedStand {
   std::size_t packets = 0;  // packets in which the tracker saw the clamped tool
 };
 
-// True if the whole path of go() between two poses is within reach.
-[[nodiscard]] bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
-                                const Pose<'W', 'H'>& to);
-
 // Thrown when the run was asked to end; every moving device has been stopped.
 struct CarryingEnded {};
 
