@@ -4,7 +4,6 @@
 #include <string>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
@@ -15,8 +14,7 @@ namespace enc::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::MatchesRegex;
+using testing::HasSubstr, testing::MatchesRegex;
 
 // As much of a clone as the script reads.
 class FirstCall : public testing::Test {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "app/view/recorded/source.h"
 #include "tests/support/built.h"
@@ -19,8 +18,7 @@ class Recorded : public testing::Test {
   void SetUp() override {
     const std::string scene = tests::source_dir() + "/models/scenes/session.toml";
     const models::Setup setup = models::load(scene, {}, {});
-    trial::TrialOptions options;
-    options.seconds = 4.0;
+    trial::TrialOptions options{.seconds = 4.0};
     trial::SteeringLog log;
     options.steer = [&](std::int64_t tick) -> std::optional<trial::HandWord> {
       std::optional<trial::HandWord> word;

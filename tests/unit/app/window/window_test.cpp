@@ -1,17 +1,18 @@
-// Every key and mouse action on the window's help page, without a window.
-#include "app/window/controls.h"
-
+// The window without a screen: every key and mouse action on its help page, its link to the run, its
+// timeline.
 #include <cmath>
 #include <set>
-#include <string>
 
 #include <gtest/gtest.h>
+
+#include "app/window/controls.h"
+#include "app/window/history/timeline.h"
+#include "app/window/link.h"
 
 namespace enc::app {
 namespace {
 
-using sim::Key;
-using sim::WindowEvent;
+using sim::Key, sim::WindowEvent;
 
 class WindowControls : public testing::Test {
  protected:
@@ -344,6 +345,181 @@ TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
   for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record})
     for (const Controls::Help& line : Controls::help_lines(of))
       EXPECT_TRUE(tested.contains(line.key)) << line.key;
+}
+
+// The run's side of a window: a change of mode that it waits for stops time there, whatever is wished.
+
+constexpr double kTick = 1e-3;  // s
+
+class WindowLink : public testing::Test {
+ protected:
+  // Whether the run goes on by a tick within 20 asks.
+  bool goes_on() {
+    for (int i = 0; i < 20; ++i)
+      if (!link_.waits(kTick)) return true;
+    return false;
+  }
+  void tick(Mode mode) {
+    out_.mode = mode;
+    link_.see({scene_, now_, truth_, in_, out_});
+  }
+  Link link_;
+  Scene scene_;
+  Tick now_;
+  sim::Truth truth_;
+  Inputs in_;
+  Outputs out_;
+};
+
+TEST_F(WindowLink, PausesAndGoesTickByTick) {
+  EXPECT_TRUE(goes_on());
+  link_.wish({.paused = true});
+  EXPECT_FALSE(goes_on());
+  link_.wish({.paused = true, .ticks = 2});
+  EXPECT_TRUE(goes_on());
+  EXPECT_TRUE(goes_on());
+  EXPECT_FALSE(goes_on());
+  link_.wish({});
+  EXPECT_TRUE(goes_on());
+}
+
+TEST_F(WindowLink, StandsAtTheEventUntilTheWindowKnows) {
+  link_.wish({.to_event = true});
+  tick(Mode::away);
+  EXPECT_TRUE(goes_on());
+  tick(Mode::follow);
+  EXPECT_FALSE(goes_on());
+  link_.wish({.to_event = true});  // of a picture that was begun before
+  EXPECT_FALSE(goes_on());
+  EXPECT_TRUE(link_.take_event());
+  EXPECT_FALSE(link_.take_event());
+  EXPECT_FALSE(goes_on()) << "paused, until the window says otherwise";
+  link_.wish({});
+  EXPECT_TRUE(goes_on());
+}
+
+TEST_F(WindowLink, ARunOnTheWallClockNeverWaits) {
+  link_.let_go();
+  EXPECT_TRUE(link_.begin(true));
+  link_.wish({.paused = true, .speed = 0.01});
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(link_.waits(kTick));
+}
+
+TEST_F(WindowLink, ThePlaceOfTheHandIsNewsOnce) {
+  EXPECT_FALSE(link_.hand());
+  link_.wish({.hand = Point<'W'>(1, 2, 3)});
+  link_.wish({.hand = Point<'W'>(1, 2, 3)});
+  EXPECT_EQ(link_.hand()->place->xyz, (std::array{1.0, 2.0, 3.0}));
+  EXPECT_FALSE(link_.hand());
+}
+
+// A change of tool is asked for once, also when nobody listened to the first wish; faults last.
+TEST_F(WindowLink, ToolAndFaultsReachTheRun) {
+  link_.wish({.changes_tool = true, .faults = 2});
+  link_.wish({.faults = 2});
+  const auto word = link_.hand();
+  ASSERT_TRUE(word);
+  EXPECT_TRUE(word->changes_tool && word->faults == 2 && !word->place);
+  EXPECT_FALSE(link_.hand());
+  link_.wish({});
+  EXPECT_EQ(link_.hand()->faults, 0);
+}
+
+TEST_F(WindowLink, AStopComesBeforeAResume) {
+  link_.wish({.stops = true, .resumes = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt);
+  link_.wish({.resumes = true});
+  link_.wish({.stops = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt);
+  link_.wish({.stops = true});
+  link_.wish({.resumes = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt) << "not taken yet";
+  EXPECT_EQ(link_.machine(), trial::Hand::none);
+}
+
+TEST_F(WindowLink, ARunWithoutItsWindowIsRefused) {
+  link_.refuse();
+  EXPECT_FALSE(link_.begin(false));
+}
+
+// Earlier moments of a run: kept up to a number, and shown until somebody returns to the present.
+
+class WindowTimeline : public testing::Test {
+ protected:
+  void add(int count, Mode mode = Mode::follow) {
+    for (int i = 0; i < count; ++i) {
+      Still still;
+      still.now.t = Time{} + from_seconds(0.01 * added_++);
+      still.out.mode = mode;
+      timeline_.add(still);
+    }
+  }
+  [[nodiscard]] int shown() const {
+    return static_cast<int>(std::lround(100.0 * seconds_of(timeline_.shown())));
+  }
+  Timeline timeline_{100};
+  int added_ = 0;
+};
+
+TEST_F(WindowTimeline, ShowsTheNewestUntilSomebodyLooksBack) {
+  add(50);
+  EXPECT_EQ(shown(), 49);
+  EXPECT_FALSE(timeline_.past());
+  timeline_.step(-10);
+  EXPECT_TRUE(timeline_.past());
+  add(30);
+  EXPECT_EQ(shown(), 39) << "what is looked at stays";
+  timeline_.seek(1.0);
+  add(1);
+  EXPECT_EQ(shown(), 80) << "from the present on it goes on";
+}
+
+TEST_F(WindowTimeline, TheOldestGoFirst) {
+  add(250);
+  timeline_.seek(0.0);
+  EXPECT_EQ(shown(), 150);
+  add(20);
+  EXPECT_EQ(shown(), 170) << "the one that was looked at is gone";
+  timeline_.step(-5);
+  EXPECT_EQ(shown(), 170);
+  timeline_.step(1000);
+  EXPECT_EQ(shown(), 269);
+}
+
+TEST_F(WindowTimeline, PlaysInTime) {
+  add(100);
+  timeline_.seek(0.0);
+  for (int i = 0; i < 30; ++i) timeline_.go_on(0.0034);
+  EXPECT_EQ(shown(), 10);
+  timeline_.go_on(5.0);
+  EXPECT_EQ(shown(), 99);
+  EXPECT_FALSE(timeline_.past());
+}
+
+TEST_F(WindowTimeline, StopsAtAChangeOfMode) {
+  add(20);
+  add(30, Mode::contact);
+  add(20);
+  timeline_.seek(0.0);
+  timeline_.to_change();
+  EXPECT_EQ(shown(), 20);
+  timeline_.to_change();
+  EXPECT_EQ(shown(), 50);
+  timeline_.to_change();
+  EXPECT_EQ(shown(), 69);
+}
+
+TEST_F(WindowTimeline, TheBarMarksContacts) {
+  EXPECT_FALSE(timeline_.bar().shown);
+  add(20);
+  add(30, Mode::contact);
+  add(51);
+  const sim::ViewBar bar = timeline_.bar();
+  EXPECT_TRUE(bar.shown);
+  EXPECT_FLOAT_EQ(bar.at, 1.0F);
+  ASSERT_EQ(bar.marks.size(), 1U);
+  EXPECT_NEAR(bar.marks[0].from, 19.0 / 99.0, 1e-6);  // the first of 101 is gone
+  EXPECT_NEAR(bar.marks[0].to, 49.0 / 99.0, 1e-6);
 }
 
 }  // namespace
