@@ -48,12 +48,7 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::f
 namespace enc {
 namespace {
 
-using test::draw;
-using test::kToolRadius;
-using test::kTop;
-using test::Loop;
-using test::make;
-using test::with_display;
+using test::draw, test::kToolRadius, test::kTop, test::Loop, test::make, test::with_display;
 
 TEST(Loop, AllocatesNothingAsATestRig) {
   Loop loop(prepare(test::rig_scene(), RigSpec{}));
@@ -75,8 +70,7 @@ TEST(Loop, AllocatesNothing) {
   Loop loop = make(with_display());
   Inputs in;
   Outputs out;
-  std::int64_t taken = 0;
-  std::int64_t modes = 0;
+  std::int64_t taken = 0, modes = 0;
   loop.spoil = [&](Inputs& i) { draw(i, loop); };
   for (int i = 0; i < 4000; ++i) {
     loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + 0.02 * std::cos(i * 2e-3));

@@ -13,17 +13,8 @@
 namespace enc {
 namespace {
 
-using test::draw;
-using test::expect_within_limits;
-using test::kBallRadius;
-using test::kTipRadius;
-using test::kToolRadius;
-using test::kTop;
-using test::Loop;
-using test::make;
-using test::to_contact;
-using test::wait_under;
-using test::with_display;
+using test::draw, test::expect_within_limits, test::kBallRadius, test::kTipRadius, test::kToolRadius,
+    test::kTop, test::Loop, test::make, test::to_contact, test::wait_under, test::with_display;
 
 // A display, and a second tool in the gripper.
 SceneSpec with_gripper() {
@@ -40,8 +31,8 @@ void hold_tool(Inputs& in, const Loop& loop) {
 }
 
 // Calls spoil for one tick and expects hold with all of `why`; the next good tick must go on as before.
-void expect_hold_and_recovery(Loop& loop, const std::function<void(Inputs&)>& spoil, std::uint32_t why,
-                              const std::string& name) {
+void expect_hold(Loop& loop, std::uint32_t why, const std::string& name,
+                 const std::function<void(Inputs&)>& spoil) {
   const Mode before = loop.out.mode;
   const auto good = loop.spoil;
   loop.spoil = [&](Inputs& in) {
@@ -97,13 +88,10 @@ TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
                                 : starts("dent")                      ? kDentWrong
                                 : starts("grip")                      ? kToolNotHeld
                                                                       : kTipInvalid;
-      expect_hold_and_recovery(
-          loop,
-          [&](Inputs& in) {
-            SetLeaf set{i, bad, 0, {}};
-            fields(set, in);
-          },
-          why, find.name + " = " + std::to_string(bad));
+      expect_hold(loop, why, find.name + " = " + std::to_string(bad), [&](Inputs& in) {
+        SetLeaf set{i, bad, 0, {}};
+        fields(set, in);
+      });
     }
   }
   EXPECT_GT(leaves, 5 * 30);
@@ -118,8 +106,7 @@ TEST(Hold, WhenTheGripperLosesItsToolOrSaysNothing) {
   };
   to_contact(loop);
   const auto expect = [&](const std::function<void(Stamped<GripSample>&)>& spoil, const char* name) {
-    expect_hold_and_recovery(
-        loop, [&](Inputs& in) { spoil(in.grip); }, kToolNotHeld, name);
+    expect_hold(loop, kToolNotHeld, name, [&](Inputs& in) { spoil(in.grip); });
     EXPECT_TRUE(loop.out.grip.closed) << name;  // in hold, too: to let go would drop the tool
   };
   expect([](auto& s) { s.value.holding = false; }, "empty");
@@ -135,25 +122,19 @@ TEST(Hold, ForIndicesAndStampsThatCannotBe) {
   to_contact(loop);
   const Time future = Time(Duration(1'000'000'000'000));
   for (const std::int32_t bad : {-2, 1, 1 << 30, -(1 << 30)})  // -1: none recognised, no fault
-    expect_hold_and_recovery(
-        loop, [&](Inputs& in) { in.tool.value.tool = bad; }, kToolInvalid, "tool " + std::to_string(bad));
+    expect_hold(loop, kToolInvalid, "tool " + std::to_string(bad),
+                [&](Inputs& in) { in.tool.value.tool = bad; });
   for (const std::int32_t bad : {-2, 1, 1 << 30})
-    expect_hold_and_recovery(
-        loop, [&](Inputs& in) { in.dent.value.object = bad; }, kDentWrong, "dent " + std::to_string(bad));
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.tool.t = future; }, kToolInvalid, "tool from the future");
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.wrench.t = future; }, kForceInvalid, "force from the future");
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.tip.t = future; }, kTipInvalid, "tip from the future");
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.dent.t = future; }, kDentWrong, "dent from the future");
+    expect_hold(loop, kDentWrong, "dent " + std::to_string(bad),
+                [&](Inputs& in) { in.dent.value.object = bad; });
+  expect_hold(loop, kToolInvalid, "tool from the future", [&](Inputs& in) { in.tool.t = future; });
+  expect_hold(loop, kForceInvalid, "force from the future", [&](Inputs& in) { in.wrench.t = future; });
+  expect_hold(loop, kTipInvalid, "tip from the future", [&](Inputs& in) { in.tip.t = future; });
+  expect_hold(loop, kDentWrong, "dent from the future", [&](Inputs& in) { in.dent.t = future; });
   // Stamps as old as a stamp can be: lost, without overflow (UBSan looks on).
   const Time oldest = Time::min();
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.wrench.t = oldest; }, kForceLost, "oldest force");
-  expect_hold_and_recovery(
-      loop, [&](Inputs& in) { in.tip.t = oldest; }, kTipLost, "oldest tip");
+  expect_hold(loop, kForceLost, "oldest force", [&](Inputs& in) { in.wrench.t = oldest; });
+  expect_hold(loop, kTipLost, "oldest tip", [&](Inputs& in) { in.tip.t = oldest; });
 }
 
 // A tip that brakes straight on would leave a round object: 45 mm/s over 2 * 0.6 * 0.41 m/s^2 is 4 mm along
@@ -165,8 +146,7 @@ TEST(Hold, BrakingOnARoundObjectStaysInsideAndEnds) {
     Loop loop = make(spec);
     wait_under(loop, 0.001);
     const auto slide = [&](double arc) {
-      const double a = arc / kBallRadius;
-      const double r = kBallRadius + kToolRadius + 0.001;
+      const double a = arc / kBallRadius, r = kBallRadius + kToolRadius + 0.001;
       loop.tool_tip = Point<'W'>(r * std::sin(a), 0, kTop - kBallRadius + r * std::cos(a));
     };
     double arc = 0.0;
@@ -190,24 +170,16 @@ TEST(Hold, ForHealthThatIsNotGood) {
   Loop loop = make(with_display());
   loop.spoil = [&](Inputs& in) { draw(in, loop); };
   to_contact(loop);
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.tool.health = Health::fault; }, kTrackerFault, "tool fault");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.wrench.health = Health::fault; }, kForceInvalid, "force fault");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.wrench.health = Health::absent; }, kForceLost, "force absent");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.wrench.health = Health::saturated; }, kForceSaturated, "saturated");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.wrench.health = Health::out_of_range; }, kForceSaturated, "out of range");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.tip.health = Health::fault; }, kTipInvalid, "tip fault");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.tip.health = Health::absent; }, kTipLost, "tip absent");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.dent.health = Health::fault; }, kDentWrong, "dent fault");
-  expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.missed = 5; }, kClockLate, "late");
+  expect_hold(loop, kTrackerFault, "tool fault", [](Inputs& in) { in.tool.health = Health::fault; });
+  expect_hold(loop, kForceInvalid, "force fault", [](Inputs& in) { in.wrench.health = Health::fault; });
+  expect_hold(loop, kForceLost, "force absent", [](Inputs& in) { in.wrench.health = Health::absent; });
+  expect_hold(loop, kForceSaturated, "saturated", [](Inputs& in) { in.wrench.health = Health::saturated; });
+  expect_hold(loop, kForceSaturated, "out of range",
+              [](Inputs& in) { in.wrench.health = Health::out_of_range; });
+  expect_hold(loop, kTipInvalid, "tip fault", [](Inputs& in) { in.tip.health = Health::fault; });
+  expect_hold(loop, kTipLost, "tip absent", [](Inputs& in) { in.tip.health = Health::absent; });
+  expect_hold(loop, kDentWrong, "dent fault", [](Inputs& in) { in.dent.health = Health::fault; });
+  expect_hold(loop, kClockLate, "late", [](Inputs& in) { in.missed = 5; });
   loop.spoil = [&](Inputs& in) {
     draw(in, loop);
     in.missed = 4;  // fewer than late_cycles
@@ -263,24 +235,19 @@ TEST(Hold, TipOutsideTheSeenSurface) {
   // The eye is shown a dent of 5 mm where the hand is at 2 mm: margin 0.8 mm + 20 ms * 50 mm/s = 1.8 mm < 3
   // mm.
   const Object& ball = loop.scene.objects[0];
-  expect_hold_and_recovery(
-      loop,
-      [&](Inputs& in) {
-        in.dent.value =
-            dent_of(ball.surface, 0,
-                    {ball.X_WO.inverse() * Point<'W'>(0, 0, kTop + kToolRadius - 0.005), kToolRadius});
-      },
-      kOutsideDent, "dent of 5 mm");
+  expect_hold(loop, kOutsideDent, "dent of 5 mm", [&](Inputs& in) {
+    in.dent.value = dent_of(
+        ball.surface, 0, {ball.X_WO.inverse() * Point<'W'>(0, 0, kTop + kToolRadius - 0.005), kToolRadius});
+  });
 }
 
 TEST(Hold, TipOutsideTheObject) {
   Loop loop = make(test::ball_scene());
   to_contact(loop);
   const double up = kTop - kTipRadius + 60e-6;  // tolerance 50 um
-  expect_hold_and_recovery(
-      loop,
-      [&](Inputs& in) { in.tip.value.X_RH.xyz = (loop.scene.X_WR.inverse() * Point<'W'>(0, 0, up)).xyz; },
-      kOutsideObject, "60 um out");
+  expect_hold(loop, kOutsideObject, "60 um out", [&](Inputs& in) {
+    in.tip.value.X_RH.xyz = (loop.scene.X_WR.inverse() * Point<'W'>(0, 0, up)).xyz;
+  });
 }
 
 TEST(Hold, StandsStillWithinTheBrakingDistance) {

@@ -1,4 +1,4 @@
-// step() driven by hand: each mode and each change between them, and which object it is about.
+// step() driven by hand: each mode and each change between them, which object it is about, forces, the state.
 #include "core/control/step.h"
 
 #include <random>
@@ -6,20 +6,16 @@
 #include <gtest/gtest.h>
 
 #include "core/control/stages/walk.h"
+#include "core/control/task/state.h"
+#include "core/record/state_hash.h"
 #include "tests/support/by_hand.h"
+#include "tests/support/scenes.h"
 
 namespace enc {
 namespace {
 
-using test::expect_within_limits;
-using test::kBallRadius;
-using test::kSkin;
-using test::kTipRadius;
-using test::kToolRadius;
-using test::kTop;
-using test::Loop;
-using test::make;
-using test::wait_under;
+using test::expect_within_limits, test::kBallRadius, test::kSkin, test::kTipRadius, test::kToolRadius,
+    test::kTop, test::Loop, test::make, test::wait_under;
 
 TEST(Follow, WaitsJustInsideTheSurfaceUnderTheTool) {
   Loop loop = make(test::ball_scene());
@@ -29,8 +25,7 @@ TEST(Follow, WaitsJustInsideTheSurfaceUnderTheTool) {
   EXPECT_NEAR(loop.out.gap, 0.010, 1e-12);
   // 20 degrees aside: the nearest point turns by as much, seen from the centre.
   const double a = 20.0 * M_PI / 180.0;
-  const Vec3 n(std::sin(a), 0, std::cos(a));
-  const Vec3 centre(0, 0, kTop - kBallRadius);
+  const Vec3 n(std::sin(a), 0, std::cos(a)), centre(0, 0, kTop - kBallRadius);
   loop.tool_tip = Point<'W'>(Vec3(centre + (kBallRadius + 0.030) * n));
   loop.tick(2000);
   EXPECT_LT((loop.tip().e() - (centre + (kBallRadius - 0.0055) * n)).norm(), 1e-9);
@@ -184,8 +179,7 @@ TEST(Restore, EndsAlsoWhereTheBufferedPointIsOutOfReach) {
   // 100 degrees from the top the tip would have to be at z = -25 - 28 cos 80 = -30 mm; the machine ends at
   // about -25.
   const double a = 100.0 * M_PI / 180.0;
-  const Vec3 centre(0, 0, kTop - kBallRadius);
-  const Vec3 n(std::sin(a), 0, std::cos(a));
+  const Vec3 centre(0, 0, kTop - kBallRadius), n(std::sin(a), 0, std::cos(a));
   loop.tool_tip = Point<'W'>(Vec3(centre + (kBallRadius + kToolRadius - 1e-4) * n));
   loop.tick(200);
   ASSERT_EQ(loop.out.mode, Mode::contact);
@@ -215,8 +209,7 @@ TEST(Contact, SlidingOffTheTipEndsItWithoutAGap) {
   loop.force = Vec<'W'>(0, 0, -2.0);
   loop.tick(1000);
   ASSERT_EQ(loop.out.mode, Mode::contact);
-  // 10 mm aside, more than both radii (7 mm), still below the undeformed surface, and nothing presses any
-  // more.
+  // 10 mm aside, more than both radii (7 mm), below the undeformed surface, and nothing presses.
   const double a = 10.0 / 33.0;
   loop.tool_tip = Point<'W'>(0.0335 * std::sin(a), 0, kTop - kBallRadius + 0.0335 * std::cos(a));
   loop.force = Vec<'W'>::zero();
@@ -292,8 +285,7 @@ TEST(Objects, TheNearerOneTakesOverWithHysteresis) {
   std::int32_t last = -1;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> noise(-0.4e-3, 0.4e-3);
-  // Along x through the middle with +-0.4 mm of noise: the difference of distances changes by less than the
-  // hysteresis of 1 mm.
+  // Along x through the middle with +-0.4 mm of noise: distances differ by less than the hysteresis of 1 mm.
   for (int i = -400; i <= 400; ++i) {
     loop.tool_tip = Point<'W'>(1e-4 * i + noise(random), 0, 0.05);
     loop.tick();
@@ -319,6 +311,124 @@ TEST(Objects, AContactIsNotTakenAwayByANeighbour) {
   loop.tick(20);
   EXPECT_EQ(loop.out.object, 0);
   EXPECT_EQ(loop.out.mode, Mode::contact);
+}
+
+// step() driven by hand: what is felt, and what a force moves.
+
+TEST(Force, ZeroErrorAndWeightAreTaredAway) {
+  Loop loop = make(test::ball_scene());
+  loop.force_zero = Vec<'F'>(0.7, -0.4, 1.3);
+  loop.tool_tip = Point<'W'>(0, 0, kTop + 0.012);
+  for (int i = 0; i < 199; ++i) EXPECT_TRUE(loop.tick().why & kTaring) << i;  // tare_time is 0.2 s
+  loop.tick(2);
+  EXPECT_FALSE(loop.out.why & kTaring);
+  loop.tick(1000);
+  EXPECT_LT(loop.out.force.norm(), 1e-9);
+}
+
+// [issue 3] "a rotated sensor and an oblique force give the exact displacement to 1e-9".
+void oblique(Tangential tangential) {
+  BehaviourSpec behaviour = test::spring();
+  behaviour.tangential = tangential;
+  behaviour.tangential_stiffness = 4000.0;
+  RigSpec rig = test::exact_rig();
+  rig.frames.H_F = {{0.004, -0.003, -0.127}, {0.3, -0.7, 2.1}};
+  rig.force.tare = Tare::start;
+  Loop loop = make(test::ball_scene(behaviour), rig);
+  loop.force_zero = Vec<'F'>(0.7, -0.4, 1.3);
+  loop.tool_tip = Point<'W'>(0.006, 0.004, 0.030);
+  loop.tick(1500);
+  // Touch there, where the normal is oblique in W as well.
+  const Vec3 centre(0, 0, kTop - kBallRadius);
+  const Vec3 n = (loop.tool_tip.e() - centre).normalized();
+  loop.tool_tip = Point<'W'>(Vec3(centre + (kBallRadius + kToolRadius - 1e-4) * n));
+  loop.tick();
+  ASSERT_EQ(loop.out.mode, Mode::contact);
+  const Vec3 side = n.unitOrthogonal();
+  loop.force = Vec<'W'>(Vec3(-3.05 * n + 1.2 * side));
+  loop.tick(4000);
+  // Normal: (3.05 - 0.05) / 2000 = 1.5 mm inwards. Sideways: 1.2 / 4000 = 0.3 mm with the force, or nothing.
+  const double sideways = tangential == Tangential::spring ? 0.3e-3 : 0.0;
+  const Vec3 expected = centre + (kBallRadius - kTipRadius - kSkin - 1.5e-3) * n + sideways * side;
+  EXPECT_LT((loop.tip().e() - expected).norm(), 1e-9);
+  EXPECT_NEAR(loop.out.force.norm(), std::hypot(3.05, 1.2), 1e-9);
+  expect_within_limits(loop);
+}
+TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForStick) { oblique(Tangential::stick); }
+TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForSpring) { oblique(Tangential::spring); }
+
+TEST(Force, InertiaOfWhatMovesIsNoContact) {
+  Loop loop = make(test::ball_scene());
+  wait_under(loop, 0.020);
+  double felt = 0.0;
+  for (int i = 0; i < 3000;
+       ++i) {  // the tip is driven to and fro at its limits; 0.91 kg * 0.41 m/s^2 = 0.37 N
+    const double a = i % 1000 < 500 ? 0.4 : -0.4;
+    loop.tool_tip = Point<'W'>(0.06 * std::sin(a), 0, kTop - kBallRadius + 0.06 * std::cos(a));
+    felt = std::max(felt, loop.tick().force.norm());
+  }
+  EXPECT_LT(felt, 1e-6);
+  EXPECT_GT(loop.worst_acceleration, 0.9);
+}
+
+struct Count {
+  int leaves = 0;
+  template <class T>
+  void operator()(std::string_view, T&) {
+    ++leaves;
+  }
+};
+template <class Task>
+int leaves_of() {
+  Count count;
+  State state;
+  state.task = typename Task::Memory();
+  fields(count, state);
+  return count.leaves;
+}
+
+// What other tasks remember is neither there nor hashed.
+TEST(State, ATickHashesWhatItsTaskHas) {
+  Count shared;
+  State state;
+  fields(shared, state);
+  for (const int leaves : {leaves_of<Render>(), leaves_of<Meet>(), leaves_of<Probe>(), leaves_of<Travel>()}) {
+    EXPECT_GT(leaves, shared.leaves);
+    EXPECT_LT(leaves, shared.leaves + 125);
+  }
+  EXPECT_GE(leaves_of<Push>(), leaves_of<Meet>() + 9 * static_cast<int>(kMostMoving));
+}
+
+TEST(State, AStateHasTheMemoryOfItsScenesTask) {
+  Loop loop(prepare(test::ball_scene(), RigSpec{}));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(loop.state.task));
+  EXPECT_EQ(recall<Rendering>(loop.state).contact.object, -1) << "nothing yet";
+  loop.tick();
+  EXPECT_TRUE(std::holds_alternative<Rendering>(loop.state.task));
+  EXPECT_FALSE(recall<Meeting>(loop.state).aim.target.finite()) << "another task's";
+  EXPECT_TRUE(recall<Commanded>(loop.state).command.finite()) << "what several tasks share";
+}
+
+// A state goes on in a scene of another task as one that knows nothing of it.
+TEST(State, OfAnotherTaskBeginsAnew) {
+  Loop loop(prepare(test::ball_scene(), RigSpec{}));
+  loop.tick(500);
+  EXPECT_TRUE(loop.state.started && loop.out.tip.valid());
+  loop.state.task.emplace<Probing>().phase = ProbePhase::push;
+  loop.tick();
+  EXPECT_TRUE(std::holds_alternative<Rendering>(loop.state.task));
+  EXPECT_TRUE(loop.out.tip.valid()) << "it begins where the machine is";
+}
+
+TEST(State, ABallsSceneRemembersItsPart) {
+  RecordProperty("state_bytes", static_cast<int>(sizeof(State)));
+  RecordProperty("of_a_ball", static_cast<int>(remembered<Render>()));
+  std::printf(
+      "State %zu bytes; of a scene that renders %zu, meets %zu, pushes %zu, probes %zu, travels %zu\n",
+      sizeof(State), remembered<Render>(), remembered<Meet>(), remembered<Push>(), remembered<Probe>(),
+      remembered<Travel>());
+  EXPECT_LT(remembered<Render>(), 1200U);  // 96 of them of its passivity controller
+  EXPECT_GT(sizeof(State), remembered<Render>() + 500U) << "what only other tasks need";
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/machine/arm_shape.h"
+#include "core/machine/loop_model.h"
 
 namespace enc {
 namespace {
@@ -234,6 +236,141 @@ TEST(Arm, RefusesWhatCannotBe) {
   refused([](ArmMachine& m) { m = {}, m.phantom.m_be = -0.1; });
   refused([](ArmMachine& m) { m = {}, m.phantom.coupled_low = 2.0; });
   refused([](ArmMachine& m) { m = {}, m.phantom.l1 = kUnset; });
+}
+
+// The shape of an arm against its kinematics: it ends where the tip is, and its links join.
+
+const Pose<'W', 'R'> kBase(Quat(Eigen::AngleAxisd(0.4, Vec3(0.2, -0.5, 1.0).normalized())),
+                           Vec3(0.1, -0.2, 0.3));
+const std::array<PerJoint, 3> kPoses{{{0, 0, 0}, {0.5, 0.3, 0.2}, {-0.7, -0.4, 0.6}}};
+
+Vec3 end_of(const ArmPart& part, double end) {
+  return part.middle.e() + end * part.half.z() * part.axes.col(2);
+}
+
+// Whether a rod of that radius has an end there.
+bool ends_at(const std::vector<ArmPart>& parts, const Point<'W'>& at, double radius) {
+  for (const ArmPart& part : parts)
+    for (const double end : {-1.0, 1.0})
+      if (std::abs(part.half.x() - radius) < 1e-9 && (end_of(part, end) - at.e()).norm() < 1e-12) return true;
+  return false;
+}
+
+TEST(ArmShape, APhantomsForearmEndsAtTheTipAndBeginsAtTheElbow) {
+  const Arm arm{ArmMachine{}};
+  const PhantomGeometry& g = arm.machine().phantom;
+  for (const PerJoint& q : kPoses) {
+    const auto parts = arm_shape(arm.machine(), q, kBase);
+    const Vec3 ahead(std::cos(q[0]), std::sin(q[0]), 0.0);
+    const Vec3 elbow = g.l1 * (std::cos(q[1]) * ahead + std::sin(q[1]) * Vec3::UnitZ());
+    const Vec3 fore = std::sin(q[2]) * ahead - std::cos(q[2]) * Vec3::UnitZ();
+    EXPECT_TRUE(ends_at(parts, kBase * arm.tip(q), 0.0045));                    // forearm
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(elbow), 0.0045));             // likewise
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(elbow), 0.0055));             // upper arm
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(Vec3(g.l3 * fore)), 0.005));  // crank
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(Vec3(g.l3 * fore)), 0.003));  // link of the parallelogram,
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(Vec3(elbow + g.l3 * fore)), 0.003));  // to the forearm
+  }
+}
+
+TEST(ArmShape, OfAPhantomTheBaseAloneStandsStill) {
+  const ArmMachine machine;
+  const auto one = arm_shape(machine, kPoses[0], kBase), other = arm_shape(machine, kPoses[1], kBase);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    EXPECT_EQ((one[i].middle - other[i].middle).norm() < 1e-12, i < 3) << i;  // disc, column, turret
+}
+
+// A slide along x, then a hinge about y: the tip hangs 0.1 m below it.
+TEST(ArmShape, AChainEndsAtItsTip) {
+  ArmMachine machine;
+  machine.kind = ArmKind::chain;
+  machine.links = {
+      {"x", JointKind::slide, {1, 0, 0}, {0, 0, 0.2}, 0.1, {0, 0, 0}, {1e-5, 1e-5, 1e-5}},
+      {"swing", JointKind::hinge, {0, 2, 0}, {0.03, 0, 0}, 0.1, {0, 0, -0.05}, {1e-5, 1e-5, 1e-5}}};
+  machine.tip = {0, 0, -0.1};
+  machine.drives[0].low = -0.1;
+  machine.drives[0].high = 0.15;
+  const Arm arm(machine);
+  for (const PerJoint& q : {PerJoint{0, 0, 0}, PerJoint{0.07, 0.5, 0}}) {
+    const auto parts = arm_shape(machine, q, kBase);
+    EXPECT_TRUE(ends_at(parts, kBase * arm.tip(q), 0.006));
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(-0.1, 0, 0.2), 0.004));  // the rail does not move
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(0.15, 0, 0.2), 0.004));
+  }
+}
+
+TEST(ArmShape, APropsFrontIsAtTheTipAndFacesAlongTheNormal) {
+  const Quat q_WN(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));  // its normal is along x of W
+  const ArmPart prop = prop_shape({0.03, 0.05, 0.002}, Point<'W'>(0.1, 0.2, 0.3), q_WN);
+  EXPECT_EQ(prop.form, PartForm::box);
+  EXPECT_LT((end_of(prop, 1.0) - Vec3(0.1, 0.2, 0.3)).norm(), 1e-12);
+  EXPECT_LT((end_of(prop, -1.0) - Vec3(0.098, 0.2, 0.3)).norm(), 1e-12);
+  EXPECT_LT((prop.axes.col(1) - Vec3::UnitY()).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(prop.half.y(), 0.025);
+}
+
+// 1st-order filter and servo of one corner w, damping ratio 1/2, no delay, a pure spring k_h as hand:
+//   k (s^2 + w s + w^2)(s + w) + k_h w^3 = 0  =>  s^3 + 2 w s^2 + 2 w^2 s + w^3 (1 + k_h / k) = 0
+// Routh: 2 w * 2 w^2 > w^3 (1 + k_h / k)  <=>  k > k_h / 3.
+TEST(LoopModel, AgreesWithRouthByHand) {
+  const LoopModel loop{.hand_stiffness = 300.0,
+                       .hand_damping = 0.0,
+                       .filter_hz = 10.0,
+                       .servo_hz = 10.0,
+                       .servo_damping = 0.5,
+                       .delay = 0.0};
+  EXPECT_NEAR(lowest_stable_stiffness(loop), 100.0, 1e-6);
+}
+
+// The same with a damper b: k_h w^3 becomes (b s + k_h) w^3. With B = b w / k, K = k_h / k:
+//   s^3 + 2 w s^2 + (2 + B) w^2 s + (1 + K) w^3 = 0, stable for 2 (2 + B) > 1 + K  <=>  3 k > k_h - 2 b w.
+// k_h = 300 N/m, b = 1 N s/m, w = 30 rad/s: k > (300 - 60) / 3 = 80 N/m.
+TEST(LoopModel, HandDampingHelpsAsByHand) {
+  constexpr double kHz = 30.0 / (2.0 * 3.14159265358979323846);
+  const LoopModel loop{.hand_stiffness = 300.0,
+                       .hand_damping = 1.0,
+                       .filter_hz = kHz,
+                       .servo_hz = kHz,
+                       .servo_damping = 0.5,
+                       .delay = 0.0};
+  EXPECT_NEAR(lowest_stable_stiffness(loop), 80.0, 1e-6);
+}
+
+// Without a damper and without mass the characteristic equation holds k_h / k only.
+TEST(LoopModel, ScalesWithAPureSpringHand) {
+  LoopModel loop{.hand_stiffness = 130.0, .hand_damping = 0.0};
+  const double once = lowest_stable_stiffness(loop);
+  EXPECT_GT(once, 0.0);
+  for (const double factor : {0.1, 2.0, 7.0}) {
+    loop.hand_stiffness = 130.0 * factor;
+    EXPECT_NEAR(lowest_stable_stiffness(loop), once * factor, 1e-9 * once * factor);
+  }
+}
+
+// sources/hexapod 5, baseline: k_h 130 N/m, b_h 2.2 N s/m, f_s 15 Hz, zeta 0.8, n_d 4 cycles (+1), f_c 5 Hz
+// -> 0.022 N/mm.
+TEST(LoopModel, GivesTheLinearBoundaryOfTheFidelityBaseline) {
+  const LoopModel loop{.hand_stiffness = 130.0,
+                       .hand_damping = 2.2,
+                       .filter_hz = 5.0,
+                       .servo_hz = 15.0,
+                       .servo_damping = 0.8,
+                       .delay = 0.005};
+  EXPECT_NEAR(lowest_stable_stiffness(loop), 22.0, 0.5);
+}
+
+// Without delay the grip's damper (4 N s/m) keeps the loop stable at every stiffness; with delay it cannot.
+TEST(LoopModel, MoreDelayNeedsAStifferObject) {
+  LoopModel loop{.delay = 0.0};
+  double before = lowest_stable_stiffness(loop);
+  EXPECT_EQ(before, 0.0);
+  for (const double delay : {0.005, 0.010, 0.020}) {
+    loop.delay = delay;
+    const double floor = lowest_stable_stiffness(loop);
+    EXPECT_GT(floor, before) << "delay " << delay << " s";
+    before = floor;
+  }
 }
 
 }  // namespace

@@ -6,25 +6,31 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <string>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/record/ranges.h"
 #include "core/record/replay.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/core/record/refusal.h"
 
 namespace enc {
 namespace {
 
-using test::bytes_of;
-using test::refusal;
-
 namespace fs = std::filesystem;
+using test::bytes_of;
+using testing::HasSubstr, testing::MatchesRegex;
+
+std::string refusal(const std::string& path) {
+  return test::refusal([&] { RecordReader reader(path); });
+}
 
 class RecordTest : public ::testing::Test {
  protected:
@@ -282,24 +288,15 @@ TEST_F(RecordTest, OtherFilesAreNoRecords) {
 
 TEST_F(RecordTest, AnUnwritableFolderIsOneClearLine) {
   write_bytes(file("a_file"), "");
-  try {
-    RecordWriter record(file("a_file") + "/run.encrec", {}, layout_hash(Scene()));
-    FAIL() << "a file was taken for a folder";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("a_file/run.encrec': Not a directory"), std::string::npos)
-        << e.what();
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-  }
+  EXPECT_THAT(
+      test::refusal(ErrorKind::input,
+                    [&] { RecordWriter record(file("a_file") + "/run.encrec", {}, layout_hash(Scene())); }),
+      HasSubstr("a_file/run.encrec': Not a directory"));
 }
 
 TEST_F(RecordTest, AFullDiskIsSaidBeforeTheRunStarts) {
-  try {
-    RecordWriter record("/dev/full", {}, layout_hash(Scene()));
-    FAIL() << "the header went nowhere";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("No space left on device"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(test::refusal([] { RecordWriter record("/dev/full", {}, layout_hash(Scene())); }),
+              HasSubstr("No space left on device"));
 }
 
 TEST_F(RecordTest, ADiskThatFillsUpLeavesReadableChunks) {
@@ -391,6 +388,142 @@ TEST(LayoutHash, IsTheSameEveryTimeAndAnotherForEachTask) {
   std::set<std::uint64_t> all;
   for (const Scene* scene : {&render, &meet, &push, &probe, &travel}) all.insert(layout_hash(*scene));
   EXPECT_EQ(all.size(), std::variant_size_v<Tasks::Any>);
+}
+
+// A record is a file that anybody may have written: each number of it is within the range that its reader
+// states, or the file is refused with the byte.
+
+using Spoil = std::function<void(RecordedTick&)>;
+
+class RecordRanges : public ::testing::Test {
+ protected:
+  // 300 ticks, several chunks; `spoil` has the one of index 200.
+  [[nodiscard]] std::string written(const Spoil& spoil) const {
+    const std::string path = folder_.file("a.encrec");
+    RecordWriter record(path, {}, layout_hash(Scene()));
+    for (std::int64_t i = 0; i < 300; ++i) {
+      RecordedTick frame;
+      frame.tick = {i, Time(Duration(1'000'000 * i)), Duration(1'000'000)};
+      if (i == 200) spoil(frame);
+      record.write(frame.tick, frame.in, frame.out, 0);
+    }
+    record.close();
+    return path;
+  }
+  // What its reader says of it, or nothing.
+  [[nodiscard]] std::string refusal(const Spoil& spoil) const { return enc::refusal(written(spoil)); }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(RecordRanges, WhatIsBeyondThemIsRefusedAndNamed) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const auto wrong = [&](const std::string& words, const Spoil& spoil) {
+    EXPECT_THAT(refusal(spoil),
+                MatchesRegex(".*a\\.encrec: byte [0-9]+: '" + words + "; record the run again"));
+  };
+  wrong("mode' of a tick is 200; expected 0 to 6",
+        [](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); });
+  wrong("view_mode' .* is 7; .*", [](RecordedTick& f) { f.out.view.mode = static_cast<Mode>(7); });
+  for (const auto& spoil :
+       std::vector<Spoil>{[](RecordedTick& f) { f.in.tool.health = static_cast<Health>(6); },
+                          [](RecordedTick& f) { f.in.wrench.health = static_cast<Health>(77); },
+                          [](RecordedTick& f) { f.in.dent.health = static_cast<Health>(255); }})
+    wrong("health' .*; expected 0 to 5", spoil);
+  wrong("dent_tip_shape' .* is 3; .*",
+        [](RecordedTick& f) { f.in.dent.value.tip.shape = static_cast<TipShape>(3); });
+  wrong("grip_phase' .* is 4; .*",
+        [](RecordedTick& f) { f.in.grip.value.phase = static_cast<GripPhase>(4); });
+  wrong("index' of a tick is 199; expected 200 to 1000000000000",
+        [](RecordedTick& f) { f.tick.index = 199; });
+  wrong("index' .*", [&](RecordedTick& f) { f.tick.index = kMost; });
+  wrong("t' of a tick is 9223372036854775807; expected 0 to 1000000000000000000",
+        [&](RecordedTick& f) { f.tick.t = Time(Duration(kMost)); });
+  wrong("t' .* is -1; .*", [](RecordedTick& f) { f.tick.t = Time(Duration(-1)); });
+  wrong("dt' .*", [](RecordedTick& f) { f.tick.dt = Duration(-1); });
+  wrong("view_t' .*", [](RecordedTick& f) { f.out.view.t = Time(Duration(-1)); });
+  wrong("stamp' .*", [&](RecordedTick& f) { f.in.tip.t = Time(Duration(-kMost)); });
+  wrong("missed' .*", [](RecordedTick& f) { f.in.missed = -1; });
+  wrong("contacts' of a tick is 202; expected 0 to 201", [](RecordedTick& f) { f.out.contacts = 202; });
+}
+
+TEST_F(RecordRanges, WhatIsWithinThemIsRead) {
+  EXPECT_EQ(refusal([](RecordedTick& f) {
+              f.out.mode = f.out.view.mode = Mode::travel;
+              f.in.tool.health = Health::fault;
+              f.in.dent.value.tip.shape = TipShape::edge;
+              f.in.grip.value.phase = GripPhase::opening;
+              f.in.tip.t = Time(Duration(-kMostStamp));
+              f.in.arm.t = Time(Duration(kMostStamp));
+              f.in.missed = kMostTicks;
+              f.out.contacts = 201;
+              f.out.object = -1;
+              f.out.why = 0xffffffffU;
+            }),
+            "");
+}
+
+// What stands before it is whole.
+TEST_F(RecordRanges, APartialRecordEndsBeforeTheChunkAndSaysWhy) {
+  RecordReader reader(written([](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); }), Partial::yes);
+  EXPECT_THAT(reader.damage(), HasSubstr("'mode' of a tick is 200"));
+  EXPECT_GE(reader.ticks(), 100);
+  EXPECT_LE(reader.ticks(), 200);
+  RecordedTick frame;
+  std::int64_t ticks = 0;
+  while (reader.next(frame)) ++ticks;
+  EXPECT_EQ(ticks, reader.ticks());
+}
+
+// A record whose chunks another thread puts into the file: the same bytes, and never a gap.
+
+void write_tick(RecordWriter& record, std::int64_t i) {
+  record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, static_cast<std::uint64_t>(i));
+}
+
+// Another puts it into the file, or nobody does until the end: the bytes are the same.
+TEST(RecordChunks, WhoeverDrainsTheBytesAreTheSame) {
+  const test::TemporaryFolder folder;
+  const std::uint64_t layout = layout_hash(Scene());
+  const std::string one = folder.file("one"), many = folder.file("many");
+  {
+    RecordWriter record(one, {{"seed", "7"}}, layout);
+    for (std::int64_t i = 0; i < 600; ++i) write_tick(record, i);
+    record.close();
+  }
+  for (const int every : {1, 150, 1000}) {
+    RecordWriter record(many, {{"seed", "7"}}, layout, RecordWriter::kManyChunks);
+    for (std::int64_t i = 0; i < 600; ++i) {
+      write_tick(record, i);
+      if (i % every == every - 1) record.drain();
+    }
+    record.close();
+    EXPECT_EQ(record.error(), "");
+    EXPECT_EQ(bytes_of(many), bytes_of(one)) << every;
+  }
+}
+
+// Nobody drains: it ends when all chunks are whole, says so, and the file has all that it took.
+TEST(RecordChunks, ADiskThatDoesNotKeepUpEndsTheRecordAndLeavesNoGap) {
+  const test::TemporaryFolder folder;
+  constexpr std::int64_t kChunks = 3;
+  RecordWriter record(folder.file("slow"), {}, layout_hash(Scene()), kChunks);
+  std::int64_t tick = 0;
+  for (; tick < 2000 && !record.full(); ++tick) write_tick(record, tick);
+  EXPECT_EQ(tick, record.ticks());
+  EXPECT_EQ(tick % kChunks, 0) << "whole chunks";
+  EXPECT_GE(tick, 150);
+  EXPECT_LT(tick, 2000);
+  EXPECT_THAT(record.error(), HasSubstr("the disk has not kept up with the run"));
+  write_tick(record, tick);
+  EXPECT_EQ(record.ticks(), tick) << "nothing more is taken";
+  record.close();
+  EXPECT_THROW(RecordReader(folder.file("slow")), Error) << "it is not the whole run";
+  RecordReader reader(folder.file("slow"), Partial::yes);
+  RecordedTick got;
+  std::int64_t read = 0;
+  for (; reader.next(got); ++read) ASSERT_EQ(got.tick.index, read);
+  EXPECT_EQ(read, tick);
+  EXPECT_FALSE(reader.sealed());
 }
 
 }  // namespace

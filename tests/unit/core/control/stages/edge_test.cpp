@@ -4,21 +4,22 @@
 #include <random>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/control/safety/inside.h"
 #include "core/control/scene/room.h"
+#include "core/control/stages/guard.h"
+#include "models/setup/scene_file.h"
 #include "models/shapes/hare.h"
-#include "tests/support/built.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
+#include "tests/unit/trial/runs.h"
 #include "trial/trial.h"
 
-namespace enc {
+namespace enc::trial {
 namespace {
 
-using test::kToolRadius;
-using test::Loop;
+using test::Loop, test::kToolRadius;
 using testing::HasSubstr;
 
 constexpr double kGuard = 50e-6;  // m
@@ -152,7 +153,7 @@ class Gliding : public PoseTracker {
 
 // With the lag, the delay and the steps of the simulated machine.
 TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
-  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/hare.toml", {}, {});
+  models::Setup setup = test::shipped("hare");
   ObjectSpec& object = setup.scene.objects[0];
   object.surface = std::make_shared<const Mesh>(test::box(0.06, 0.06, 0.06));
   object.position = Vec3(0, 0, kHigh);
@@ -161,8 +162,7 @@ TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
   setup.scene.display.reset();
   const Scene scene = trial::prepare_setup(setup);
   double outside = -1.0;
-  trial::TrialOptions options;
-  options.seconds = 30.0;
+  trial::TrialOptions options{.seconds = 30.0};
   options.fit_out = [&](Rig& rig) { rig.tracker = std::make_unique<Gliding>(scene); };
   std::int64_t entered = 0;
   trial::Trial* made = nullptr;
@@ -207,12 +207,7 @@ TEST(Edges, APressBesideAnEdgeEnds) {
 // ---- room for the tip -----------------------------------------------------------------------------------
 
 std::string refusal(const SceneSpec& spec) {
-  try {
-    (void)prepare(spec, RigSpec{});
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal([&] { (void)prepare(spec, RigSpec{}); });
 }
 
 TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
@@ -234,12 +229,8 @@ TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
 TEST(Room, AnImpossibleTipIsSaidInNumbers) {
   RigSpec rig;
   rig.manipulator.tip_radius = 1e297;
-  try {
-    (void)prepare(test::ball_scene(), rig);
-    FAIL() << "it is taken";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("expected at least 100000000000000.0 mm"));
-  }
+  EXPECT_THAT(test::refusal([&] { (void)prepare(test::ball_scene(), rig); }),
+              HasSubstr("expected at least 100000000000000.0 mm"));
 }
 
 TEST(Room, APartThatIsTooThinIsFound) {
@@ -265,5 +256,93 @@ TEST(Room, APartThatIsTooThinIsFound) {
   EXPECT_EQ(room_in(cube.objects[0], room_margin(cube), true).thin, 0.0);  // an edge is not thin
 }
 
+// The last word before a machine that takes positions: whoever is at the edge of the reach comes back.
+
+// A ball on a floor. The reach is not convex: from much of its edge the straight way to the ball leads out.
+Loop ball_on_a_floor() {
+  SceneSpec scene = test::ball_scene();
+  scene.objects.front().radius = 0.012;
+  scene.objects.front().position = {0, 0, 0.001};
+  SceneSpec floor = test::plane_scene();
+  floor.objects.front().name = "floor";
+  floor.objects.front().position = {0, 0, -0.008};
+  scene.objects.push_back(floor.objects.front());
+  return Loop(prepare(scene, test::exact_rig()));
+}
+
+TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> turn(0.0, 2.0 * M_PI), far(0.06, 0.2), high(0.0, 0.06);
+  for (int seed = 0; seed < 60; ++seed) {
+    Loop loop = ball_on_a_floor();
+    const double a = turn(random), r = far(random);
+    loop.tool_tip = Point<'W'>(0, 0, 0.05);
+    loop.tick(500);
+    const Point<'W'> aside(r * std::cos(a), r * std::sin(a), high(random));
+    for (int i = 1; i <= 500; ++i) {  // slower than what is taken for a leap
+      loop.tool_tip = Point<'W'>(0, 0, 0.05) + (i / 500.0) * (aside - Point<'W'>(0, 0, 0.05));
+      loop.tick();
+    }
+    loop.tick(2500);
+    const double out = (loop.tip() - Point<'W'>(0, 0, 0.008)).norm();
+    for (int i = 1; i <= 500; ++i) {
+      loop.tool_tip = aside + (i / 500.0) * (Point<'W'>(0, 0, 0.05) - aside);
+      loop.tick();
+    }
+    loop.tick(4000);
+    EXPECT_GT(out, 0.02) << seed;
+    EXPECT_LT((loop.tip() - Point<'W'>(0, 0, 0.008)).norm(), 2e-3)
+        << "went to " << aside.xyz[0] << " " << aside.xyz[1] << " " << aside.xyz[2];
+    EXPECT_TRUE(loop.always_reachable);
+    EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+    EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
+  }
+}
+
+// At the machine's greatest speed rounding is no reason to brake: the tip goes on evenly, whichever way the
+// target goes.
+TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> turn(0.0, 2.0 * M_PI), up(-0.2, 0.4);
+  int seen = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+    loop.tool_tip = Point<'W'>(0, 0, 0.08);
+    loop.tick(1000);
+    const double a = turn(random);
+    const Vec3 step =
+        0.08e-3 * Vec3(std::cos(a), std::sin(a), up(random)).normalized();  // 80 mm/s, and the tip 50
+    const double most = loop.scene.reach.speed;
+    double before = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      loop.tool_tip = Point<'W'>(Vec3(loop.tool_tip.e() + step));
+      loop.tick();
+      const double speed = recall<Commanded>(loop.state).command_velocity.norm();
+      if (before > most * (1.0 - 1e-6)) {
+        ++seen;
+        ASSERT_GT(speed, most * (1.0 - 1e-6)) << i;
+      }
+      before = speed;
+    }
+    EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+    EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+// A tip that comes to the edge of the machine's reach inside of an object goes on along that edge.
+
+// Seed 24 of the session: the way to the tool leads through the ball, down to the shortest legs.
+TEST(EdgeOfReach, IsLeftInsideOfAnObject) {
+  TrialOptions options{.seed = 24, .seconds = 64.4};
+  Trial trial(test::shipped("session"), options);
+  double lowest = 0.0;
+  while (trial.tick())
+    if (trial.now().index > 62'000) lowest = std::min(lowest, trial.truth().tip.xyz[2]);
+  EXPECT_LT(lowest, -0.022) << "it was at the edge";
+  EXPECT_LT((trial.truth().tip - trial.truth().tool_tip).norm(), 0.020) << "and is under the tool by now";
+}
+
 }  // namespace
-}  // namespace enc
+}  // namespace enc::trial

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/control/track/markers.h"
 #include "core/record/state_hash.h"
 #include "tests/support/scenes.h"
 
@@ -240,8 +242,7 @@ TEST(Predict, GoesOnFor100MsThenComesToRestWithin200) {
   const auto way = [](double t) { return 0.04 * t; };
   const TipMotion motion = tracked(kVelocity, way, 1000);
   EXPECT_NEAR(x_at(kVelocity, motion, 1100), way(1.1), 1e-7);
-  double before = way(1.1);
-  double speed = 0.04;
+  double before = way(1.1), speed = 0.04;
   for (int ms = 1101; ms <= 1200; ++ms) {
     const double x = x_at(kVelocity, motion, ms);
     EXPECT_LE((x - before) / 1e-3, speed + 1e-9) << ms;  // never faster again
@@ -346,8 +347,7 @@ TEST(PredictInTheCore, OldAndRepeatedPosesChangeNothing) {
   }
 }
 
-// Down at 100 mm/s onto the haptic-tip, where it stops. Poses are 20 ms old, in which it would go 2 mm
-// farther.
+// Down at 100 mm/s onto the haptic-tip, where it stops. Poses are 20 ms old: it would go 2 mm on.
 TEST(PredictInTheCore, TheToolIsNotSeenToGoThroughTheHapticTip) {
   test::Loop loop(prepare(test::plane_scene(), RigSpec{}));
   const double touch = test::kTop + test::kToolRadius;
@@ -387,6 +387,184 @@ TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
   fields(b, moving.loop.state.tip_motion);
   EXPECT_EQ(a.value, b.value);
   EXPECT_TRUE(out.view.tip.finite());
+}
+
+// What something that knows better than pictures makes of a prediction.
+
+Time at_ms(int ms) { return Time(Duration(1'000'000) * ms); }
+
+TrackerRig rig_with(Prediction prediction) {
+  TrackerRig rig;
+  rig.prediction = prediction;
+  return rig;
+}
+
+// A tip that goes along x with 0.1 m/s, seen each 10 ms for 100 ms.
+TipMotion seen(const TrackerRig& rig) {
+  TipMotion motion;
+  for (int ms = 0; ms <= 100; ms += 10)
+    observe(rig, 0, at_ms(ms), Point<'W'>(1e-4 * ms, 0, 0), {rig.measurement_noise, rig.measurement_noise},
+            motion);
+  return motion;
+}
+
+// It is stopped: place and velocity say so, their doubt stays, and to the sides nothing changes.
+TEST(CorrectNow, WhatIsKnownNowIsWhatIsPredictedNow) {
+  for (const Prediction how : {Prediction::constant_velocity, Prediction::constant_acceleration}) {
+    const TrackerRig rig = rig_with(how);
+    TipMotion motion = seen(rig);
+    const TipMotion before = motion;
+    const double ahead = predict(rig, motion, at_ms(150)).xyz[0];
+    correct_now(rig, at_ms(150), Vec<'W'>(0.010 - ahead, 0, 0), motion);
+    EXPECT_NEAR(predict(rig, motion, at_ms(150)).xyz[0], 0.010, 1e-12);
+    EXPECT_LT(motion.velocity.xyz[0], 0.08);
+    EXPECT_LT(std::abs(motion.position.xyz[0] - before.position.xyz[0]), 1e-3);
+    EXPECT_EQ(motion.position.xyz[1], before.position.xyz[1]);
+    EXPECT_EQ(motion.along.vv, before.along.vv);
+    EXPECT_EQ(motion.t, before.t);
+  }
+}
+
+TEST(CorrectNow, NothingIsPredictedWhereNothingIsKnownOrAllIsHeld) {
+  const TrackerRig hold = rig_with(Prediction::hold);
+  TipMotion held = seen(hold);
+  const TipMotion before = held;
+  correct_now(hold, at_ms(150), Vec<'W'>(1e-3, 0, 0), held);
+  EXPECT_EQ(held.position.xyz[0], before.position.xyz[0]);
+  TipMotion nothing;
+  correct_now(rig_with(Prediction::constant_velocity), at_ms(150), Vec<'W'>(1e-3, 0, 0), nothing);
+  EXPECT_FALSE(nothing.position.finite());
+  TipMotion motion = seen(rig_with(Prediction::constant_velocity));
+  correct_now(rig_with(Prediction::constant_velocity), at_ms(150), Vec<'W'>(), motion);
+  EXPECT_TRUE(motion.position.finite());
+}
+
+// Tools by their markers: which one it is, how it stands, and which cannot be told apart.
+
+using Markers = std::vector<Vec3>;
+
+// Those that ship (models/scenes/session.toml).
+const Markers kStylus{{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.017, -0.030, 0.012}};
+const Markers kProbe{{0, 0, 0}, {0.061, 0, 0}, {0, 0.034, 0}, {-0.025, -0.022, 0.008}};
+const std::vector<Markers> kBoth{kStylus, kProbe};
+
+struct Drawn {
+  explicit Drawn(std::uint64_t seed) : random(seed) {}
+  double normal() { return normal_(random); }
+  Pose<'C', 'T'> pose() {
+    const Quat q = Quat(normal(), normal(), normal(), normal()).normalized();
+    return {q, Vec3(0.2 * normal(), 0.2 * normal(), 1.0 + 0.1 * normal())};
+  }
+  // As a tracker sees them, in any order.
+  Markers seen(const Markers& tool, const Pose<'C', 'T'>& X_CT, double noise) {
+    Markers all;
+    for (const Vec3& marker : tool)
+      all.push_back((X_CT * Point<'T'>(marker)).e() + noise * Vec3(normal(), normal(), normal()));
+    std::shuffle(all.begin(), all.end(), random);
+    return all;
+  }
+  std::mt19937_64 random;
+  std::normal_distribution<double> normal_;
+};
+
+TEST(Markers, AToolIsRecognisedWithItsPoseInWhateverOrderTheyAreSeen) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Drawn drawn(seed);
+    const auto which = static_cast<std::size_t>(seed % 2);
+    const Pose<'C', 'T'> X_CT = drawn.pose();
+    const RecognisedTool found = recognise(drawn.seen(kBoth[which], X_CT, 0.0), kBoth);
+    ASSERT_EQ(found.tool, static_cast<std::int32_t>(which)) << seed;
+    EXPECT_LT((found.X_CT.p() - X_CT.p()).norm(), 1e-12);
+    EXPECT_LT(found.X_CT.q().angularDistance(X_CT.q()), 1e-7);
+    EXPECT_LT(found.rms, 1e-12);
+  }
+}
+
+// At 0.3 mm on each axis of each marker no tool is missed or taken for the other.
+TEST(Markers, NoiseOfATrackerConfusesNone) {
+  int wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 20'000; ++seed) {
+    Drawn drawn(seed);
+    const auto which = static_cast<std::size_t>(seed % 2);
+    wrong += recognise(drawn.seen(kBoth[which], drawn.pose(), 0.3e-3), kBoth).tool == static_cast<int>(which)
+                 ? 0
+                 : 1;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Markers, WhatIsNoneOfThemIsNotRecognised) {
+  Drawn drawn(1);
+  Markers other = kStylus;
+  other[1].x() += 2 * kMarkersApart;
+  EXPECT_EQ(recognise(drawn.seen(other, drawn.pose(), 0.0), kBoth).tool, -1);
+  Markers three(kStylus.begin(), kStylus.begin() + 3);
+  EXPECT_EQ(recognise(three, kBoth).tool, -1) << "one is hidden";
+  EXPECT_EQ(recognise({}, kBoth).tool, -1);
+  EXPECT_EQ(recognise(Markers(17, Vec3::Zero()), kBoth).tool, -1);
+}
+
+// A mirror image has the same distances: it fits badly, and is refused where a scene names both.
+TEST(Markers, AMirrorImageIsAlikeAndFitsBadly) {
+  Markers mirrored = kStylus;
+  for (Vec3& marker : mirrored) marker.z() = -marker.z();
+  EXPECT_TRUE(alike(kStylus, mirrored));
+  EXPECT_FALSE(alike(kStylus, kProbe));
+  const std::vector<Markers> hands{kStylus, mirrored};
+  Drawn drawn(3);
+  for (const int which : {0, 1})
+    EXPECT_EQ(recognise(drawn.seen(hands[static_cast<std::size_t>(which)], drawn.pose(), 0.0), hands).tool,
+              which);
+}
+
+// Alone it is not taken for the tool either: its best fit is 4.9 mm off the stylus, 3.3 mm off the probe.
+TEST(Markers, AMirrorImageAloneIsNone) {
+  for (const Markers& tool : kBoth) {
+    Markers mirrored = tool;
+    for (Vec3& marker : mirrored) marker.x() = -marker.x();
+    ASSERT_TRUE(alike(tool, mirrored));
+    for (std::uint64_t seed = 1; seed <= 2'000; ++seed) {
+      Drawn drawn(seed);
+      EXPECT_EQ(recognise(drawn.seen(mirrored, drawn.pose(), kMarkerNoise), kBoth).tool, -1) << seed;
+    }
+  }
+}
+
+// Each distance is off by less than 4 mm, and so is each marker: by 5 % of its way to the middle, 1.8 mm rms.
+TEST(Markers, AToolOfWhichAllDistancesAreALittleOffIsNone) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& marker : kStylus) middle += marker / static_cast<double>(kStylus.size());
+  const auto grown = [&](double by) {
+    Markers all = kStylus;
+    for (Vec3& marker : all) marker += by * (marker - middle);
+    return all;
+  };
+  Drawn drawn(2);
+  ASSERT_TRUE(alike(kStylus, grown(0.05)));
+  EXPECT_EQ(recognise(drawn.seen(grown(0.05), drawn.pose(), 0.0), kBoth).tool, -1);
+  const RecognisedTool near = recognise(drawn.seen(grown(0.04), drawn.pose(), 0.0), kBoth);
+  EXPECT_EQ(near.tool, 0);
+  EXPECT_LT(near.rms, kWorstFit);
+}
+
+TEST(Markers, AToolThatLooksTheSameInAnotherOrderHasTwoPoses) {
+  EXPECT_FALSE(has_two_poses(kStylus));
+  EXPECT_FALSE(has_two_poses(kProbe));
+  const double side = 0.05;
+  EXPECT_TRUE(has_two_poses(Markers{{0, 0, 0}, {side, 0, 0}, {0, side, 0}})) << "its legs are alike";
+  EXPECT_TRUE(has_two_poses(Markers{{0, 0, 0}, {side, 0, 0}, {0, side + 0.9 * kMarkersApart, 0}}));
+  EXPECT_FALSE(has_two_poses(Markers{{0, 0, 0}, {side, 0, 0}, {0, side + 1.1 * kMarkersApart, 0}}));
+}
+
+// As many as a scene may have, all within 3 mm: there are 16! orders, and two are enough.
+TEST(Markers, ManyThatLookAlikeAreFoundAtOnce) {
+  Drawn drawn(5);
+  Markers many;
+  for (std::size_t i = 0; i < kMostMarkers; ++i)
+    many.emplace_back(1e-3 * std::cos(0.4 * static_cast<double>(i)),
+                      1e-3 * std::sin(0.4 * static_cast<double>(i)), 0);
+  EXPECT_TRUE(has_two_poses(many));
+  EXPECT_TRUE(alike(many, drawn.seen(many, drawn.pose(), 0.0)));
 }
 
 }  // namespace

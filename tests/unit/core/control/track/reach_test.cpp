@@ -127,10 +127,7 @@ TEST(Reach, ForeseesTheRestOfTheWayBeforeItIsSeen) {
   const double s = MinimumJerk(0.7).x;
   sim::Stream stream(13, "reach");
   const Hands hands{.share = 0.9, .scatter = 0.005, .aside = 0.001, .least_tilt = 0.4};
-  ReachBelief hand;
-  hand.share = hands.share;
-  hand.scatter = hands.scatter;
-  hand.aside = hands.aside;
+  ReachBelief hand{.share = hands.share, .scatter = hands.scatter, .aside = hands.aside};
   constexpr int kReaches = 200;
   std::vector<double> ours, straight;  // off, in what the line leads too far
   for (int i = 0; i < kReaches; ++i) {
@@ -187,8 +184,7 @@ TEST(Reach, IsWhatAnotherWayOfSolvingGives) {
 }
 
 // Pictures so bad that it may or may not have come by then. The line through them leads 10.53 mm above the
-// surface, known to 44.8 mm, and to 133.6 mm, known to 113.3 mm, a second before (least squares, worked out
-// apart).
+// surface, known to 44.8 mm, and to 133.6 mm, known to 113.3 mm, a second before (least squares).
 TEST(Reach, HowSurelyItPassesByDependsOnHowWellItIsSeen) {
   Pictures seen;
   for (int i = 0; i < 5; ++i) seen.push_back({Vec3(0.0, 0.0, 0.035 + 0.005 * i), 0.05 * i});

@@ -2,12 +2,14 @@
 // runs.
 #include "core/control/world/moving.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/control/step.h"
+#include "tests/support/finger_bench.h"
 
 namespace enc {
 namespace {
@@ -47,11 +49,7 @@ struct World {
 };
 
 InteractionSpec hit(double restitution, double mass = 0.058) {
-  InteractionSpec does;
-  does.kind = Interaction::hit;
-  does.restitution = restitution;
-  does.mass = mass;
-  does.travel = 10.0;
+  InteractionSpec does{.kind = Interaction::hit, .mass = mass, .restitution = restitution, .travel = 10.0};
   return does;
 }
 
@@ -138,8 +136,7 @@ TEST(HitBall, WaitsAtTheEndOfItsTravelUntilTheFingerIsClearOfItsPlace) {
 
 // Tiles that are pushed at their faces, which look towards -x of W: in O the way is -z.
 InteractionSpec tile(double travel = 0.030) {
-  InteractionSpec does;
-  does.kind = Interaction::shift;
+  InteractionSpec does{.kind = Interaction::shift};
   does.way = {0, 0, -2};  // of any length
   does.mass = 0.2;
   does.friction = 0.3;
@@ -213,8 +210,7 @@ TEST(Tile, DoesNotRunThroughItsNeighbour) {
   world.add("first", kTile, facing_minus_x(0.0), tile());
   world.add("second", kTile, facing_minus_x(0.030), tile());         // 10 mm behind the first
   world.add("beside", kTile, facing_minus_x(0.030, 0.020), tile());  // in the next row, touching the second
-  InteractionSpec wall;
-  wall.kind = Interaction::slide;
+  InteractionSpec wall{.kind = Interaction::slide};
   world.add("block", Surface{Sphere{0.010}}, Pose<'W', 'O'>::shift(0.080, 0, 0),
             wall);  // 20 mm behind the second
   world.make();
@@ -234,9 +230,7 @@ TEST(Tile, DoesNotRunThroughItsNeighbour) {
 
 TEST(Drum, RunsAtItsSpeedAndStaysWhereItIs) {
   World world;
-  InteractionSpec does;
-  does.kind = Interaction::spin;
-  does.speed = 0.05;
+  InteractionSpec does{.kind = Interaction::spin, .speed = 0.05};
   world.add("drum", kTile, facing_minus_x(0.0), does);
   world.make();
   for (int i = 0; i < 2000; ++i) world.tick(0, {0.001, 0, 0});
@@ -286,6 +280,74 @@ TEST(Movers, KeepTheirPlacesAndRefuseWhatCannotBe) {
   for (std::size_t i = 0; i <= kMostMoving; ++i)
     many.add("ball" + std::to_string(i), Surface{Sphere{0.01}}, Pose<'W', 'O'>::identity(), hit(0.5));
   EXPECT_THROW(many.make(), Error);
+}
+
+// A ball that an arm's prop stands for, and that the finger hits.
+
+using Bench = test::FingerBench;
+
+// A ball, its prop at home, and a finger that is believed wherever a test says.
+struct Ball : Bench {
+  Ball() : Bench("hit_ball", {"rig.tracker.prediction=\"hold\""}) {
+    at(-0.080, 10);
+    at(-0.010, 500);
+  }
+  [[nodiscard]] const Moved& moved() const { return moved_in(loop.state)[0]; }
+  // The prop goes on at `speed` under the finger, until they part or for `ticks`.
+  int strike(double speed, int ticks = 100) {
+    for (int i = 1; i <= ticks; ++i) {
+      press_tip(speed * 1e-3 * i);
+      loop.in.arm.value.velocity = Vec<'R'>(0, 0, -speed);
+      at(-0.002);
+      if (i > 10 && loop.out.mode != Mode::contact) return i;
+    }
+    return ticks;
+  }
+};
+
+// A picture is 50 ms old, and a hit is over by then.
+TEST(HitBall, IsHitByThePropAndNotByWhatIsBelieved) {
+  Ball ball;
+  ball.at(0.010, 200);
+  EXPECT_EQ(ball.loop.out.contacts, 0);
+  EXPECT_EQ(ball.moved().velocity.norm(), 0.0) << "the prop was not touched";
+  Ball struck;
+  const int ticks = struck.strike(0.2);
+  EXPECT_EQ(struck.loop.out.contacts, 1);
+  EXPECT_LT(ticks, 45);
+  EXPECT_NEAR(struck.moved().velocity.norm(), 0.2 * (1.0 + 0.95 * 0.75), 0.02);
+  struck.strike(0.2);
+  EXPECT_EQ(struck.loop.out.contacts, 1) << "a ball that flies is not hit again";
+}
+
+// Two counts and one reading of 0.8 m/s: the prop does not run off with it.
+TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
+  Ball ball;
+  ball.press_tip(0.08e-3);
+  ball.loop.in.arm.value.velocity = Vec<'R'>(0, 0, -0.8);
+  ball.at(-0.002);
+  EXPECT_EQ(ball.loop.out.mode, Mode::contact);
+  ball.loop.in.arm.value.velocity = Vec<'R'>::zero();
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    ball.at(-0.002);
+    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).aim.velocity.norm());
+  }
+  EXPECT_LT(fastest, 0.050);
+}
+
+// What the arm is told along the normal is what the ball gets.
+TEST(HitBall, ItsMomentumIsTheImpulseOfWhatTheArmIsTold) {
+  Ball ball;
+  double impulse = 0.0;
+  for (int i = 1; i <= 60; ++i) {
+    ball.press_tip(0.2e-3 * i);
+    ball.loop.in.arm.value.velocity = Vec<'R'>(0, 0, -0.2);
+    ball.at(-0.002);
+    if (ball.loop.out.mode == Mode::contact) impulse += 1e-3 * ball.pushed();
+  }
+  EXPECT_GT(impulse, 0.01);
+  EXPECT_NEAR(impulse, 0.058 * ball.moved().velocity.norm(), 0.02 * impulse);
 }
 
 }  // namespace

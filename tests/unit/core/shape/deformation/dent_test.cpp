@@ -29,8 +29,7 @@ TEST(Dent, DepthIsThatOfTheTipsLowestPoint) {
   EXPECT_NEAR(dent_of(kPlane, 0, ball_tip({0, 0, -0.001}, 0.002)).depth, 0.003, 1e-15);
   EXPECT_EQ(dent_of(kPlane, 0, ball_tip({0, 0, 0.0021}, 0.002)).depth, 0.0);
   EXPECT_EQ(dent_of(kBall, 3, ball_tip({0, 0, 0.05}, 0.002)).object, 3);
-  // An edge of 40 mm whose middle is 1 mm above the plane, 30 degrees down: its end is 20 sin 30 = 10 mm
-  // lower.
+  // An edge of 40 mm whose middle is 1 mm above the plane, 30 degrees down: its end is 10 mm lower.
   const Tip<'O'> tilted = edge_tip({0, 0, 0.001}, 0.002, 0.040, {std::cos(M_PI / 6), 0, -0.5});
   EXPECT_NEAR(dent_of(kPlane, 0, tilted).depth, 0.011, 1e-12);
   EXPECT_NEAR(deepest(kPlane, tilted).centre.xyz[0], 0.020 * std::cos(M_PI / 6), 1e-12);

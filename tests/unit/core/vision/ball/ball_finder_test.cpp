@@ -208,8 +208,7 @@ TEST(BallFinder, WhatCoversAPartOfItDoesNotPullItAside) {
 }
 
 TEST(BallFinder, RefusesImpossibleNumbers) {
-  BallSpec spec;
-  spec.radius = 0.0;
+  BallSpec spec{.radius = 0.0};
   EXPECT_THROW(BallFinder({}, spec), Error);
   spec = {};
   spec.hue = kUnset;

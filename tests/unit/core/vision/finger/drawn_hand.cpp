@@ -46,8 +46,7 @@ std::optional<double> tube(const Vec3& from, const Vec3& ray, const Vec3& end, c
   const Vec3 r = ray - axis * axis.dot(ray), c = to - axis * axis.dot(to);
   const double a = r.squaredNorm(), b = r.dot(c), root = b * b - a * (c.squaredNorm() - radius * radius);
   if (root < 0.0 || a < 1e-12) return std::nullopt;
-  const double t = (b - std::sqrt(root)) / a;
-  const double s = axis.dot(t * ray - to);
+  const double t = (b - std::sqrt(root)) / a, s = axis.dot(t * ray - to);
   return s <= 0.0 && s >= -length ? std::optional(t) : std::nullopt;
 }
 

@@ -10,9 +10,13 @@
 
 #include "core/base/error.h"
 #include "core/vision/finger/cap_fit.h"
+#include "core/vision/finger/triplet_filter.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {
+
+using drawn::at_frame;
 
 constexpr int kSide = 240;
 // So long a lens that nothing is seen aslant; R / B is 0.008 / 0.09.
@@ -73,8 +77,7 @@ TEST(FingertipSteps, Step2WantsADepth) {
 // r = K / z = R d / B, and another K.
 TEST(FingertipSteps, Step3TakesTheRadiusFromTheDepth) {
   EXPECT_DOUBLE_EQ(found(upright()).radius, 10.0);
-  FingertipSpec wider;
-  wider.scale = 1.25;
+  FingertipSpec wider{.scale = 1.25};
   EXPECT_DOUBLE_EQ(found(upright(), wider).radius, 12.5);
   EXPECT_EQ(at(upright(), 120, 80, {}, 20.0F).too_small, 1);   // 1.8 px
   EXPECT_EQ(at(upright(), 120, 80, {}, 500.0F).too_small, 1);  // 44 px: nearer than the nearest
@@ -132,8 +135,7 @@ TEST(FingertipSteps, TheReadingsOfTheSquare) {
   printed.square_least = 2.0 * printed.square_radii;
   printed.square_most = 4.0 * printed.square_radii + 0.1;  // a pixel: S of r2 = 17 px is rounded to 18
   printed.square = SquareReading::side;
-  FingertipSpec ours;
-  ours.pairs = 1e9;
+  FingertipSpec ours{.pairs = 1e9};
   FingertipSpec half = printed;
   half.square = SquareReading::half_side;
   printed.square_most = 4.0 * 1.8 + 1e-9;
@@ -195,8 +197,7 @@ TEST(FingertipSteps, CountsAddUp) {
 // From all sides, between pixels, widths as of 300 to 900 mm, K right and wrong by a quarter.
 TEST(Fingertip, IsFoundToATenthOfAPixel) {
   for (const double scale : {0.75, 1.0, 1.25}) {
-    FingertipSpec spec;
-    spec.scale = scale;
+    FingertipSpec spec{.scale = scale};
     std::vector<double> errors;
     int missed = 0, rough = 0;
     for (int i = 0; i < 90; ++i) {
@@ -225,8 +226,7 @@ TEST(Fingertip, IsFoundToATenthOfAPixel) {
 
 // Without the fit the middle of the best candidates lies behind the cap: that is what the fit is for.
 TEST(Fingertip, TheBestCandidatesAloneAreBehindTheCap) {
-  FingertipSpec plain;
-  plain.fit = false;
+  FingertipSpec plain{.fit = false};
   const Fingertip rough = found(upright(), plain), fine = found(upright());
   EXPECT_GT(rough.row - 80.0, 1.0);
   EXPECT_LT(std::abs(fine.row - 80.0), 0.4);
@@ -274,6 +274,80 @@ TEST(Fingertip, ImpossibleSpecsAreRefused) {
   spec = {};
   spec.square_radii = 0.0;
   EXPECT_THROW(FingertipFinder(spec, kFlat, kMost, 10, 10), Error);
+}
+
+// The filter in (column, row, disparity): gains by hand, no lag at constant velocity, true covariance.
+
+// Second find 50 ms later, 10 px on: P = 0.09 + 400^2 * 0.0025 + 600^2 * 1.25e-4 / 3 = 415.09,
+// P_xv = 400^2 * 0.05 + 600^2 * 0.0025 / 2 = 8450; S = 415.18: K = 0.99978323, K_v = 20.3526.
+TEST(TripletFilter, GainsOfTheSecondFindAreThoseWorkedByHand) {
+  TrackSpec spec{.acceleration_noise = 600.0, .start_speed = 400.0};
+  TripletFilter filter;
+  const Vec3 variance(0.09, 0.09, 0.01);
+  filter.begin(spec, at_frame(0), {100, 100, 100}, variance);
+  filter.predict(spec, at_frame(1));
+  EXPECT_NEAR(filter.variance()[0], 415.09, 1e-9);
+  filter.correct({110, 100, 100}, variance);
+  EXPECT_NEAR(filter.at().column, 100 + 10 * 0.99978323, 1e-6);
+  EXPECT_NEAR(filter.rate().column, 10 * 8450 / 415.18, 1e-9);
+  EXPECT_EQ(filter.rate().row, 0.0);
+}
+
+TEST(TripletFilter, ConstantVelocityIsFollowedWithoutLag) {
+  const TrackSpec spec;
+  TripletFilter filter;
+  const Vec3 variance(0.09, 0.09, 0.02);
+  const auto truth = [](int i) { return Triplet{50 + 18.0 * i, 400 - 7.0 * i, 90 + 0.8 * i}; };
+  filter.begin(spec, at_frame(0), truth(0), variance);
+  for (int i = 1; i < 30; ++i) {
+    filter.predict(spec, at_frame(i));
+    if (i > 20) {
+      EXPECT_LT((filter.at().e() - truth(i).e()).norm(), 1e-6) << i;  // foreseen, before it is seen
+    }
+    filter.correct(truth(i), variance);
+  }
+  EXPECT_NEAR(filter.rate().column, 360.0, 1e-4);
+  EXPECT_NEAR(filter.rate().disparity, 16.0, 1e-4);
+}
+
+// Ways that the filter believes in: what it says of its own error is true, on average over seeds.
+TEST(TripletFilter, ItsCovarianceIsTrue) {
+  const TrackSpec spec;
+  const Vec3 variance(0.09, 0.09, 0.0225);
+  double before = 0.0, after = 0.0;
+  int n = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    sim::Stream random(seed, "way");
+    const double h = 0.05;
+    Vec3 x(300, 200, 100);
+    Vec3 v =
+        Vec3(spec.start_speed, spec.start_speed, spec.start_disparity_speed).cwiseProduct(random.normal3());
+    const Vec3 q(spec.acceleration_noise, spec.acceleration_noise, spec.disparity_acceleration_noise);
+    TripletFilter filter;
+    for (int i = 0; i < 25; ++i) {
+      if (i > 0) {  // white acceleration within a frame, exactly: a step of v and the half of it that x gets
+        const Vec3 a = q.cwiseProduct(random.normal3()) * std::sqrt(h);
+        const Vec3 b = q.cwiseProduct(random.normal3()) * std::sqrt(h * h * h / 12.0);
+        x += h * v + 0.5 * h * a + b;
+        v += a;
+      }
+      const Vec3 seen = x + variance.cwiseSqrt().cwiseProduct(random.normal3());
+      const Triplet z{seen[0], seen[1], seen[2]};
+      if (i == 0) {
+        filter.begin(spec, at_frame(0), z, variance);
+        continue;
+      }
+      filter.predict(spec, at_frame(i));
+      before += filter.surprise(z, variance);
+      filter.correct(z, variance);
+      const Vec3 off = filter.at().e() - x;
+      after += off.cwiseProduct(off).cwiseQuotient(filter.variance()).sum();
+      ++n;
+    }
+  }
+  // Chi squared with 3 n degrees of freedom, n = 1440, corrected for the frames being related: 3 within 8 %.
+  EXPECT_NEAR(before / n, 3.0, 0.25);
+  EXPECT_NEAR(after / n, 3.0, 0.25);
 }
 
 }  // namespace

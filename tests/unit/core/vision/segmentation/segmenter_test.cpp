@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <random>
 #include <tuple>
@@ -15,9 +16,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/vision/segmentation/background.h"
+#include "core/vision/segmentation/light.h"
 #include "core/vision/segmentation/roc.h"
 
-namespace enc {
+namespace enc::segmentation {
 namespace {
 
 constexpr SegmentationMethod kBoth[] = {SegmentationMethod::published, SegmentationMethod::ours};
@@ -316,5 +319,116 @@ TEST(Segmenter, OursSeesAHandBeforeWood) {
   EXPECT_GT(judged(SegmentationMethod::ours, scene).iou(), 0.95);
 }
 
+// Mean and noise of the background's frames.
+
+TEST(Background, IsTheMeanRoundedToTheNearest) {
+  Background background({2, 1, 5});
+  for (const std::uint8_t value : {10, 11, 11, 255}) {
+    Image image(2, 1);
+    image.rgb = {value, 255, 0, 7, 7, static_cast<std::uint8_t>(value / 2)};
+    background.add(image.view());
+  }
+  EXPECT_EQ(background.frames(), 4);
+  EXPECT_EQ(background.mean().rgb, (std::vector<std::uint8_t>{72, 255, 0, 7, 7, 36}));  // 71.75; 35.5
+}
+
+TEST(Background, HoldsAsManyBrightFramesAsItMay) {
+  Background background({1, 1, 5});
+  Image image(1, 1);
+  image.rgb = {255, 255, 254};
+  for (int i = 0; i < 255; ++i) background.add(image.view());
+  EXPECT_EQ(background.mean().rgb, image.rgb);
+  EXPECT_EQ(background.noise().front(), Background::kLeastNoise);
+}
+
+TEST(Background, KnowsTheNoiseOfEachTile) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> gauss;
+  Background background({23, 10, 5});
+  for (int i = 0; i < 10; ++i) {
+    Image image(23, 10);
+    for (int y = 0; y < 10; ++y)
+      for (int x = 0; x < 23; ++x)
+        for (int c = 0; c < 3; ++c)
+          image.at(x, y)[c] =
+              static_cast<std::uint8_t>(std::lround(90.0 + 5.0 * x + (y < 5 ? 2.0 : 6.0) * gauss(random)));
+    background.add(image.view());
+  }
+  const std::vector<double> noise = background.noise();
+  ASSERT_EQ(noise.size(), 10U);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(noise[i] / (i < 5 ? 2.0 : 6.0), 1.0, 0.12) << i;
+}
+
+// What the light of a frame is said to be: gains, a lamp at the side, what is left over; behind a hand.
+
+constexpr int kWidth = 320, kHeight = 240;
+
+// Tiles of many colours; `light` gives the gains at a share of the width.
+template <class F>
+Image frame(const F& light, double hidden = 0.0) {
+  Image image(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const double u = static_cast<double>(x) / kWidth;
+      const bool hand = (y * 7 / 10 + x * 3 / 10) < hidden * 240.0;
+      for (int c = 0; c < 3; ++c) {
+        const double colour = hand ? 200.0 - 40.0 * c : 60.0 + (x / 20 * 37 + y / 20 * 53 + c * 41) % 90;
+        image.at(x, y)[c] = static_cast<std::uint8_t>(
+            std::lround(std::min(255.0, colour * light(u)[static_cast<std::size_t>(c)])));
+      }
+    }
+  return image;
+}
+std::array<double, 3> steady(double) { return {1.0, 1.0, 1.0}; }
+
+Light measured(const Image& image) {
+  return LightMeter(frame(steady), {kWidth, kHeight, 5}).measure(image.view());
+}
+
+TEST(Light, OfTheBackgroundIsOne) {
+  const Light light = measured(frame(steady));
+  for (const double gain : light.gain) EXPECT_NEAR(gain, 1.0, 0.001);
+  EXPECT_NEAR(light.across, 0.0, 0.001);
+  EXPECT_LT(light.bright, 0.001);
+  EXPECT_LT(light.colour, 0.001);
+}
+
+TEST(Light, HasItsColourAndItsSide) {
+  for (const double hidden : {0.0, 0.35}) {
+    const Light light = measured(frame(
+        [](double u) {
+          return std::array{0.9 * (0.7 + 0.5 * u), 0.7 + 0.5 * u, 1.1 * (0.7 + 0.5 * u)};
+        },
+        hidden));
+    EXPECT_NEAR(light.gain[0] / light.gain[1], 0.9, 0.01) << hidden;
+    EXPECT_NEAR(light.gain[2] / light.gain[1], 1.1, 0.01) << hidden;
+    EXPECT_NEAR(light.middle * light.gain[1], 0.95, 0.02) << hidden;
+    EXPECT_NEAR(light.across * light.gain[1], 0.5, 0.02) << hidden;
+    EXPECT_NEAR(light.down, 0.0, 0.02) << hidden;
+    EXPECT_LT(light.bright, 0.02);
+  }
+}
+
+TEST(Light, OfTooFewSamplesIsOne) {
+  const Image black(kWidth, kHeight), image = frame(steady);
+  const Light light = LightMeter(black, {kWidth, kHeight, 5}).measure(image.view());
+  EXPECT_EQ(light.gain, (std::array{1.0, 1.0, 1.0}));
+  EXPECT_EQ(light.middle, 1.0);
+  const Light clipped = measured(frame([](double) { return std::array{9.0, 9.0, 9.0}; }));
+  EXPECT_EQ(clipped.gain, (std::array{1.0, 1.0, 1.0}));
+}
+
+// Most of the background is clipped, a shaded hand before it is not: it says nothing of the light.
+TEST(Light, OfAHandAloneIsOne) {
+  Image image = frame([](double) { return std::array{3.0, 3.0, 3.0}; });
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth - y; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>((60 + x / 3) * (5 - c) / 5);
+  const Light light = measured(image);
+  EXPECT_EQ(light.gain, (std::array{1.0, 1.0, 1.0}));
+  EXPECT_EQ(light.bright, 0.0);
+  EXPECT_EQ(light.middle, 1.0);
+}
+
 }  // namespace
-}  // namespace enc
+}  // namespace enc::segmentation

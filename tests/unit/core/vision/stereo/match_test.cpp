@@ -161,8 +161,7 @@ TEST(Match, WhatTheRightImageDoesNotHaveIsNotMutual) {
   for (int y = 20; y < 40; ++y)  // a copy with some change, of what is at 300
     for (int x = 0; x < 24; ++x)
       *left.at(340 + x, y) = static_cast<std::uint8_t>(0.9 * *left.at(290 + x, y) + (x * y) % 7);
-  MatchSpec spec;
-  spec.uniqueness = 0.0;
+  MatchSpec spec{.uniqueness = 0.0};
   Matcher asks(spec, kPair);
   spec.agreement = -1.0;
   Matcher trusts(spec, kPair);

@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/vision/stereo/lens.h"
+#include "core/vision/stereo/smoothed.h"
 #include "core/vision/stereo/triangulate.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {
@@ -117,6 +120,85 @@ TEST(Rectify, WhatIsNoPairIsRefused) {
   refused([](StereoRig& rig) { rig.X_CD = Pose<'C', 'D'>::shift(0, 0, 0); });
   refused([](StereoRig& rig) { rig.left.distortion[0] = -3.0; });
   refused([](StereoRig& rig) { rig.X_CD = {Quat(Eigen::AngleAxisd(0.6, Vec3::UnitY())), Vec3(0.09, 0, 0)}; });
+}
+
+// The lens: by hand, there and back, and where it folds.
+
+const Lens kBent{700, 710, 320, 240, {-0.25, 0.1, 0.001, -0.002, -0.02}};
+
+// x = 0.3, y = -0.2, r2 = 0.13: radial = 1 - 0.0325 + 0.00169 - 0.00004394 = 0.96914606;
+// x'' = 0.290743818 + 2 * 0.001 * -0.06 - 0.002 * (0.13 + 0.18) = 0.290003818,
+// y'' = -0.193829212 + 0.001 * (0.13 + 0.08) + 2 * -0.002 * -0.06 = -0.193379212.
+TEST(Lens, ProjectsAsWorkedByHand) {
+  const Pixel p = project(kBent, {0.3, -0.2});
+  EXPECT_NEAR(p.column, 320 + 700 * 0.290003818, 1e-6);
+  EXPECT_NEAR(p.row, 240 + 710 * -0.193379212, 1e-6);
+}
+
+TEST(Lens, ComesBackFromEveryPixel) {
+  for (int row = 0; row < 480; row += 53)
+    for (int column = 0; column < 640; column += 61) {
+      const Pixel p = project(kBent, ray_of(kBent, {column * 1.0, row * 1.0}));
+      EXPECT_NEAR(p.column, column, 1e-8);
+      EXPECT_NEAR(p.row, row, 1e-8);
+    }
+}
+
+TEST(Lens, HasNoRayBeyondItsFold) {
+  Lens folds;
+  folds.distortion[0] = -1.0;  // r (1 - r^2) has its most, 0.385, at r = 0.577
+  const double most = folds.focal_x * 0.3849;
+  EXPECT_TRUE(std::isfinite(ray_of(folds, {folds.centre_x + 0.99 * most, folds.centre_y}).x));
+  EXPECT_FALSE(std::isfinite(ray_of(folds, {folds.centre_x + 1.05 * most, folds.centre_y}).x));
+}
+
+constexpr int kColumns = 40, kRows = 30;
+
+Grey noise() {
+  Grey image(kColumns, kRows);
+  sim::Stream stream(1, "smoothed");
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) *image.at(x, y) = static_cast<std::uint8_t>(stream.bits());
+  return image;
+}
+const Region kWhole{0, 0, kColumns, kRows};
+
+TEST(Smoothed, WithoutAPassItIsTheImage) {
+  const Grey image = noise();
+  const Smoothed same(image, kWhole, 0);
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) ASSERT_EQ(*same.at(x, y), static_cast<float>(*image.at(x, y)));
+}
+
+TEST(Smoothed, APointSpreadsByHalfAPixelSquaredAPass) {
+  Grey image(kColumns, kRows);
+  *image.at(20, 15) = 200;
+  for (const int passes : {1, 2, 5}) {
+    const Smoothed spread(image, kWhole, passes);
+    double sum = 0.0, across = 0.0, down = 0.0;
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
+        const auto level = static_cast<double>(*spread.at(x, y));
+        sum += level;
+        across += level * (x - 20) * (x - 20);
+        down += level * (y - 15) * (y - 15);
+      }
+    EXPECT_NEAR(sum, 200.0, 1e-3);
+    EXPECT_NEAR(across / sum, 0.5 * passes, 1e-5);
+    EXPECT_NEAR(down / sum, 0.5 * passes, 1e-5);
+  }
+}
+
+TEST(Smoothed, APixelIsTheSameWhateverElseIsAsked) {
+  const Grey image = noise();
+  const Smoothed all(image, kWhole, 3);
+  for (const Region& part : {Region{10, 8, 20, 14}, Region{-5, -5, 4, 3}, Region{35, 20, 60, 50}}) {
+    const Smoothed some(image, part, 3);
+    EXPECT_EQ(some.part(), part.cut(kWhole));
+    for (int y = some.part().y0; y < some.part().y1; ++y)
+      for (int x = some.part().x0; x < some.part().x1; ++x) ASSERT_EQ(*some.at(x, y), *all.at(x, y));
+  }
+  EXPECT_TRUE(Smoothed(image, Region{50, 0, 60, 10}, 3).part().empty());
 }
 
 }  // namespace

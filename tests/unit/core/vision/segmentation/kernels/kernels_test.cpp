@@ -2,7 +2,9 @@
 // and at every width up to where the fast form has run more than once.
 #include "core/vision/segmentation/kernels/kernels.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -10,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "core/vision/segmentation/kernels/arc.h"
+#include "core/vision/segmentation/kernels/hue.h"
+#include "core/vision/segmentation/kernels/majority.h"
 
 namespace enc::segmentation {
 namespace {
@@ -198,6 +202,139 @@ TEST_F(Twins, SeeTheSameChange) {
     ASSERT_EQ(skin, skin_fast) << round;
     ASSERT_EQ(strong, strong_fast) << round;
     ASSERT_EQ(hueless, hueless_fast) << round;
+  }
+}
+
+// Hue in integers: the corners of the circle, its one formula, what has none; and arcs that reach over red.
+
+constexpr HueRule kAll{1, 0};
+
+TEST(Hue, OfTheSixCornersIsAMultipleOfASextant) {
+  EXPECT_EQ(hue_of(255, 0, 0, kAll), 0);
+  EXPECT_EQ(hue_of(200, 200, 0, kAll), 256);
+  EXPECT_EQ(hue_of(0, 9, 0, kAll), 512);
+  EXPECT_EQ(hue_of(10, 200, 200, kAll), 768);
+  EXPECT_EQ(hue_of(0, 0, 255, kAll), 1024);
+  EXPECT_EQ(hue_of(255, 0, 255, kAll), 1280);
+  EXPECT_EQ(hue_of(255, 0, 1, kAll), 1534);  // 254 of 255 from magenta to red
+  EXPECT_EQ(hue_of(255, 1, 0, kAll), 1);
+}
+
+// Against the usual formula, in steps of 7 of each channel: the floor of it.
+TEST(Hue, IsTheFloorOfTheUsualOne) {
+  for (int r = 0; r < 256; r += 7)
+    for (int g = 0; g < 256; g += 7)
+      for (int b = 0; b < 256; b += 7) {
+        const int most = std::max(r, std::max(g, b)), chroma = most - std::min(r, std::min(g, b));
+        if (chroma == 0) continue;
+        double turn = r == most ? static_cast<double>(g - b) / chroma
+                                : (g == most ? 2.0 + static_cast<double>(b - r) / chroma
+                                             : 4.0 + static_cast<double>(r - g) / chroma);
+        if (turn < 0.0) turn += 6.0;
+        EXPECT_EQ(hue_of(r, g, b, kAll), static_cast<int>(256.0 * turn + 1e-9) % kHues)
+            << r << " " << g << " " << b;
+      }
+}
+
+TEST(Hue, GreyAndDarkPixelsHaveNone) {
+  const HueRule rule{};
+  for (int v = 0; v < 256; ++v) EXPECT_EQ(hue_of(v, v, v, HueRule{0, 0}), kNoHue) << v;
+  EXPECT_EQ(hue_of(100 + rule.least_chroma - 1, 100, 100, rule), kNoHue);
+  EXPECT_EQ(hue_of(100 + rule.least_chroma, 100, 100, rule), 0);
+  EXPECT_EQ(hue_of(rule.least_value - 1, 0, 0, rule), kNoHue);
+  EXPECT_EQ(hue_of(rule.least_value, 0, 0, rule), 0);
+}
+
+TEST(Arc, ReachesOverRed) {
+  const double step = 2.0 * std::numbers::pi / kHues;
+  const Arc arc = skin_arc({.hue = 2.0 * std::numbers::pi, .spread = 100.0 * step}, 2.0);  // +-200 about red
+  EXPECT_EQ(arc.first, kHues - 200);
+  EXPECT_EQ(arc.count, 400);
+  for (const int in : {1336, 1535, 0, 199}) EXPECT_TRUE(arc.has(in)) << in;
+  for (const int out : {1335, 200, 768, kNoHue}) EXPECT_FALSE(arc.has(out)) << out;
+  const Arc same = skin_arc({.hue = 0.0, .spread = 100.0 * step}, 2.0);
+  EXPECT_EQ(same.first, arc.first);
+  EXPECT_EQ(same.count, arc.count);
+}
+
+TEST(Arc, IsTheWholeCircleOrNothingAtTheEnds) {
+  EXPECT_EQ(skin_arc({1.0, 1.0}, 3.2).count, kHues);
+  EXPECT_EQ(skin_arc({1.0, 1e-9}, 1.0).count, 0);
+  EXPECT_FALSE(skin_arc({1.0, 1.0}, 9.0).has(kNoHue));  // whatever the arc, grey is no skin
+}
+
+// The median of a mask: against counting each window, and its two promises.
+
+Mask random_mask(int width, int height, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  Mask mask(width, height);
+  for (auto& on : mask.on) on = random() % 2 != 0 ? 255 : 0;
+  return mask;
+}
+
+Mask counted(const Mask& in, int side) {
+  Mask out(in.width, in.height);
+  for (int y = 0; y < in.height; ++y)
+    for (int x = 0; x < in.width; ++x) {
+      int count = 0;
+      for (int dy = -side / 2; dy <= side / 2; ++dy)
+        for (int dx = -side / 2; dx <= side / 2; ++dx)
+          count += in.at(std::clamp(x + dx, 0, in.width - 1), std::clamp(y + dy, 0, in.height - 1)) ? 1 : 0;
+      out.row(y)[x] = 2 * count > side * side ? 255 : 0;
+    }
+  return out;
+}
+
+TEST(Majority, IsWhatCountingEachWindowGives) {
+  for (const int side : {1, 3, 5, 9, 15})
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {33, 7}, {70, 41}})
+      for (const Kernels* kernels : {&plain_kernels(), &segmentation::kernels()}) {
+        const Mask in = random_mask(width, height, 1);
+        Mask out(width, height);
+        Majority(*kernels, side, width).filter(in, in.whole(), out);
+        EXPECT_EQ(out.on, counted(in, side).on) << side << " " << width << " " << height;
+      }
+}
+
+TEST(Majority, OfARegionIsThatOfTheWhole) {
+  const Mask in = random_mask(90, 60, 2);
+  Majority median(kernels(), 5, 90);
+  Mask whole(90, 60);
+  median.filter(in, in.whole(), whole);
+  for (const Region& region : {Region{0, 0, 5, 5}, Region{10, 20, 55, 25}, Region{85, 50, 90, 60}}) {
+    Mask part(90, 60);
+    std::fill(part.on.begin(), part.on.end(), std::uint8_t{7});
+    median.filter(in, region, part);
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 90; ++x) ASSERT_EQ(part.row(y)[x], region.contains(x, y) ? whole.row(y)[x] : 7);
+  }
+}
+
+TEST(Majority, RemovesEveryIsolatedPixel) {
+  Mask in(64, 48), out(64, 48);
+  int alone = 0;
+  for (int y = 0; y < 48; y += 3)  // none has another among its eight neighbours; corners and edges, too
+    for (int x = 0; x < 64; x += 3) {
+      in.row(y)[x] = 255;
+      ++alone;
+    }
+  ASSERT_GT(alone, 300);
+  Majority(kernels(), 5, 64).filter(in, in.whole(), out);
+  EXPECT_EQ(std::count(out.on.begin(), out.on.end(), 255), 0);
+}
+
+// Down to a radius of 10 px; one of 8 loses 2.5 %.
+TEST(Majority, KeepsADiscsArea) {
+  for (const double radius : {10.0, 15.0, 40.0, 90.0}) {
+    Mask in(200, 200), out(200, 200);
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 200; ++x)
+        in.row(y)[x] = (x - 99.7) * (x - 99.7) + (y - 100.2) * (y - 100.2) < radius * radius ? 255 : 0;
+    Majority(kernels(), 5, 200).filter(in, in.whole(), out);
+    const auto area = [](const Mask& m) {
+      return static_cast<double>(std::count(m.on.begin(), m.on.end(), 255));
+    };
+    EXPECT_NEAR(area(out) / area(in), 1.0, 0.02) << radius;
   }
 }
 

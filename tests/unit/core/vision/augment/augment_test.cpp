@@ -1,6 +1,4 @@
 // The arm out of an image that is painted by hand, and objects in its place: by what is believed alone.
-#include "core/vision/augment/augmented_view.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +6,13 @@
 
 #include "core/base/error.h"
 #include "core/machine/arm_shape.h"
+#include "core/vision/augment/augmented_view.h"
+#include "core/vision/augment/clean_background.h"
+#include "core/vision/augment/facets.h"
 #include "core/vision/augment/part_mask.h"
 #include "core/vision/stereo/triangulate.h"
 
-namespace enc {
+namespace enc::augment {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
@@ -167,5 +168,138 @@ TEST(AugmentedView, AnotherSizeIsRefused) {
   EXPECT_THROW(view.see(image.view(), {}), Error);
 }
 
+// A background that is completed over time.
+
+Image grey(std::uint8_t level) {
+  Image image(8, 4);
+  std::fill(image.rgb.begin(), image.rgb.end(), level);
+  return image;
+}
+
+Mask column(int x) {
+  Mask mask(8, 4);
+  for (int y = 0; x >= 0 && y < 4; ++y) mask.row(y)[x] = 255;
+  return mask;
+}
+
+TEST(CleanBackground, WhatIsCoveredIsLearnedWhenItIsUncovered) {
+  CleanBackground background(8, 4, 3);
+  for (const int level : {99, 100, 102})
+    background.add(grey(static_cast<std::uint8_t>(level)).view(), column(5));
+  EXPECT_FALSE(background.known().at(5, 2));
+  EXPECT_TRUE(background.known().at(4, 2));
+  EXPECT_EQ(background.image().view().at(4, 2)[0], 100);  // (99 + 100 + 102) / 3
+  for (int i = 0; i < 3; ++i) background.add(grey(60).view(), column(-1));
+  EXPECT_TRUE(background.known().at(5, 2));
+  EXPECT_EQ(background.image().view().at(5, 2)[1], 60);
+  EXPECT_EQ(background.image().view().at(4, 2)[1], 100);  // once learned it stays
+}
+
+TEST(CleanBackground, WhatMovesDoesNotGetIn) {
+  CleanBackground background(8, 4, 3);
+  for (const int level : {50, 50, 200, 50, 50}) {
+    background.add(grey(static_cast<std::uint8_t>(level)).view(), column(-1));
+    EXPECT_FALSE(background.known().at(0, 0));
+  }
+  background.add(grey(50).view(), column(-1));
+  EXPECT_TRUE(background.known().at(0, 0));
+  EXPECT_EQ(background.image().view().at(0, 0)[2], 50);
+}
+
+// Between 10 and 40, three pixels apart: nearer to the 10, weights 1 : 1/4 in the row; no column is known.
+TEST(CleanBackground, AGapGoesOnFromItsSides) {
+  CleanBackground background(8, 4, 1);
+  Image image = grey(10);
+  Mask gap = column(3);
+  for (int y = 0; y < 4; ++y) {
+    gap.row(y)[4] = 255;
+    std::fill_n(image.at(5, y), 9, std::uint8_t{40});
+  }
+  background.add(image.view(), gap);
+  EXPECT_EQ(background.image().view().at(3, 1)[0], 16);
+  EXPECT_EQ(background.image().view().at(4, 1)[0], 34);
+  EXPECT_FALSE(background.known().at(3, 1));
+}
+
+// Virtual objects as triangles, and which of them is seen.
+
+const RectifiedPair kPair{500.0, 159.5, 119.5, 0.1, Mat3::Identity()};
+
+Pose<'C', 'O'> facing(double z) { return {Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX())), Vec3(0, 0, z)}; }
+
+TEST(Facets, EachShapeIsAsLargeAsItIs) {
+  const auto reach = [](const Surface& surface) {
+    Vec3 most = Vec3::Zero();
+    for (const Point<'O'>& corner : facets_of(surface).corners) most = most.cwiseMax(corner.e().cwiseAbs());
+    return most;
+  };
+  EXPECT_LT((reach(Surface(Plane{})) - Vec3(0.06, 0.06, 0)).norm(), 1e-12);
+  EXPECT_LT((reach(Surface(Sphere{0.04})) - Vec3(0.04, 0.04, 0.04)).norm(), 1e-12);
+  EXPECT_LT((reach(Surface(Button{0.02, 0.03, 0.05})) - Vec3(0.01, 0.015, 0.05)).norm(), 1e-12);
+}
+
+TEST(Facets, TheNearestSurfaceIsSeenAndItsDepthIsExact) {
+  Seen seen(320, 240);
+  draw(facets_of(Surface(Sphere{0.04})), kPair, facing(0.5), seen);
+  draw(facets_of(Surface(Plane{})), kPair, facing(0.5), seen);  // through its middle
+  const auto depth = [&](int x, int y) {
+    return static_cast<double>(seen.depth[static_cast<std::size_t>(y * 320 + x)]);
+  };
+  EXPECT_NEAR(depth(160, 120), 0.46, 1e-3);
+  EXPECT_NEAR(depth(160 + 55, 120), 0.50, 1e-6);  // beside the ball
+  EXPECT_TRUE(std::isinf(depth(160 + 70, 120)));  // and beside the patch
+  const auto covered =
+      std::count_if(seen.depth.begin(), seen.depth.end(), [](float d) { return std::isfinite(d); });
+  EXPECT_NEAR(static_cast<double>(covered), 120.0 * 120.0, 250.0);
+}
+
+TEST(Facets, WhatIsNotInFrontIsNotDrawn) {
+  Seen seen(320, 240);
+  draw(facets_of(Surface(Plane{})), kPair, facing(-0.5), seen);
+  draw(facets_of(Surface(Sphere{0.04})), kPair, facing(-0.05), seen);
+  for (int i = 0; i < 320 * 240; i += 97) EXPECT_TRUE(std::isinf(seen.depth[static_cast<std::size_t>(i)]));
+}
+
+// Outlines of an arm's parts against areas that are known.
+
+const RectifiedPair kWidePair{500.0, 319.5, 239.5, 0.1, Mat3::Identity()};
+const Pose<'C', 'W'> kSame(Quat::Identity(), Vec3(0, 0, 0));  // W is where C is
+
+double pixels(const ArmPart& part, double margin, Mask* mask = nullptr) {
+  Mask own(640, 480);
+  Mask& m = mask != nullptr ? *mask : own;
+  cover(kWidePair, kSame, part, margin, m);
+  return static_cast<double>(std::count(m.on.begin(), m.on.end(), std::uint8_t{255}));
+}
+
+TEST(PartMask, ABallIsADiscOfItsOutline) {
+  const ArmPart ball{
+      PartForm::capsule, Material::metal, Point<'W'>(0, 0, 0.5), Mat3::Identity(), {0.05, 0.05, 0}};
+  // Rays touch a ball of r at the distance d where sin is r / d: px of radius f r / sqrt(d^2 - r^2).
+  const double r = 500.0 * 0.05 / std::sqrt(0.25 - 0.0025);
+  EXPECT_NEAR(pixels(ball, 0.0), M_PI * r * r, 0.02 * M_PI * r * r);
+  EXPECT_NEAR(pixels(ball, 5.0), M_PI * (r + 5) * (r + 5), 0.02 * M_PI * (r + 5) * (r + 5));
+}
+
+TEST(PartMask, ABoxAndARodAreAsLargeAsTheyAre) {
+  const ArmPart plate{
+      PartForm::box, Material::plate, Point<'W'>(0.01, 0, 0.5), Mat3::Identity(), {0.04, 0.02, 1e-6}};
+  EXPECT_NEAR(pixels(plate, 0.0), 80.0 * 40.0, 130.0);
+  EXPECT_NEAR(pixels(plate, 3.0), 86.0 * 46.0, 150.0);
+  const Mat3 along_x = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()).toRotationMatrix();
+  const ArmPart rod{
+      PartForm::cylinder, Material::metal, Point<'W'>(0, 0, 0.5), along_x, {0.004, 0.004, 0.06}};
+  EXPECT_NEAR(pixels(rod, 0.0), 120.0 * 8.0, 70.0);
+}
+
+TEST(PartMask, WhatIsOutsideOrBehindIsCut) {
+  const Mat3 axes = Mat3::Identity();
+  EXPECT_EQ(pixels({PartForm::box, Material::plate, Point<'W'>(0, 0, -0.5), axes, {0.1, 0.1, 0.1}}, 3.0),
+            0.0);
+  EXPECT_EQ(pixels({PartForm::box, Material::plate, Point<'W'>(5, 0, 0.5), axes, {0.1, 0.1, 0.1}}, 3.0), 0.0);
+  const double all = pixels({PartForm::box, Material::plate, Point<'W'>(0, 0, 0.5), axes, {9, 9, 0.1}}, 3.0);
+  EXPECT_EQ(all, 640.0 * 480.0);
+}
+
 }  // namespace
-}  // namespace enc
+}  // namespace enc::augment

@@ -1,14 +1,16 @@
-// How far a cap is, on drawn pairs of which place, outline and slope are known: near ones and at the image's
-// edge, where the finger is seen aslant and the eyes see different sides of it.
-#include "core/vision/finger/cap_match.h"
-
+// A finger in two images: how far its cap is, and whether they are exchanged.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "core/vision/finger/cap_fit.h"
+#include "core/vision/finger/cap_match.h"
+#include "core/vision/finger/exchanged.h"
+#include "core/vision/finger/silhouette.h"
 #include "core/vision/finger/tangent.h"
 #include "core/vision/stereo/triangulate.h"
 #include "tests/unit/core/vision/finger/drawn_hand.h"
@@ -17,6 +19,9 @@ namespace enc {
 namespace {
 
 using drawn::small;
+
+// How far a cap is, on drawn pairs of which place, outline and slope are known: near ones and at the image's
+// edge, where the finger is seen aslant and the eyes see different sides of it.
 
 const RectifiedPair kPair{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
 
@@ -186,6 +191,175 @@ TEST(CapFit, ACapAtTheEdgeOfTheImageIsACircleSeenStraightOn) {
     apart = std::max(apart, std::abs(without.radius - scene.tip.outline));
   }
   EXPECT_GT(apart, 0.4);  // without perspective
+}
+
+// Where a fingertip is in the right image by its shape, with skin that has no detail at all.
+
+const RectifiedPair kSmall{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
+
+struct Outline {
+  Mask left{320, 240}, right{320, 240};
+  Fingertip tip;
+  double disparity;
+
+  explicit Outline(const drawn::HandAt& hand) {
+    Image image;
+    drawn::draw(small(), Side::left, &hand, 1, 0.0, image, &left);
+    drawn::draw(small(), Side::right, &hand, 1, 0.0, image, &right);
+    const Triplet at = seen_at(kSmall, Point<'C'>(hand.tip));
+    tip.column = at.column;
+    tip.row = at.row;
+    tip.outline = kSmall.focal * hand.radius / hand.tip.z();
+    disparity = at.disparity;
+  }
+};
+drawn::HandAt small_hand(const Vec3& tip, const Vec3& along) {
+  return {.tip = tip, .along = along, .radius = 0.010, .length = 0.05};
+}
+ShiftRange round(double disparity) {
+  return {static_cast<int>(0.6 * disparity), static_cast<int>(1.6 * disparity)};
+}
+
+// From all sides, along the rows as well; pointing away from the cameras and towards them.
+TEST(SilhouetteLong, TheShiftIsThatOfTheTip) {
+  for (int side = 0; side < 16; ++side)
+    for (const double away : {-0.5, 0.0, 0.5}) {
+      const double angle = M_PI / 8.0 * side;
+      const Outline scene(small_hand({0.05, 0.01, 0.4}, {std::cos(angle), std::sin(angle), away}));
+      std::array<float, 4> shifts{};
+      const std::size_t count =
+          alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), shifts);
+      ASSERT_GE(count, 1U);
+      EXPECT_NEAR(static_cast<double>(shifts[0]), scene.disparity, 2.5) << side << " / " << away;
+    }
+}
+
+TEST(Silhouette, ReadsOnlyWhatItSays) {
+  Outline scene(small_hand({0.02, 0.0, 0.5}, {1, 0.1, 0.2}));
+  const ShiftRange range = round(scene.disparity);
+  std::array<float, 4> before{}, after{};
+  const std::size_t count = alike_shapes(scene.left, scene.right, scene.tip, range, before);
+  const Region read = opposite(scene.tip, range, scene.right.whole());
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      if (!read.contains(x, y)) scene.right.row(y)[x] = 255;
+  EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, range, after), count);
+  EXPECT_EQ(before, after);
+}
+
+TEST(Silhouette, ABackgroundOfTheHueOfSkinTellsNothing) {
+  Outline scene(small_hand({0.02, 0.0, 0.5}, {0, -1, 0}));
+  std::fill(scene.right.on.begin(), scene.right.on.end(), std::uint8_t{255});
+  std::array<float, 4> shifts{};
+  EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), shifts), 0U);
+  Outline edge(small_hand({-0.09, 0.0, 0.4}, {0, -1, 0}));  // some shifts lead out of the right image
+  ASSERT_LT(edge.tip.column - edge.tip.outline, 1.6 * edge.disparity);
+  std::fill(edge.right.on.begin(), edge.right.on.end(), std::uint8_t{255});
+  EXPECT_EQ(alike_shapes(edge.left, edge.right, edge.tip, round(edge.disparity), shifts), 0U);
+}
+
+TEST(Silhouette, NoMoreThanThereIsRoomFor) {
+  const Outline scene(small_hand({0.02, 0.0, 0.5}, {0, -1, 0}));
+  std::array<float, 1> one{};
+  EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), one), 1U);
+  EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), {}), 0U);
+}
+
+// Left and right exchanged are noticed in the first frame that shows enough, and never otherwise.
+
+Grey grey_of(const Image& image) {
+  Grey grey(image.width, image.height);
+  to_grey(image.view(), {0, 0, image.width, image.height}, grey);
+  return grey;
+}
+
+class ExchangedTest : public testing::Test {
+ protected:
+  StereoRig rig = drawn::small();
+  Exchanged watch{Rectifier(rig).pair(), 320, 240};
+  static Grey bare() {
+    Grey grey(320, 240);
+    std::fill(grey.level.begin(), grey.level.end(), std::uint8_t{90});
+    return grey;
+  }
+};
+
+TEST_F(ExchangedTest, IsSeenAtOnceAndEndsAtOnce) {
+  drawn::HandAt hand{.tip = {0.0, 0.0, 0.45}};
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const drawn::Pair pair = drawn::pair_of(rig, &hand, seed);
+    const Grey left = grey_of(pair.left), right = grey_of(pair.right);
+    EXPECT_FALSE(watch.see(left, right)) << seed;
+    EXPECT_TRUE(watch.see(right, left)) << seed;
+    EXPECT_FALSE(watch.see(left, right)) << seed;
+  }
+}
+
+TEST_F(ExchangedTest, WhatShowsNothingChangesNothing) {
+  const drawn::Pair pair = drawn::pair_of(rig, nullptr);
+  const Grey left = grey_of(pair.left), right = grey_of(pair.right);
+  EXPECT_FALSE(watch.see(bare(), bare()));
+  EXPECT_TRUE(watch.see(right, left));
+  EXPECT_TRUE(watch.see(bare(), bare()));
+}
+
+// Two images that have nothing to do with each other are neither.
+TEST_F(ExchangedTest, NoiseIsNoSign) {
+  const auto noisy = [](std::uint64_t seed) {
+    Grey grey(320, 240);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x)
+        *grey.at(x, y) =
+            static_cast<std::uint8_t>(255.0 * drawn::hashed(x, y, static_cast<std::int64_t>(seed)));
+    return grey;
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_FALSE(watch.see(noisy(seed), noisy(seed + 100)));
+}
+
+// A pair of cameras far apart, or of few pixels, is none that it refuses.
+TEST_F(ExchangedTest, AnyRigIsLookedAt) {
+  RectifiedPair wide = Rectifier(rig).pair();
+  wide.baseline = 1.0;
+  EXPECT_NO_THROW(Exchanged(wide, 320, 240));
+  Exchanged tiny(Rectifier(rig).pair(), 8, 4);
+  EXPECT_FALSE(tiny.see(Grey(8, 4), Grey(8, 4)));
+}
+
+// What a sphere's outline is in an image, and where a camera looks straight at it.
+
+const RectifiedPair kAhead{721, 319.5, 239.5, 0.09, Mat3::Identity()};
+
+// 12 mm of radius at 300 mm, in a corner: 29 px, and 2 px more from the image's middle outwards.
+TEST(Tangent, ASpheresOutlineIsACircleRoundItsMiddle) {
+  const Vec3 centre(0.11, -0.08, 0.30);
+  const double radius = 0.012, distance = centre.norm();
+  const Pixel middle{319.5 + 721 * centre.x() / centre.z(), 239.5 + 721 * centre.y() / centre.z()};
+  const Tangent tangent(kAhead, middle);
+  const Vec3 along = centre / distance, a = centre.unitOrthogonal(), b = along.cross(a);
+  const double sine = radius / distance, cosine = std::sqrt(1.0 - sine * sine);
+  double least = 1e9, most = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double angle = 0.02 * i * std::numbers::pi;
+    // A ray that touches it.
+    const Vec3 rim = cosine * along + sine * (std::cos(angle) * a + std::sin(angle) * b);
+    const Pixel seen{319.5 + 721 * rim.x() / rim.z(), 239.5 + 721 * rim.y() / rim.z()};
+    const Pixel flat = tangent.of(seen);
+    EXPECT_NEAR(std::hypot(flat.column, flat.row), 721 * sine / cosine, 1e-9);
+    const Pixel back = tangent.image(flat);
+    EXPECT_NEAR(back.column, seen.column, 1e-9);
+    EXPECT_NEAR(back.row, seen.row, 1e-9);
+    const double in_image = std::hypot(seen.column - middle.column, seen.row - middle.row);
+    least = std::min(least, in_image);
+    most = std::max(most, in_image);
+  }
+  EXPECT_GT(most - least, 3.0);
+}
+
+TEST(Tangent, InTheMiddleItIsTheImage) {
+  const Tangent tangent(kAhead, {319.5, 239.5});
+  const Pixel flat = tangent.of({331.5, 230.5});
+  EXPECT_NEAR(flat.column, 12.0, 1e-12);
+  EXPECT_NEAR(flat.row, -9.0, 1e-12);
 }
 
 }  // namespace
