@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/control/world/object.h"
@@ -12,6 +11,7 @@
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
 #include "tests/support/built.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
@@ -44,12 +44,7 @@ class BoxShape : public testing::Test {
     return folder_.file("cube.toml");
   }
   [[nodiscard]] std::string said(const std::string& lines) const {
-    try {
-      (void)trial::prepare_setup(models::load(scene(lines), "sim"));
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return {};
+    return test::refusal([&] { (void)trial::prepare_setup(models::load(scene(lines), "sim")); });
   }
   const TemporaryFolder folder_;
 };

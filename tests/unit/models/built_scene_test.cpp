@@ -1,14 +1,11 @@
 // The scene with only what it builds: as a file it runs, with the same bits; and what it leaves out is read
 // by nothing.
-#include <cmath>
 #include <fstream>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/record/fields.h"
 #include "models/schema/schema.h"
@@ -22,8 +19,7 @@
 namespace enc::models {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using testing::HasSubstr, testing::Not;
 const std::string kModels = tests::source_dir() + "/models";
 
 // Calls `found` with every value's full name.
@@ -75,8 +71,7 @@ struct Told {
   bool operator==(const Told&) const = default;
 };
 Told told_by(const Setup& setup) {
-  trial::TrialOptions options;
-  options.seconds = 5.0;
+  trial::TrialOptions options{.seconds = 5.0};
   trial::Trial trial(setup, options);
   const std::uint64_t hash = trial.run().hash;
   return {hash, trial.truth().tip.e()};
@@ -85,9 +80,7 @@ Told told_by(const Setup& setup) {
 // Every tick's commands and truth, but not what only a display is told.
 std::uint64_t outcome_of(const Setup& setup, bool draw_all, RecordWriter* record) {
   StateHash outcome;
-  trial::TrialOptions options;
-  options.seconds = 5.0;
-  options.draw_all = draw_all;
+  trial::TrialOptions options{.seconds = 5.0, .draw_all = draw_all};
   options.watch = [&](const trial::Glance& glance) {
     Outputs out = glance.out;
     out.view = {};

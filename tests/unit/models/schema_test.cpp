@@ -8,19 +8,26 @@
 #include <set>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/stereo_file.h"
 #include "tests/support/built.h"
+#include "tests/support/refusal.h"
+#include "tests/support/replaced.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {
 
 namespace fs = std::filesystem;
+using test::replaced;
+using testing::AllOf;
 using ::testing::HasSubstr;
+using testing::HasSubstr, testing::StartsWith;
 
 std::string source(const std::string& path) { return tests::source_dir() + "/" + path; }
 
@@ -52,15 +59,6 @@ models::Setup full() {
   s.twin.tracker.blackout_at = 10.0;
   round_to_text(s);
   return s;
-}
-
-std::string message(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "(no error)";
 }
 
 // How many members an aggregate has: as many as a list may initialise.
@@ -321,7 +319,7 @@ TEST(Set, changes_what_it_names) {
 
 TEST(Set, refuses_in_one_line_that_begins_with_the_words_given) {
   models::Setup s = full();
-  const auto refuse = [&](const std::string& text) { return message([&] { set(s, text); }); };
+  const auto refuse = [&](const std::string& text) { return test::refusal([&] { set(s, text); }); };
   EXPECT_THAT(refuse("object.ball.radius_mm"), HasSubstr("there is no value"));
   EXPECT_THAT(refuse("object.ball.radius_cm=3"), HasSubstr("did you mean 'object.ball.radius_mm'?"));
   EXPECT_THAT(refuse("object.bal.radius_mm=3"), HasSubstr("did you mean 'object.ball.radius_mm'?"));
@@ -340,14 +338,15 @@ TEST(Set, refuses_in_one_line_that_begins_with_the_words_given) {
 // In SI it would be 0, which the key may not be.
 TEST(Set, refuses_what_is_lost_in_si) {
   models::Setup s = plane();
-  EXPECT_THAT(message([&] { set(s, "user.depth_mm=5e-324"); }),
+  EXPECT_THAT(test::refusal([&] { set(s, "user.depth_mm=5e-324"); }),
               HasSubstr("is 5e-324; expected 0, or a number of 1e-300 or more"));
   EXPECT_NO_THROW(set(s, "user.depth_mm=1e-300"));
 }
 TEST(Set, shows_what_it_was_given_on_one_line) {
   models::Setup s = plane();
-  EXPECT_THAT(message([&] { set(s, "a\nb=1"); }), HasSubstr("--set a\\nb=1: unknown parameter 'a\\nb'"));
-  EXPECT_THAT(message([&] { set(s, "a\nb"); }), HasSubstr("--set a\\nb: there is no value"));
+  EXPECT_THAT(test::refusal([&] { set(s, "a\nb=1"); }),
+              HasSubstr("--set a\\nb=1: unknown parameter 'a\\nb'"));
+  EXPECT_THAT(test::refusal([&] { set(s, "a\nb"); }), HasSubstr("--set a\\nb: there is no value"));
 }
 
 TEST(Locale, does_not_matter) {
@@ -382,6 +381,140 @@ TEST(ResponseFile, is_written_as_it_is_read) {
   EXPECT_EQ(again.release, response.release);
   EXPECT_EQ(again.limit, response.limit);
   fs::remove(path);
+}
+
+// Words of a file that go to a terminal.
+
+TEST(Wording, WhatATerminalObeysIsShownInLetters) {
+  EXPECT_EQ(printable("left\033[2J\r\n\t01\x7F.png"), "left\\x1b[2J\\r\\n\\t01\\x7f.png");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
+  EXPECT_EQ(printable("a\u009b31m"), "a\\u009b31m");  // a terminal's other way to begin
+  EXPECT_EQ(printable("a\x9B 31m"), "a\\x9b 31m");    // and in one byte
+  for (const auto& [letter, shown] : {std::pair{"\u2028", "\\u2028"},
+                                      {"\u202e", "\\u202e"},
+                                      {"\u2066", "\\u2066"},
+                                      {"\u2069", "\\u2069"},
+                                      {"\u200f", "\\u200f"}})
+    EXPECT_EQ(printable(letter), shown);
+  for (const char* plain : {"H\u00e4nde \u00b5m \u2026 \u2212 \U0001F3BE", "a\\b", ""})
+    EXPECT_EQ(printable(plain), plain);
+  EXPECT_EQ(printable("'\xC2' is \xE2\x80"),
+            "'\\xc2' is \\xe2\\x80");  // half a letter, and what is behind it stays
+  EXPECT_EQ(printable("\xC0\x8A\xED\xA0\x80"),
+            "\\xc0\\x8a\\xed\\xa0\\x80");  // letters that UTF-8 does not have
+  EXPECT_EQ(quoted("a\nb"), "'a\\nb'");
+  EXPECT_EQ(quoted(std::string(79, 'x') + "\u00e4y"), "'" + std::string(79, 'x') + "...'");
+}
+
+TEST(Wording, NamesOfAFileAreShownAsTheyMayBe) {
+  EXPECT_EQ(advice("ball", {"bal\n"}), "did you mean 'bal\\n'?");
+  EXPECT_EQ(advice("b", {"stylus\t", "plane"}), "the names here are 'stylus\\t', 'plane'");
+  EXPECT_EQ(unknown_text("[behaviour.\t]", "kin", {"kind"}),
+            "unknown key 'kin'; expected a key of [behaviour.\\t]; did you mean 'kind'?");
+}
+
+TEST(Wording, AllNamesAreOffered) {
+  std::vector<std::string> names;
+  std::string list;
+  for (int i = 0; i < 30; ++i) {
+    names.push_back("name_number_" + std::to_string(i));
+    list += (i == 0 ? "'" : ", '") + names.back() + "'";
+  }
+  EXPECT_EQ(advice("quite_another", names), "the names here are " + list);
+}
+
+// Letter by letter two names of this length would take hours.
+TEST(Wording, AVeryLongNameIsNearToNone) {
+  const std::string one(1'000'000, 'a'), other(1'000'000, 'b');
+  EXPECT_EQ(nearest_name(one, {other, "radius_mm"}), "");
+  EXPECT_EQ(nearest_name("radius_m", {other, "radius_mm"}), "radius_mm");
+  EXPECT_EQ(nearest_name(std::string(1'000'000, '_'), {"radius_mm"}), "");
+}
+
+TEST(Wording, LowerCaseIsOfTheLatinLetters) { EXPECT_EQ(lower_case(".JPG\xC3\x84"), ".jpg\xC3\x84"); }
+
+// The file of a calibrated stereo head: written, read, and refused with the place of the mistake.
+
+StereoFile good() {
+  StereoFile file;
+  file.title = "13 pairs";
+  file.rig.left = {533.71234567, 533.7, 342.2, 235.1, {-0.2891, 0.096, 0.0011, -0.0001, 0.0}};
+  file.rig.right = {536.8, 536.4, 327.1, 249.9, {-0.2892, 0.1051, -0.0005, 0.0002, 0.0}};
+  file.rig.X_CD = Pose<'C', 'D'>(rotation_xyz(Vec3(0.001, 0.02, -0.003)), Vec3(0.08316, -0.00064, 0.00055));
+  file.reprojection = 0.194;
+  file.epipolar = 0.142;
+  return file;
+}
+
+std::string refused_change(const std::string& from, const std::string& to) {
+  try {
+    static_cast<void>(parse_stereo(replaced(stereo_text(good()), from, to), "head.toml"));
+  } catch (const Error& e) {
+    EXPECT_EQ(e.key(), "");
+    return e.what();
+  }
+  return {};
+}
+
+TEST(StereoFile, ComesBackAsItWasWritten) {
+  const std::string text = stereo_text(good());
+  const StereoFile read = parse_stereo(text, "head.toml");
+  EXPECT_EQ(stereo_text(read), text);
+  EXPECT_EQ(read.title, "13 pairs");
+  EXPECT_DOUBLE_EQ(read.rig.left.focal_x, 533.7123);
+  EXPECT_DOUBLE_EQ(read.rig.right.distortion[1], 0.1051);
+  EXPECT_NEAR((read.rig.X_CD.p() - good().rig.X_CD.p()).norm(), 0.0, 1e-7);
+  EXPECT_LT(read.rig.X_CD.q().angularDistance(good().rig.X_CD.q()), 1e-6);
+  EXPECT_DOUBLE_EQ(read.epipolar, 0.142);
+}
+
+TEST(StereoFile, WhatIsTooLargeToBeRoundedComesBack) {
+  StereoFile file = good();
+  file.reprojection = 1e305;
+  EXPECT_DOUBLE_EQ(parse_stereo(stereo_text(file), "head.toml").reprojection, 1e305);
+}
+
+TEST(StereoFile, KeysSayTheirUnits) {
+  EXPECT_THAT(
+      stereo_text(good()),
+      AllOf(HasSubstr("width_px = 640\n"), HasSubstr("focal_px = [533.7123, 533.7]\n"),
+            HasSubstr("position_mm = [83.16, -0.64, 0.55]\n"), HasSubstr("rotation_deg = [0.0573, ")));
+}
+
+TEST(StereoFile, MistakesAreRefusedWithTheirPlace) {
+  EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [533.7123]"),
+              AllOf(StartsWith("head.toml:9:"), HasSubstr("has 1 element; expected 2 positive numbers")));
+  EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [-533.7, 533.7]"),
+              AllOf(StartsWith("head.toml:9:"), HasSubstr("positive")));
+  EXPECT_THAT(refused_change("width_px", "widht_px"),
+              AllOf(StartsWith("head.toml:3:1: "), HasSubstr("width_px")));
+  EXPECT_THAT(refused_change("[right]", "[rihgt]"), AllOf(StartsWith("head.toml:"), HasSubstr("right")));
+  EXPECT_THAT(refused_change("[342.2, 235.1]", "[3420.2, 235.1]"),
+              AllOf(StartsWith("head.toml:10:1: "), HasSubstr("a place in an image of 640 x 480 px")));
+  EXPECT_THAT(refused_change("[-0.2891, ", "[-2.891, "),
+              AllOf(StartsWith("head.toml:11:1: "), HasSubstr("folds the image")));
+  EXPECT_THAT(refused_change("position_mm = [83.16", "position_mm = [-83.16"),
+              AllOf(StartsWith("head.toml:17:1: "), HasSubstr("to the right")));
+  EXPECT_THAT(refused_change("format = 1", "format = 2"), StartsWith("head.toml:1:10: "));
+  EXPECT_THAT(refused_change("[left]", "[left"), HasSubstr("is not TOML"));
+}
+
+TEST(StereoFile, AFileThatIsNotThereIsOneLine) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(test::refusal([&] { (void)load_stereo(folder.file("none.toml")); }),
+              AllOf(StartsWith(folder.file("none.toml") + ":1:1: "), HasSubstr("calibrate")));
+  std::ofstream(folder.file("head.toml")) << stereo_text(good());
+  EXPECT_EQ(load_stereo(folder.file("head.toml")).width, 640);
+}
+
+TEST(StereoFile, SaysWhatARigCallsSo) {
+  for (const char* name : {"rig.camera.width_px", "rig.camera.height_px", "rig.camera.left",
+                           "rig.camera.left.focal_px", "rig.camera.right.position_mm"})
+    EXPECT_TRUE(of_calibration(name)) << name;
+  for (const char* name :
+       {"rig.camera", "rig.camera.rate_hz", "rig.camera.latency_ms", "rig.camera.calibration",
+        "rig.camera.leftover", "truth.camera.left", "left.focal_px"})
+    EXPECT_FALSE(of_calibration(name)) << name;
 }
 
 }  // namespace

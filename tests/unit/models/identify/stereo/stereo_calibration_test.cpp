@@ -4,21 +4,21 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
+#include "hw_drivers/images/files/pair_list.h"
 #include "models/identify/stereo/rectify.h"
+#include "tests/support/built.h"
+#include "tests/support/refusal.h"
 #include "tests/support/vision/chessboard.h"
 
 namespace enc {
 namespace {
 
-using test::drawn;
-using test::known_head;
-using test::projected;
-using test::tilted_boards;
+using test::drawn, test::known_head, test::projected, test::tilted_boards;
 using testing::HasSubstr;
 
 const Board kDrawnBoard{9, 6, 0.024};
@@ -52,12 +52,7 @@ void expect_near(const StereoRig& found, const StereoRig& is, double focal, doub
 }
 
 std::string refusal(const std::vector<PairCorners>& pairs) {
-  try {
-    static_cast<void>(calibrate_stereo(pairs, kDrawnBoard, 640, 480));
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return {};
+  return test::refusal([&] { (void)calibrate_stereo(pairs, kDrawnBoard, 640, 480); });
 }
 
 // Corners come and go as floats: a thousandth of a pixel is all that they tell.
@@ -206,8 +201,7 @@ TEST(StereoCalibrationLong, FitsK3WhereALensHasOne) {
   }
 }
 
-// No numbers of this model describe a fisheye: pairs that were left out do not fit, and rings of corners lie
-// off.
+// No numbers of this model describe a fisheye: pairs left out do not fit, rings of corners lie off.
 TEST(StereoCalibrationLong, AFisheyeDoesNotFit) {
   StereoRig is = known_head(640, 480);
   for (Lens* lens : {&is.left, &is.right}) lens->focal_x *= 0.4, lens->focal_y *= 0.4;
@@ -283,6 +277,76 @@ TEST(StereoCalibration, TheSamePairsGiveTheSameBits) {
   EXPECT_EQ(a.rig.X_CD.xyz, b.rig.X_CD.xyz);
   EXPECT_EQ(a.rig.X_CD.xyzw, b.rig.X_CD.xyzw);
   EXPECT_EQ(a.rig.left.distortion, b.rig.left.distortion);
+}
+
+// The 13 real pairs of chessboards of Debian's opencv-doc (./check fetches them into .deps/chessboards): the
+// whole way from files to a head, judged by pairs that the calibration has not seen.
+
+const std::string kFolder = tests::source_dir() + "/.deps/chessboards";
+const Board kBoard{9, 6, 0.025};  // the sheet's squares are of no known size; this one is for the report
+
+std::vector<PairCorners> real_pairs() {
+  images::PairReader reader(images::list_pairs(kFolder, images::Layout::pairs));
+  std::vector<PairCorners> pairs;
+  images::ImagePair images;
+  for (std::size_t i = 0; i < reader.list().pairs.size(); ++i) {
+    reader.read(i, images);
+    const std::optional<Corners> left = find_corners(images.left.view(), kBoard);
+    const std::optional<Corners> right = find_corners(images.right.view(), kBoard);
+    EXPECT_TRUE(left && right) << reader.list().pairs[i].left;
+    if (left && right) pairs.push_back(in_one_order(*left, *right, kBoard));
+  }
+  return pairs;
+}
+
+TEST(RealPairs, AHeadThatFitsPairsThatItHasNotSeen) {
+  if (!std::filesystem::exists(kFolder))
+    GTEST_SKIP() << "no pairs of chessboards in " << kFolder << ": ./check fetches them";
+  const std::vector<PairCorners> pairs = real_pairs();
+  ASSERT_EQ(pairs.size(), 13U);
+  const StereoCalibration found = calibrate_stereo(pairs, kBoard, 640, 480);
+  fmt::print("{:>4}{:>12}{:>12}{:>14}{:>10}{:>14}\n", "pair", "left, px", "right, px", "epipolar, px",
+             "rows, px", "square, mm");
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PairResidual& p = found.pairs[i];
+    fmt::print("{:>4}{:>12.3f}{:>12.3f}{:>14.3f}{:>10.3f}{:>14.3f}\n", i + 1, p.left, p.right, p.epipolar,
+               p.rows, p.square * 1e3);
+    EXPECT_LE(p.epipolar, 0.6) << i + 1;
+    EXPECT_LE(p.rows, 0.6) << i + 1;
+    EXPECT_NEAR(p.square, kBoard.square, 0.01 * kBoard.square) << i + 1;
+  }
+  fmt::print("all: rms {:.3f} px; left out: epipolar {:.3f}, rows {:.3f} px\n", found.rms, found.epipolar,
+             found.rows);
+  EXPECT_EQ(found.k3, K3::zero);  // of the right lens k3 is 2.5 deviations from 0
+  EXPECT_LE(found.rms, 0.6);
+  EXPECT_LE(found.epipolar, 0.6);
+  EXPECT_LE(found.rows, 0.6);
+}
+
+// Whoever counts squares or misses a row is told how many corners the sheet has, and no part passes for it.
+TEST(RealPairs, ABoardOfAnotherSizeIsMeasured) {
+  if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no pairs of chessboards in " << kFolder;
+  images::PairReader reader(images::list_pairs(kFolder, images::Layout::pairs));
+  images::ImagePair images;
+  reader.read(0, images);
+  for (const auto& [columns, rows] : {std::pair{10, 7}, {8, 5}, {8, 6}, {9, 5}, {7, 8}}) {
+    const Board wrong{columns, rows, kBoard.square};
+    EXPECT_FALSE(find_corners(images.left.view(), wrong)) << columns << "x" << rows;
+    const std::optional<Board> is = board_in(images.left.view(), wrong);
+    ASSERT_TRUE(is) << columns << "x" << rows;
+    EXPECT_EQ(is->columns, 9);
+    EXPECT_EQ(is->rows, 6);
+  }
+}
+
+// The epipolar error is of the head and not of the image: a head that is turned by half a degree has 4.6 px.
+TEST(RealPairs, AWrongHeadDoesNotFit) {
+  if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no pairs of chessboards in " << kFolder;
+  const std::vector<PairCorners> pairs = real_pairs();
+  StereoRig rig = calibrate_stereo(pairs, kBoard, 640, 480).rig;
+  rig.X_CD =
+      Pose<'C', 'D'>(rig.X_CD.q() * Quat(Eigen::AngleAxisd(M_PI / 360.0, Vec3::UnitX())), Vec3(rig.X_CD.p()));
+  for (const PairCorners& pair : pairs) EXPECT_NEAR(residual_of(rig, pair, kBoard).epipolar, 4.67, 0.6);
 }
 
 }  // namespace
