@@ -3,14 +3,16 @@
 #include "trial/gate.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "tests/support/built.h"
+#include "tests/unit/trial/runs.h"
+#include "trial/lists/way.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
+
+using test::shipped;
 
 // What a device was told, in order.
 struct Seen {
@@ -37,7 +39,7 @@ class Watched : public Role {
   std::unique_ptr<Role> device_;
   Seen& seen_;
 };
-class Machine final : public Watched<Manipulator> {
+class WatchedMachine final : public Watched<Manipulator> {
  public:
   using Watched::Watched;
   [[nodiscard]] Reach reach() const override { return device_->reach(); }
@@ -102,7 +104,7 @@ struct Watchers {
     const auto over = [](auto& slot, auto make) {
       if (slot) slot = make(std::move(slot));
     };
-    over(rig.manipulator, [&](auto d) { return std::make_unique<Machine>(std::move(d), machine); });
+    over(rig.manipulator, [&](auto d) { return std::make_unique<WatchedMachine>(std::move(d), machine); });
     over(rig.arm, [&](auto d) { return std::make_unique<WatchedArm>(std::move(d), arm); });
     over(rig.gripper, [&](auto d) { return std::make_unique<Jaws>(std::move(d), gripper); });
     over(rig.tracker, [&](auto d) { return std::make_unique<Tracker>(std::move(d), tracker); });
@@ -110,16 +112,11 @@ struct Watchers {
     over(rig.force, [&](auto d) { return std::make_unique<Sensor>(std::move(d), force); });
   }
   TrialOptions options(double seconds) {
-    TrialOptions options;
-    options.seconds = seconds;
+    TrialOptions options{.seconds = seconds};
     options.fit_out = [this](Rig& rig) { fit(rig); };
     return options;
   }
 };
-
-models::Setup shipped_scene(const std::string& name, const std::vector<std::string>& set = {}) {
-  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", {}, set);
-}
 
 // ---- stop
 // ---------------------------------------------------------------------------------------------------
@@ -139,7 +136,7 @@ Watchers ended(const std::string& name, End end) {
   options.watch = [&](const Glance&) {
     if (++ticks == 100 && end == End::thrown) throw Error("a measure that gives up");
   };
-  Trial trial(scene(name), options);
+  Trial trial(shipped(name), options);
   if (end == End::ticks) {
     for (int i = 0; i < 100; ++i) trial.tick();
     return seen;
@@ -173,7 +170,7 @@ TEST(Gate, WhatMovesIsStoppedHoweverARunEnds) {
 
 TEST(Gate, AStoppedArmPushesNoMore) {
   Watchers seen;
-  Trial trial(shipped_scene("wall"), seen.options(1.0));
+  Trial trial(shipped("wall"), seen.options(1.0));
   for (int i = 0; i < 500; ++i) trial.tick();
   EXPECT_GT(trial.world().arm->state().wanted.norm(), 0.0);
   for (int times = 0; times < 2; ++times) {
@@ -190,7 +187,7 @@ TEST(Gate, AStoppedArmPushesNoMore) {
 // Loses a link in a press, and gives it back by itself.
 struct Lost {
   explicit Lost(Seen Watchers::*device, const std::string& name = "tennis_ball")
-      : trial(scene(name), seen.options(30.0)), linked((seen.*device).linked) {
+      : trial(shipped(name), seen.options(30.0)), linked((seen.*device).linked) {
     while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
     for (int i = 0; i < 500; ++i) trial.tick();
     EXPECT_EQ(trial.outputs().mode, Mode::contact);
@@ -236,7 +233,7 @@ TEST(Gate, AResumedMachineBeginsWhereItIs) {
     in.tip.value.X_RH.xyz[0] += 0.020;
     in.tip.value.X_RH.xyz[2] -= 0.010;
   };
-  Trial trial(shipped_scene("tennis_ball"), options);
+  Trial trial(shipped("tennis_ball"), options);
   while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
   seen.machine.linked = false;
   for (int i = 0; i < 300; ++i) trial.tick();
@@ -283,7 +280,7 @@ TEST(Gate, WhatWasSaidBeforeALossIsBelievedAfterIt) {
 
 TEST(Gate, WithoutALostLinkNothingIsHeld) {
   Watchers seen;
-  Trial trial(shipped_scene("tennis_ball"), seen.options(4.0));
+  Trial trial(shipped("tennis_ball"), seen.options(4.0));
   const TrialResult result = trial.run();
   EXPECT_TRUE(result.links.empty());
   EXPECT_EQ(seen.machine.commands, result.ticks);
@@ -343,7 +340,7 @@ TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
 // What the core does not hold for, such as a display that nobody looks at yet, the gate does.
 TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   Watchers seen;
-  Trial trial(shipped_scene("tennis_ball"), seen.options(30.0));
+  Trial trial(shipped("tennis_ball"), seen.options(30.0));
   Rig& rig = trial.rig();
   Gate gate;
   Inputs in;
@@ -367,6 +364,34 @@ TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   EXPECT_EQ(sent(Mode::follow), 0);
   gate.resume();
   EXPECT_EQ(sent(Mode::follow), 1);
+}
+
+// For how long a prop has been where it is wanted, also after more ticks than are kept.
+
+constexpr double kWithin = 2e-3;  // m
+
+TEST(Way, CountsTheLastTicksAtAPlace) {
+  const Point<'W'> place(0.1, 0.2, 0.3), beside(0.1, 0.2, 0.31);
+  Way way;
+  EXPECT_EQ(way.there(place, kWithin), 0U);
+  for (int i = 0; i < 5; ++i) way.add(place);
+  way.add(beside);
+  EXPECT_EQ(way.there(place, kWithin), 0U);
+  EXPECT_EQ(way.there(beside, kWithin), 1U);
+  for (int i = 0; i < 3; ++i) way.add(place);
+  EXPECT_EQ(way.there(place, kWithin), 3U);
+  way.clear();
+  EXPECT_EQ(way.there(place, kWithin), 0U);
+}
+
+TEST(Way, KeepsTheLastTicksAlone) {
+  const Point<'W'> place(0.1, 0.2, 0.3), beside(0.1, 0.2, 0.31);
+  Way way;
+  for (std::size_t i = 0; i < Way::kMost + 7; ++i) way.add(place);
+  EXPECT_EQ(way.there(place, kWithin), Way::kMost);
+  way.add(beside);
+  for (int i = 0; i < 9; ++i) way.add(place);
+  EXPECT_EQ(way.there(place, kWithin), 9U);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// A scene with [camera] whose camera is real: vision has a thread of its own, and only then a real arm is
-// armed.
+// A scene with [camera] whose camera is real: vision has its own thread, and only then a real arm is armed.
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -7,14 +6,14 @@
 #include "app/modules/modules.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
+#include "tests/support/refusal.h"
+#include "tests/unit/trial/runs.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using testing::AllOf, testing::HasSubstr, testing::Not;
 
 // An arm that stays at home, and a camera that shows grey walls as the rig promises.
 class Arm final : public HapticArm {
@@ -65,27 +64,18 @@ class RealCamera : public testing::Test {
   RealCamera() { setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1); }
   ~RealCamera() override { unsetenv("ENCOUNTER_MODULES"); }
   static models::Setup wall(const std::string& arm, const std::string& camera) {
-    return models::load(
-        tests::source_dir() + "/models/scenes/camera/wall.toml",
-        tests::source_dir() + "/models/rigs/vishap.toml",
+    return test::shipped(
+        "camera/wall",
         {"user.depth_mm=2", "rig.arm.driver=\"" + arm + "\"", "rig.camera.driver=\"" + camera + "\"",
-         "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"});
+         "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"},
+        tests::source_dir() + "/models/rigs/vishap.toml");
   }
   static TrialOptions options(bool armed) {
-    TrialOptions options;
-    options.drivers = modules;
-    options.armed = armed;
-    options.seconds = 0.5;
+    TrialOptions options{.seconds = 0.5, .drivers = modules, .armed = armed};
     return options;
   }
   static std::string refusal(const std::string& arm, const std::string& camera) {
-    try {
-      Trial(wall(arm, camera), options(true));
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::input);
-      return e.what();
-    }
-    return {};
+    return test::refusal(ErrorKind::input, [&] { Trial(wall(arm, camera), options(true)); });
   }
 };
 

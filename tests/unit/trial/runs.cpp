@@ -10,9 +10,10 @@
 
 namespace enc::test {
 
-models::Setup scene(const std::string& name, const Set& set) {
-  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "sim", set);
+models::Setup shipped(const std::string& name, const Set& set, const std::string& rig) {
+  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", rig, set);
 }
+models::Setup scene(const std::string& name, const Set& set) { return shipped(name, set, "sim"); }
 
 Set quick(const Set& more) {
   Set set{"user.approach_mm_s=[50]", "user.approach_from_mm=30", "user.press_s=1.5",

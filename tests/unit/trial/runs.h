@@ -1,4 +1,5 @@
-// Whole runs of the tennis ball, short or as shipped, and an onlooker who knows what must hold on every tick.
+// Scenes that come with Encounter, whole runs of the tennis ball, and an onlooker who knows what must hold on
+// every tick.
 #pragma once
 
 #include <functional>
@@ -12,6 +13,9 @@ namespace enc::test {
 
 using Set = std::vector<std::string>;
 
+// With the rig that the scene names, or with this one.
+[[nodiscard]] models::Setup shipped(const std::string& name, const Set& set = {},
+                                    const std::string& rig = {});
 [[nodiscard]] models::Setup scene(const std::string& name, const Set& set = {});
 // One press of 4 mm, met 0.6 + 0.75 s after the start: 30 mm at 50 mm/s, the first 0.3 s of it speeding up.
 [[nodiscard]] Set quick(const Set& more = {});

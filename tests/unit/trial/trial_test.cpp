@@ -2,23 +2,33 @@
 // from wherever they go on.
 #include "trial/trial.h"
 
+#include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <thread>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <pthread.h>
+#include <sched.h>
 
+#include "app/modules/modules.h"
 #include "core/record/state_hash.h"
+#include "sim/clock.h"
+#include "tests/support/built.h"
+#include "tests/support/scenes.h"
 #include "tests/unit/trial/runs.h"
+#include "trial/provenance/provenance.h"
+#include "trial/time/real_time.h"
 
-namespace enc {
+namespace enc::trial {
 namespace {
 
-using test::quick;
-using test::run;
-using test::scene;
+using std::chrono::milliseconds;
+using test::Loop, test::kToolRadius, test::kTop, test::quick, test::run, test::scene;
+using testing::HasSubstr, testing::Not;
 
 // Sleeps now and then, at random: a loaded machine.
 class Stalled : public Clock {
@@ -41,9 +51,7 @@ class Stalled : public Clock {
 
 // 2 s: approach, touch at 1.35 s and the first part of a press.
 trial::TrialOptions two_seconds(std::uint64_t seed = 1) {
-  trial::TrialOptions options;
-  options.seed = seed;
-  options.seconds = 2.0;
+  trial::TrialOptions options{.seed = seed, .seconds = 2.0};
   return options;
 }
 
@@ -89,8 +97,7 @@ TEST(TrialHash, LookingOnChangesNothing) {
 
 // Times of ten hours would be 144 MB.
 TEST(Trial, HoursTakeNoMoreMemoryThanMinutes) {
-  trial::TrialOptions options;
-  options.seconds = 36000.0;
+  trial::TrialOptions options{.seconds = 36000.0};
   const trial::Trial trial(scene("tennis_ball", quick()), options);
   EXPECT_LE(trial.result().step_ns.capacity(), static_cast<std::size_t>(trial::TrialResult::kMostTimed));
 }
@@ -146,8 +153,7 @@ std::vector<std::uint64_t> trace(trial::Trial& trial, int ticks) {
 void goes_on_from(int saved_at) {
   Stamped<TrackedTool>* tool = nullptr;
   Stamped<DentSample>* dent = nullptr;
-  trial::TrialOptions options;
-  options.seconds = 10.0;
+  trial::TrialOptions options{.seconds = 10.0};
   options.fit_out = [&](Rig& rig) {
     rig.tracker = std::make_unique<TappedTracker>(std::move(rig.tracker), tool);
     rig.display = std::make_unique<TappedDisplay>(std::move(rig.display), dent);
@@ -174,5 +180,321 @@ TEST(TrialSave, GoesOnTheSameFromTheApproach) { goes_on_from(900); }
 TEST(TrialSave, GoesOnTheSameFromAPress) { goes_on_from(2200); }
 TEST(TrialSave, GoesOnTheSameFromARelease) { goes_on_from(4300); }
 
+// The tracker loses the tool and finds it again: what is believed is at once what is seen, and nothing of the
+// time between gets into the zero of the force. What is smoothed is the command.
+
+Point<'W'> at_gap(double gap, double x = 0.0) { return {x, 0, kTop + kToolRadius + gap}; }
+
+// A tool that waits at a gap, with the tip under it and the zero learnt.
+Loop waiting(double gap, const RigSpec& rig = {}) {
+  Loop loop(prepare(test::plane_scene(), rig));
+  loop.tool_tip = at_gap(gap);
+  loop.tick(1500);
+  return loop;
+}
+
+TEST(DropOut, AToolThatPressesAfterItWasUnseenIsInContactAtOnce) {
+  for (const double from : {0.040, 0.080}) {
+    Loop loop = waiting(from);
+    ASSERT_EQ(loop.out.mode, Mode::follow) << why_text(loop.out.why);
+    loop.tool_seen = false;
+    loop.tick(300);
+    loop.tool_tip = at_gap(-0.0005);
+    loop.force = Vec<'W'>(0, 0, -5.0);
+    loop.tick(100);
+    EXPECT_EQ(loop.out.mode, Mode::hold);
+    loop.tool_seen = true;
+    loop.tick(2);
+    EXPECT_EQ(loop.out.mode, Mode::contact) << from;
+    EXPECT_NEAR(loop.out.gap, -0.0005, 1e-4) << from;
+    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6) << from;
+    loop.tick(1000);
+    EXPECT_NEAR(loop.out.deflection, (5.0 - 0.05) / 2000.0, 1e-5) << from;  // 2 N/mm, threshold 0.05 N
+  }
+}
+
+// The belief leaps, the machine does not: it goes there within its limits.
+TEST(DropOut, TheCommandCatchesUpWithoutALeap) {
+  Loop loop = waiting(0.040);
+  const Point<'W'> before = loop.tip();
+  loop.tool_seen = false;
+  loop.tick(300);
+  loop.tool_tip = at_gap(0.040, 0.012);
+  loop.tool_seen = true;
+  loop.tick(2);
+  EXPECT_NEAR(loop.out.view.tip.xyz[0], 0.012, 1e-4);  // where the tool is believed
+  EXPECT_LT((loop.tip() - before).norm(), 1e-5);
+  loop.tick(1000);
+  EXPECT_NEAR(loop.tip().xyz[0], 0.012, 1e-6);
+  EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+  EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
+}
+
+// A black-out of 0.3 s while the hand comes down at 200 mm/s: the press that follows is felt.
+TEST(DropOut, APressAfterABlackOutIsFelt) {
+  const auto peak = [](const char* at) {
+    const models::Setup setup = test::shipped(
+        "tennis_ball",
+        {"user.approach_mm_s=[200]", "user.approach_from_mm=100", "user.press_s=1", "user.release_s=1",
+         std::string("truth.tracker.blackout_at_s=") + at, "truth.tracker.blackout_for_s=0.3"});
+    double most = 0.0;
+    trial::TrialOptions options{.seconds = 4.0};
+    options.watch = [&](const trial::Glance& glance) {
+      most = std::max(most, std::abs(glance.out.force.xyz[2]));
+    };
+    trial::Trial(setup, options).run();
+    return most;
+  };
+  const double undisturbed = peak("100");
+  EXPECT_GT(undisturbed, 8.0);
+  EXPECT_GT(peak("0.75"), 0.8 * undisturbed);
+}
+
+// ---- the zero of the force ------------------------------------------------------------------------------
+
+TEST(Retare, NotWhileTheToolIsUnseen) {
+  for (const Tare tare : {Tare::free, Tare::window}) {
+    RigSpec rig;
+    rig.force.tare = tare;
+    Loop loop = waiting(0.150, rig);  // away
+    ASSERT_EQ(loop.out.mode, Mode::away);
+    loop.tool_seen = false;
+    loop.tick(200);  // it is no longer known
+    loop.force = Vec<'W'>(0, 0, -5.0);
+    loop.tick(5000);
+    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+    loop.tool_seen = true;
+    loop.tool_tip = at_gap(-0.0005);
+    loop.tick(1000);
+    EXPECT_NEAR(loop.out.deflection, (5.0 - 0.05) / 2000.0, 1e-5);
+  }
+}
+
+TEST(Retare, NotWhenThePoseIsOldAndNotInAHold) {
+  Loop loop = waiting(0.040);
+  loop.tool_seen = false;
+  loop.tick(46);  // usual_age
+  loop.force_zero = Vec<'F'>(0, 0, -1.0);
+  loop.tick(500);  // predicted, then lost
+  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+  loop.tool_seen = true;
+  loop.spoil = [](Inputs& in) {
+    in.missed = 100;
+  };  // a clock that is late each time: a hold with all else well
+  loop.tick(500);
+  EXPECT_EQ(loop.out.mode, Mode::hold);
+  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+  loop.spoil = {};
+  loop.tick(500);
+  EXPECT_LT(recall<Commanded>(loop.state).force_zero.xyz[2], -0.1);  // and then it is learnt
+}
+
+// Before the first zero is known nothing is learnt of a tool that is not seen either.
+TEST(Retare, TheFirstZeroNeedsAToolThatIsSeenToBeClear) {
+  Loop loop(prepare(test::plane_scene(), RigSpec{}));
+  loop.tool_seen = false;
+  loop.force = Vec<'W'>(0, 0, -5.0);
+  loop.tick(1000);
+  EXPECT_NE(loop.out.why & kTaring, 0U);
+  loop.force = Vec<'W'>::zero();
+  loop.tool_seen = true;
+  loop.tool_tip = at_gap(0.010);
+  loop.tick(300);
+  EXPECT_EQ(loop.out.why & kTaring, 0U);
+  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+}
+
+// A clock that keeps wall time and falls behind: real devices lose the cycles, a simulation goes on where it
+// was, and neither makes them up in a burst.
+
+using Wall = std::chrono::steady_clock;
+
+double seconds_since(Wall::time_point start) {
+  return std::chrono::duration<double>(Wall::now() - start).count();
+}
+
+std::unique_ptr<Clock> counting() { return std::make_unique<trial::CountingClock>(1000.0); }
+
+// Ticks that happen within 20 ms after a stall of 0.2 s: 20, or so; of a burst it would be 220.
+int ticks_after_a_stall(sim::Paced& clock) {
+  for (int i = 0; i < 20; ++i) clock.next();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const Wall::time_point start = Wall::now();
+  int ticks = 0;
+  for (; seconds_since(start) < 0.020; ++ticks) clock.next();
+  return ticks;
+}
+
+TEST(LateClock, RealDevicesLoseTheCyclesOfAStall) {
+  sim::Paced clock(counting(), 1.0, sim::Late::skip);
+  const Wall::time_point start = Wall::now();
+  clock.next();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const Tick tick = clock.next();
+  const std::int64_t missed = clock.missed();
+  EXPECT_GE(missed, 195);
+  EXPECT_EQ(tick.index, missed + 1);  // none is made up
+  EXPECT_NEAR(seconds(tick.t.time_since_epoch()), seconds_since(start), 0.1);
+  EXPECT_GE(clock.lateness().longest, 0.19);
+  sim::Paced again(counting(), 1.0, sim::Late::skip);
+  EXPECT_LE(ticks_after_a_stall(again), 30);
+}
+
+TEST(LateClock, ASimulationGoesOnWhereItWas) {
+  sim::Paced clock(counting(), 1.0, sim::Late::wait);
+  clock.next();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(clock.next().index, 1);
+  EXPECT_EQ(clock.missed(), 0);
+  EXPECT_GE(clock.lateness().total, 0.19);
+  sim::Paced again(counting(), 1.0, sim::Late::wait);
+  EXPECT_LE(ticks_after_a_stall(again), 30);
+}
+
+// A pace that would last for years can be left.
+TEST(LateClock, WaitingCanBeStopped) {
+  bool stop = false;
+  sim::Paced clock(counting(), 1e-12, sim::Late::wait, [&] { return stop; });
+  clock.next();
+  stop = true;
+  const Wall::time_point start = Wall::now();
+  clock.next();
+  EXPECT_LT(seconds_since(start), 5.0);
+}
+
+// Counts what a machine is sent, and stalls once.
+class Stalling final : public Manipulator {
+ public:
+  struct Log {
+    std::vector<std::int64_t> missed;  // of the tick on which each command came
+    std::int64_t commands = 0;
+  };
+  Stalling(std::unique_ptr<Manipulator> machine, Log& log) : machine_(std::move(machine)), log_(log) {}
+  [[nodiscard]] Reach reach() const override { return machine_->reach(); }
+  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override {
+    machine_->command(X_RH);
+    if (++log_.commands == 100) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+  void stop() noexcept override { machine_->stop(); }
+
+ private:
+  std::unique_ptr<Manipulator> machine_;
+  Log& log_;
+};
+
+// Armed, with the sample driver: a stall is a hold on the first tick after it, and nothing is sent for what
+// was lost. With a simulated tracker beside it, whose world follows.
+TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
+  setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
+  for (const char* scene : {"rig_A", "tennis_ball"}) {
+    Stalling::Log log;
+    trial::TrialOptions options{.seconds = 0.6, .drivers = app::load_module, .armed = true};
+    options.fit_out = [&](Rig& rig) {
+      rig.manipulator = std::make_unique<Stalling>(std::move(rig.manipulator), log);
+    };
+    std::int64_t late_holds = 0, before = -1;
+    bool contiguous = true;
+    options.watch = [&](const trial::Glance& glance) {
+      contiguous = contiguous && glance.tick.index == before + 1 + glance.in.missed;
+      before = glance.tick.index;
+      if (glance.in.missed < 200) return;
+      ++late_holds;
+      EXPECT_EQ(glance.out.mode, Mode::hold);
+      EXPECT_NE(glance.out.why & kClockLate, 0U);
+    };
+    trial::Trial trial(
+        test::shipped(scene, {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\"",
+                              "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"}),
+        options);
+    const trial::TrialResult result = trial.run();
+    EXPECT_GE(late_holds, 1) << scene;
+    EXPECT_TRUE(contiguous) << scene;
+    EXPECT_GE(result.missed, 290) << scene;
+    EXPECT_GE(result.ticks + result.missed, 601) << scene;
+    EXPECT_LE(log.commands, 601 - 290) << scene;
+  }
+  unsetenv("ENCOUNTER_MODULES");
+}
+
+// Each cause of a refused priority has its own remedy.
+
+TEST(RealTimeRefusal, AUserIsSentToLimitsConf) {
+  EXPECT_THAT(real_time_refusal(EPERM, {.most = 0}), HasSubstr("/etc/security/limits.conf: rtprio 41"));
+  EXPECT_THAT(real_time_refusal(EPERM, {.most = 39}), HasSubstr("limits.conf")) << "less than is asked for";
+}
+
+// EPERM although the right is there: by CAP_SYS_NICE, as root has it, or by the limit.
+TEST(RealTimeRefusal, AContainerWithoutABudgetIsNotSentToLimitsConf) {
+  for (const RealTimeRights& rights :
+       {RealTimeRights{.root = true, .sys_nice = true},
+        RealTimeRights{.root = true, .sys_nice = true, .container = true},
+        RealTimeRights{.container = true, .most = 41}, RealTimeRights{.most = 99}}) {
+    const std::string words = real_time_refusal(EPERM, rights);
+    EXPECT_THAT(words, HasSubstr("no real-time budget: docker run --cpu-rt-runtime=950000"));
+    EXPECT_THAT(words, Not(HasSubstr("limits.conf")));
+  }
+}
+
+TEST(RealTimeRefusal, AContainerWithoutTheRightIsToldHowToGetIt) {
+  for (const RealTimeRights& rights :
+       {RealTimeRights{.root = true}, RealTimeRights{.root = true, .container = true},
+        RealTimeRights{.container = true}}) {
+    const std::string words = real_time_refusal(EPERM, rights);
+    EXPECT_THAT(words, HasSubstr("docker run --cap-add=SYS_NICE --ulimit rtprio=41"));
+    EXPECT_THAT(words, Not(HasSubstr("limits.conf")));
+  }
+}
+
+TEST(RealTimeRefusal, AnotherErrorIsNamed) {
+  EXPECT_THAT(real_time_refusal(ENOSYS, {.root = true, .sys_nice = true}),
+              HasSubstr("the system refuses SCHED_FIFO: Function not implemented"));
+}
+
+// Whatever this system grants, the words say it and the thread is as before afterwards.
+TEST(RealTimeRefusal, ATrialOfThePriorityLeavesTheThreadAsItWas) {
+  int before = 0, after = 0;
+  sched_param parameter{};
+  pthread_getschedparam(pthread_self(), &before, &parameter);
+  {
+    const RealTime tried(true);
+    EXPECT_EQ(tried.granted(), tried.refusal().empty());
+    EXPECT_THAT(tried.words(),
+                HasSubstr(tried.granted() ? "SCHED_FIFO 40" : "not first (" + tried.refusal()));
+  }
+  pthread_getschedparam(pthread_self(), &after, &parameter);
+  EXPECT_EQ(before, after);
+}
+
+// What a result says of its program, machine and time.
+
+TEST(Provenance, TimesAreUtcInIso8601) {
+  const WallTime epoch{};
+  EXPECT_EQ(time_text(epoch), "1970-01-01T00:00:00.000Z");
+  const WallTime t{milliseconds(1'795'999'092'345)};
+  EXPECT_EQ(time_text(t), "2026-11-30T00:38:12.345Z");
+  EXPECT_EQ(day_text(t), "2026-11-30");
+  EXPECT_EQ(day_text(t + std::chrono::hours(24)), "2026-12-01");
+}
+
+TEST(Provenance, OnlyARunOnTheWallClockSaysWhenItStarted) {
+  const WallTime t{milliseconds(1'795'999'092'345)};
+  const auto simulated = provenance_texts(t, false), real = provenance_texts(t, true);
+  EXPECT_EQ(simulated.at("date"), "2026-11-30");
+  EXPECT_FALSE(simulated.contains("started"));
+  EXPECT_EQ(real.at("started"), "2026-11-30T00:38:12.345Z");
+  for (const char* name : {"version", "commit", "commit_date", "machine"}) {
+    EXPECT_FALSE(real.at(name).empty()) << name;
+    EXPECT_EQ(real.at(name), simulated.at(name));
+    EXPECT_EQ(real.at(name).find('\n'), std::string::npos);
+  }
+}
+
+// A program that links no commit says so. So no test is linked anew for each commit.
+TEST(Provenance, WithoutACommitItIsUnknown) {
+  EXPECT_STREQ(built_commit().name, "unknown");
+  EXPECT_THAT(program_words(), testing::MatchesRegex("Encounter [0-9.]+, commit unknown of unknown"));
+}
+
 }  // namespace
-}  // namespace enc
+}  // namespace enc::trial

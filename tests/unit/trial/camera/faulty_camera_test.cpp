@@ -10,8 +10,8 @@
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 #include "sim/camera/twin_camera.h"
-#include "tests/support/built.h"
 #include "tests/support/vision/quarter_size.h"
+#include "tests/unit/trial/runs.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -43,7 +43,7 @@ models::Setup press(const std::vector<std::string>& more) {
   const std::vector<std::string> small = test::quarter_size();
   set.insert(set.end(), small.begin(), small.end());
   set.insert(set.end(), more.begin(), more.end());
-  return models::load(tests::source_dir() + "/models/scenes/camera/wall.toml", "", set);
+  return test::shipped("camera/wall", set);
 }
 
 struct Seen {
@@ -60,8 +60,7 @@ class CameraFaults : public testing::Test {
   Seen seen;
   std::unique_ptr<Trial> trial;
   void begin(const std::vector<std::string>& set) {
-    TrialOptions options;
-    options.drivers = modules;
+    TrialOptions options{.drivers = modules};
     options.watch = [this](const Glance& g) { look(g); };
     trial = std::make_unique<Trial>(press(set), options);
   }
@@ -118,8 +117,7 @@ TEST_F(CameraFaults, ALostLinkHoldsUntilItIsResumed) {
   EXPECT_EQ(trial->gate().links().size(), 1U);
 }
 
-// The frames come, and tell nothing: the finger grows old, and it is found again by itself when they are
-// right.
+// The frames come, and tell nothing: the finger grows old, and it is found again when they are right.
 TEST_F(CameraFaults, ExchangedImagesHoldAFingerThatTouches) {
   begin({"truth.camera.swapped_at_s=3.5"});
   end();

@@ -2,23 +2,34 @@
 // the terminal and the signals are as they were.
 #include "trial/operator/operator.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <poll.h>
+#include <pty.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include "app/run/console.h"
+#include "core/base/error.h"
+#include "models/setup/scene_file.h"
+#include "tests/support/refusal.h"
+#include "tests/unit/trial/runs.h"
+#include "trial/operator/standard_error.h"
+#include "trial/steered/faults.h"
+#include "trial/steered/steering_log.h"
+#include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
@@ -211,9 +222,7 @@ TEST(RunWatch, EventsThatComeTooFastAreCounted) {
 }
 
 TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
-  RunStatus status;
-  status.t = Time(from_seconds(3.214));
-  status.mode = Mode::follow;
+  RunStatus status{.t = Time(from_seconds(3.214)), .mode = Mode::follow};
   EXPECT_EQ(app::status_text(status, false), "    3.21 s  follow  missed 0");
   status.gap = 0.0123;
   status.force = -0.001;
@@ -232,6 +241,216 @@ TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
   EXPECT_THAT(app::status_text(status, false), testing::HasSubstr("gap 12.30 mm  p99 1.01 ms  missed 7"));
   status.halted = true;
   EXPECT_THAT(app::status_text(status, false), testing::HasSubstr("STOPPED BY HAND"));
+}
+
+// A terminal that takes nothing keeps nobody waiting.
+
+// Standard error is a terminal that nobody reads, or a pipe, while this is there.
+class Unread {
+ public:
+  explicit Unread(bool terminal) {
+    std::fflush(stderr);
+    if (terminal ? openpty(ends_, ends_ + 1, nullptr, nullptr, nullptr) : pipe(ends_)) return;
+    dup2(ends_[1], STDERR_FILENO);
+  }
+  ~Unread() {
+    dup2(before_, STDERR_FILENO);
+    close_reader();
+    close(ends_[1]);
+    close(before_);
+  }
+  Unread(const Unread&) = delete;
+  Unread& operator=(const Unread&) = delete;
+  void close_reader() {
+    if (ends_[0] >= 0) close(ends_[0]);
+    ends_[0] = -1;
+  }
+  [[nodiscard]] std::string read_all() const {
+    std::string all(1 << 20, ' ');
+    all.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(ends_[0], all.data(), all.size()))));
+    return all;
+  }
+
+ private:
+  const int before_ = dup(STDERR_FILENO);
+  int ends_[2] = {-1, -1};
+};
+
+TEST(StandardError, IsWrittenAsFarAsItTakes) {
+  for (const bool terminal : {true, false}) {
+    Unread unread(terminal);
+    const StandardError error;
+    EXPECT_EQ(error.terminal(), terminal);
+    EXPECT_EQ(error.write("hello"), 5U);
+    EXPECT_EQ(unread.read_all(), "hello");
+    const std::string much(1 << 18, 'x');  // more than a pipe holds
+    std::size_t taken = 0;
+    for (int i = 0; i < 8; ++i) taken += error.write(much);
+    EXPECT_GT(taken, 1000U);
+    EXPECT_LT(taken, much.size());
+    EXPECT_EQ(error.write(much), 0U);
+  }
+}
+
+TEST(StandardError, WithoutAReaderSwallowsAll) {
+  Unread unread(true);
+  const StandardError error;
+  unread.close_reader();
+  EXPECT_EQ(error.write("hello"), 5U);
+}
+
+// Faults that somebody switches on change what the core reads, and end with their cause.
+
+// A tracker with a new sample every 8 ticks of 1 ms, and a force sensor.
+class SwitchedFaults : public testing::Test {
+ protected:
+  void tick() {
+    if (ticks_ % 8 == 0) {
+      in_.tool.t = Time{} + from_seconds(1e-3 * ticks_);
+      in_.tool.health = Health::ok;
+      in_.tool.value.tool = 0;
+    }
+    in_.wrench.value.force = {0.5, -7, 9};
+    in_.wrench.health = Health::ok;
+    ++ticks_;
+    faults_.apply(in_);
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) tick();
+  }
+  // Age of what the core is told, ms.
+  [[nodiscard]] double age() const {
+    return 1e3 * seconds(Time{} + from_seconds(1e-3 * (ticks_ - 1)) - in_.tool.t);
+  }
+
+  Faults faults_;
+  Inputs in_;
+  int ticks_ = 0;
+};
+
+TEST_F(SwitchedFaults, NothingHappensWithoutOne) {
+  run(80);
+  EXPECT_NEAR(age(), 7.0, 1e-6);
+  EXPECT_EQ(in_.wrench.value.force.xyz, (std::array{0.5, -7.0, 9.0}));
+}
+
+TEST_F(SwitchedFaults, AFrozenTrackerRepeatsItsLastSample) {
+  run(80);
+  faults_.set(kFrozenTracker);
+  run(200);
+  EXPECT_NEAR(age(), 207.0, 1e-6);
+  faults_.set(0);
+  run(8);
+  EXPECT_NEAR(age(), 7.0, 1e-6);
+}
+
+TEST_F(SwitchedFaults, ThreeOfFourPacketsAreLost) {
+  faults_.set(kDroppedPackets);
+  std::set<Time> told;
+  for (int i = 0; i < 800; ++i) {
+    tick();
+    told.insert(in_.tool.t);
+  }
+  EXPECT_NEAR(static_cast<double>(told.size()), 25.0, 1.0) << "of 100";
+}
+
+TEST_F(SwitchedFaults, ALateClockStampsTooEarly) {
+  run(80);
+  faults_.set(kLateClock);
+  run(80);
+  EXPECT_NEAR(age(), 7.0 + 1e3 * Faults::kLate, 1e-6) << "once, not at each tick";
+}
+
+TEST_F(SwitchedFaults, ASaturatedSensorSaysSo) {
+  faults_.set(kSaturated);
+  tick();
+  EXPECT_EQ(in_.wrench.value.force.xyz, (std::array{0.5, -Faults::kRange, Faults::kRange}));
+  EXPECT_EQ(in_.wrench.health, Health::saturated);
+  faults_.set(0);
+  tick();
+  EXPECT_EQ(in_.wrench.health, Health::ok);
+}
+
+// What a record keeps of a steered hand.
+
+HandWord to(double x, double y, double z) { return {Point<'W'>(x, y, z)}; }
+
+TEST(SteeringLog, ComesBackToTheBit) {
+  SteeringLog log;
+  log.add(0, to(0.1, -1.0 / 3.0, 1e-17));
+  log.add(17, to(0, 0, 0));
+  log.add(17, to(1, 2, 3));
+  log.add(19, {{}, true, 5});
+  SteeringLog back = SteeringLog::read(log.text(), "a.encrec");
+  EXPECT_EQ(back.text(), log.text());
+  EXPECT_EQ(back.at(0)->place->xyz, (std::array{0.1, -1.0 / 3.0, 1e-17}));
+  EXPECT_FALSE(back.at(1));
+  EXPECT_FALSE(back.at(16));
+  EXPECT_EQ(back.at(18)->place->xyz, (std::array{1.0, 2.0, 3.0})) << "the last of what is due";
+  const HandWord last = *back.at(21);
+  EXPECT_FALSE(last.place);
+  EXPECT_TRUE(last.changes_tool);
+  EXPECT_EQ(last.faults, 5);
+  EXPECT_FALSE(back.at(22));
+}
+
+std::string refusal(const std::string& rows) {
+  return test::refusal(
+      [&] { (void)SteeringLog::read("tick,steered,x_m,y_m,z_m,changes_tool,faults\n" + rows, "a.encrec"); });
+}
+
+TEST(SteeringLog, WhatIsWrongIsSaidWithItsLine) {
+  using testing::HasSubstr;
+  EXPECT_EQ(refusal("3,1,0,0,0,0,0\n"), "");
+  EXPECT_THAT(refusal("3,1,0,0,0,0,0\n2,1,0,0,0,0,0\n"), HasSubstr(":3:1: a tick is not below"));
+  EXPECT_THAT(refusal("-1,1,0,0,0,0,0\n"), HasSubstr(":2:1:"));
+  EXPECT_THAT(refusal("0.5,1,0,0,0,0,0\n"), HasSubstr(":2:1: a tick is a whole number"));
+  EXPECT_THAT(refusal("1e300,1,0,0,0,0,0\n"), HasSubstr(":2:1:"));
+  EXPECT_THAT(refusal("1,2,0,0,0,0,0\n"), HasSubstr("steered is 0 or 1"));
+  EXPECT_THAT(refusal("1,1,0,0,11,0,0\n"), HasSubstr("within 10 m"));
+  EXPECT_THAT(refusal("1,1,0,nan,0,0,0\n"), HasSubstr(":2:7:"));
+  EXPECT_THAT(refusal("1,1,0,0,0,7,0\n"), HasSubstr("changes_tool is 0 or 1"));
+  EXPECT_THAT(refusal("1,1,0,0,0,0,16\n"), HasSubstr("from 0 to 15"));
+  EXPECT_THAT(refusal("1,1,0,0\n"), HasSubstr(":2:"));
+}
+
+// A steered hand lays its tool on the tray, takes the other one, and back.
+
+class SteeredToolChange : public testing::Test {
+ protected:
+  // Runs the scene; `change` at these ticks. Gives the held tool at the end of each second.
+  std::vector<std::int32_t> held(const std::string& scene, int seconds, const std::vector<std::int64_t>& at) {
+    TrialOptions options{.seconds = seconds};
+    options.steer = [&](std::int64_t tick) -> std::optional<HandWord> {
+      if (tick == 0) return HandWord{Point<'W'>(0, 0, 0.06)};
+      if (std::find(at.begin(), at.end(), tick) == at.end()) return {};
+      return HandWord{{}, true};
+    };
+    Trial trial(test::shipped(scene), options);
+    std::vector<std::int32_t> tools;
+    while (trial.tick()) {
+      if (trial.result().ticks % 1000 == 0) tools.push_back(trial.truth().tool);
+      farthest_ = std::max(farthest_, trial.truth().hand_force.norm());
+      tip_ = trial.truth().tool_tip;
+    }
+    return tools;
+  }
+  double farthest_ = 0.0;  // N, most force of the hand
+  Point<'W'> tip_;
+};
+
+TEST_F(SteeredToolChange, GoesToTheOtherToolAndBack) {
+  const auto tools = held("session", 9, {1000, 5000});
+  ASSERT_GE(tools.size(), 9U);
+  EXPECT_EQ(tools[0], 0);
+  EXPECT_EQ(tools[3], 1) << "after three seconds";
+  EXPECT_EQ(tools[7], 0);
+  EXPECT_NEAR((tip_ - Point<'W'>(0, 0, 0.06)).norm(), 0.0, 0.002) << "back where it was told to be";
+  EXPECT_LT(farthest_, 15.0) << "nothing jerks";
+}
+
+TEST_F(SteeredToolChange, NothingHappensWithOneTool) {
+  for (const std::int32_t tool : held("tennis_ball", 3, {1000})) EXPECT_EQ(tool, 0);
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ TEST(DriftingNoise, WhitensAsByHand) {
   const double logs = models::whiten(means, {2.0}, column);
   EXPECT_EQ(column(0), 0.0);
   EXPECT_NEAR(column(1), 3.0 / 1.5, 1e-12);
-  const double gain = 1.25 / 2.25;
-  const double variance = 1.25 * (1.0 - gain) + 2.0 * 0.5 + 0.5;
+  const double gain = 1.25 / 2.25, variance = 1.25 * (1.0 - gain) + 2.0 * 0.5 + 0.5;
   EXPECT_NEAR(column(2), (4.0 - (1.0 + gain * 3.0)) / std::sqrt(variance), 1e-12);
   EXPECT_EQ(column(3), 0.0);
   EXPECT_NEAR(logs, std::log(2.25) + std::log(variance), 1e-12);
@@ -127,8 +126,7 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
 
 // Without friction its travel is nothing.
 TEST(BallFit, AnIntervalMayBeInfinite) {
-  sim::BallParameters ball;
-  ball.friction = 0.0;
+  sim::BallParameters ball{.friction = 0.0};
   trial::Pushes pushes = test::ball_pushes(ball, {});
   test::add_noise(pushes, 1);
   trial::BallFitOptions options;

@@ -67,8 +67,7 @@ TEST(TipEyes, APlaceOfTooFewFramesWasNotSeen) {
 }
 
 TEST(TipEyes, TheBallIsWhereTheTipIs) {
-  sim::CameraTruth camera;
-  camera.ball_radius = 0.01;
+  sim::CameraTruth camera{.ball_radius = 0.01};
   const Pose<'W', 'C'> X_WC(Quat::Identity(), Vec3(0, 0, -0.5));
   const std::vector<sim::Thing> things =
       ball_at_tip(X_WC, camera)({Point<'W'>(0.1, 0, 0), Point<'W'>(0.2, 0, 0)});

@@ -1,7 +1,7 @@
 #include "tests/unit/trial/identify/shadow/shadow_runs.h"
 
-#include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/trial/runs.h"
 #include "trial/assemble/prepare.h"
 #include "trial/trial.h"
 
@@ -10,8 +10,7 @@ namespace {
 
 void record_run(const models::Setup& setup, std::uint64_t seed, const std::string& file) {
   RecordWriter writer(file, models::record_texts(setup), layout_hash(trial::prepare_setup(setup)));
-  trial::TrialOptions options;
-  options.seed = seed;
+  trial::TrialOptions options{.seed = seed};
   trial::Trial trial(setup, options);
   trial.record_to(&writer);
   trial.run();
@@ -38,7 +37,7 @@ models::Setup set_up(const ShadowedScene& scene, const std::string& rig,
                      const std::vector<std::string>& more) {
   std::vector<std::string> set = scene.set;
   set.insert(set.end(), more.begin(), more.end());
-  return models::load(tests::source_dir() + "/models/scenes/" + scene.name + ".toml", rig, set);
+  return test::shipped(scene.name, set, rig);
 }
 
 trial::Shadow shadowed(const ShadowedScene& scene, std::uint64_t seed,

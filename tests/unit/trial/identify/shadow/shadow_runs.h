@@ -1,5 +1,4 @@
-// Records of short runs of shipped scenes, with another truth than the twin's, and what shadow mode says of
-// them.
+// Records of short runs of shipped scenes, with another truth than the twin's, and what shadow mode finds.
 #pragma once
 
 #include <functional>

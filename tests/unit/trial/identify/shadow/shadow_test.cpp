@@ -1,14 +1,17 @@
+// Shadow mode: verdicts and tapes; and each error of a twin is named by its own channel alone.
 #include "trial/identify/shadow/shadow.h"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fstream>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/refusal.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/trial/identify/shadow/shadow_runs.h"
@@ -17,8 +20,8 @@
 namespace enc::test {
 namespace {
 
-using testing::HasSubstr;
-using trial::Divergence;
+using testing::ElementsAre, testing::HasSubstr;
+using trial::Divergence, trial::Quantity;
 
 Divergence off_by(double value, double half) {
   return {trial::Channel::tool, trial::Quantity::tool_latency, "", {value, half}, 1.0};
@@ -75,12 +78,8 @@ TEST(ShadowTwins, AreTheSetUpWithWhatIsPutOverIt) {
   ASSERT_NE(rendered, nullptr);
   EXPECT_NEAR(rendered->off.value, 2.0 / 1.9 - 1.0, 3e-3);
   EXPECT_TRUE(rendered->diverges());
-  try {
-    (void)shadowed(pressing(), 3, {}, {"truth.tracker.latenzy_ms=4"});
-    ADD_FAILURE();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("did you mean"));
-  }
+  EXPECT_THAT(refusal([] { (void)shadowed(pressing(), 3, {}, {"truth.tracker.latenzy_ms=4"}); }),
+              HasSubstr("did you mean"));
 }
 
 // A rig as a laboratory has it: nothing but its calibration says where its camera is. What is real is there.
@@ -167,6 +166,248 @@ TEST(ShadowUnjudged, WhatARecordCannotTellIsSaid) {
     EXPECT_LT(std::abs(place->off.value), place->bound);
   }
 }
+
+// Each injected error is found, is as large as it was made, and is named by its own channel and by no other.
+
+struct Injected {
+  const char* what;
+  const ShadowedScene& scene;
+  std::vector<std::string> altered, twin;
+  std::string name;  // of the channel that has to say it
+  Quantity quantity;
+  std::string axis;
+  double size;  // SI
+};
+
+std::vector<std::string> ball_of(double rubber_MPa, double pressure_kPa, double felt_MPa) {
+  return {"truth.ball.rubber_modulus_MPa=" + std::to_string(rubber_MPa),
+          "truth.ball.pressure_kPa=" + std::to_string(pressure_kPa),
+          "truth.ball.felt_modulus_MPa=" + std::to_string(felt_MPa)};
+}
+
+const std::vector<Injected>& injections() {
+  const auto with = [](const char* set) { return std::vector<std::string>{set}; };
+  const auto four = with("truth.hexapod.delay_cycles=4"), seven = with("truth.hexapod.delay_cycles=7");
+  const auto camera = with("truth.frames.W_C.position_mm=[0,-900,600]");
+  static const std::vector<Injected> kAll{
+      // All moduli of the ball and its pressure: its force is as much more at each depth.
+      {"5 % of stiffness", probing(), ball_of(2.73, 10.5, 0.21), ball_of(2.6, 10, 0.2), "force stiffness",
+       Quantity::stiffness, "", 0.05},
+      {"5 % of stiffness, softer", probing(), ball_of(2.47, 9.5, 0.19), ball_of(2.6, 10, 0.2),
+       "force stiffness", Quantity::stiffness, "", -0.05},
+      {"1 mm of the object's place", probing(), with("truth.ball.misplaced_mm=[0,0,-1]"),
+       with("truth.ball.misplaced_mm=[0,0,0]"), "force object_place", Quantity::object_place, "", 1e-3},
+      {"3 ms of the machine", probing(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+      {"3 ms of the tracker", carrying(), with("truth.tracker.latency_ms=6.5"),
+       with("truth.tracker.latency_ms=3.5"), "tool tool_latency", Quantity::tool_latency, "", 3e-3},
+      {"3 ms of its server", carrying(), with("truth.tracker.process_ms=12.2"),
+       with("truth.tracker.process_ms=9.2"), "tool tool_latency", Quantity::tool_latency, "", 3e-3},
+      {"3 ms of its stamps", carrying(), with("truth.tracker.stamp_error_ms=3"),
+       with("truth.tracker.stamp_error_ms=0"), "tool tool_stamps", Quantity::tool_stamps, "", 3e-3},
+      // A camera that stands farther sees all nearer to it.
+      {"1 mm of registration along x", carrying(), with("truth.frames.W_C.position_mm=[1,-900,600]"), camera,
+       "tool registration x", Quantity::registration, "x", -1e-3},
+      {"1 mm of registration along y", carrying(), with("truth.frames.W_C.position_mm=[0,-899,600]"), camera,
+       "tool registration y", Quantity::registration, "y", -1e-3},
+      {"3 ms of the machine", carrying(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+      {"5 % of stiffness, rendered", pressing(), with("behaviour.wall.stiffness_N_per_mm=2.1"),
+       with("behaviour.wall.stiffness_N_per_mm=2"), "rendering rendered_stiffness", Quantity::rendered, "",
+       0.05},
+      {"4 ms of the tracker", pressing(), with("truth.tracker.process_ms=13.2"),
+       with("truth.tracker.process_ms=9.2"), "tool tool_latency", Quantity::tool_latency, "", 4e-3},
+      {"3 ms of its stamps", pressing(), with("truth.tracker.stamp_error_ms=3"),
+       with("truth.tracker.stamp_error_ms=0"), "tool tool_stamps", Quantity::tool_stamps, "", 3e-3},
+      {"1 mm of registration", pressing(), with("truth.frames.W_C.position_mm=[0,-900,601]"), camera,
+       "tool registration away", Quantity::registration, "away", -1e-3},
+      {"3 ms of the machine", pressing(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+  };
+  return kAll;
+}
+
+// Nobody sees better than the machine's steps, 3 um, and 0.2 % of what is felt in each of them.
+double least_seen(Quantity quantity) {
+  if (quantity == Quantity::stiffness || quantity == Quantity::rendered) return 2e-3;
+  return quantity == Quantity::registration ? 5e-6 : 2e-6;
+}
+
+TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
+  for (const Injected& one : injections()) {
+    const std::string row = std::string(one.what) + " in " + one.scene.name;
+    const trial::Shadow shadow = shadowed(one.scene, 7, one.altered, one.twin);
+    EXPECT_THAT(named(shadow), ElementsAre(one.name)) << row;
+    const trial::Divergence* size = found(shadow, one.quantity, one.axis);
+    ASSERT_NE(size, nullptr) << row;
+    EXPECT_NEAR(size->off.value, one.size, std::max(size->off.half, least_seen(one.quantity))) << row;
+    EXPECT_LT(size->off.half, 0.5 * std::abs(one.size)) << row;
+  }
+}
+
+// Not by the luck of one seed: of six others, each names the three errors alone, and the printed interval of
+// 95 % holds the size of at least five. Of a tracker's own latency, which goes in stairs of 1.67 ms, only
+// the name is asked for.
+TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
+  for (const char* what :
+       {"5 % of stiffness", "3 ms of the tracker", "3 ms of its server", "1 mm of registration along x"}) {
+    const auto row = std::find_if(injections().begin(), injections().end(),
+                                  [what](const Injected& one) { return std::string(one.what) == what; });
+    ASSERT_NE(row, injections().end()) << what;
+    int held = 0;
+    const int seeds = tests::thorough(2, 6);
+    for (int i = 1; i <= seeds; ++i) {
+      const std::uint64_t seed = 200 + static_cast<std::uint64_t>(i);
+      const trial::Shadow shadow = shadowed(row->scene, seed, row->altered, row->twin);
+      EXPECT_THAT(named(shadow), ElementsAre(row->name)) << what << ", seed " << seed;
+      const trial::Divergence* size = found(shadow, row->quantity, row->axis);
+      ASSERT_NE(size, nullptr) << what << ", seed " << seed;
+      if (std::abs(size->off.value - row->size) < std::max(size->off.half, least_seen(row->quantity))) ++held;
+    }
+    if (row->altered.front().starts_with("truth.tracker.latency_ms")) continue;
+    EXPECT_GE(held, seeds - 1) << what;
+  }
+}
+
+// Two at once do not hide each other: by stamps that are late, a packet that is late looks punctual.
+TEST(ShadowTable, LatencyAndStampsOfAPressingToolAreBothNamed) {
+  const trial::Shadow shadow =
+      shadowed(pressing(), 7, {"truth.tracker.stamp_error_ms=3", "truth.tracker.process_ms=12.2"},
+               {"truth.tracker.stamp_error_ms=0", "truth.tracker.process_ms=9.2"});
+  EXPECT_THAT(named(shadow), testing::UnorderedElementsAre("tool tool_stamps", "tool tool_latency"));
+}
+
+// What no size, place or time explains is said to be such, and not taken for nothing.
+TEST(ShadowTable, AForceOfAnotherLawOrAWorseSensorHasARest) {
+  EXPECT_THAT(named(shadowed(probing(), 7, {"truth.force.noise_N=0.3"}, {"truth.force.noise_N=0.0125"})),
+              testing::Contains("force force_rest"));
+  EXPECT_THAT(named(shadowed(probing(), 7, {"truth.ball.friction=0.15"}, {"truth.ball.friction=0.02"})),
+              testing::Contains("force force_rest"));
+}
+
+// What is too far off for a size is no less a divergence.
+TEST(ShadowTable, AnObjectThatIsFarAwayDiverges) {
+  const std::vector<std::string> believed{"truth.ball.misplaced_mm=[0,0,0]"};
+  for (const char* place : {"-12", "-5", "5", "12"}) {
+    const trial::Shadow shadow =
+        shadowed(probing(), 7, {"truth.ball.misplaced_mm=[0,0," + std::string(place) + "]"}, believed);
+    EXPECT_TRUE(shadow.diverges()) << place;
+    if (place[0] == '-') {
+      EXPECT_THAT(named(shadow), testing::Contains("force gross")) << place;
+      EXPECT_EQ(found(shadow, Quantity::stiffness), nullptr) << place;
+    }
+  }
+}
+
+TEST(ShadowTable, ATurnedCameraDiverges) {
+  const trial::Shadow shadow = shadowed(carrying(), 7, {"truth.frames.W_C.rotation_deg=[0,0,60]"},
+                                        {"truth.frames.W_C.rotation_deg=[0,0,0]"});
+  EXPECT_THAT(named(shadow), ElementsAre("tool gross"));
+  ASSERT_FALSE(shadow.gross.empty());
+  EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("did not go where the machine carried it"));
+}
+
+// However short, and however little the twin feels: nothing but weight and inertia.
+TEST(ShadowTable, APushWhereTheTwinHasNothingDiverges) {
+  for (const char* repeats : {"probe.repeats=1", "probe.repeats=2"}) {
+    const ShadowedScene scene{"rig_identify", {repeats, "probe.dwell_s=1", "probe.rest_s=1"}};
+    const trial::Shadow shadow = shadowed(scene, 7, {}, {"truth.ball.misplaced_mm=[0,0,12]"});
+    EXPECT_THAT(named(shadow), testing::Contains("force gross")) << repeats;
+    ASSERT_FALSE(shadow.gross.empty());
+    EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("where the twin has nothing")) << repeats;
+  }
+}
+
+// A tracker that is much noisier than the twin's is no tool that is lost, where little moves.
+TEST(ShadowTable, ANoisyTrackerThatSeesLittleMotionIsNoGrossDivergence) {
+  const ShadowedScene scene{"tracking",
+                            {"travel.dwell_s=3", "travel.ways=both_ways", "travel.stops_mm=[0,0.3]"}};
+  const trial::Shadow shadow = shadowed(scene, 7, {"truth.tracker.noise_mm=[0.3,0.3,0.3]"},
+                                        {"truth.tracker.noise_mm=[0.019,0.011,0.011]"});
+  EXPECT_TRUE(shadow.gross.empty()) << shadow.gross.front().text;
+}
+
+// What hunts while it stands is not hidden by what it does on its way.
+TEST(ShadowTable, AMachineThatHuntsWhereItStandsHasARest) {
+  const auto hunting = [](RecordedTick& frame, double share) {
+    if (frame.in.tip.value.velocity.norm() > 1e-3) return;
+    const Pose<'R', 'H'> said = frame.in.tip.value.X_RH;
+    frame.in.tip.value.X_RH =
+        Pose<'R', 'H'>(Quat(said.q()), Vec3(said.p() + Vec3(0.3e-3 * std::sin(2e3 * share), 0.0, 0.0)));
+  };
+  EXPECT_THAT(named(shadowed_frames(carrying(), 7, hunting)), testing::Contains("machine machine_rest"));
+}
+
+// Later than any tracker, and its stamps, too: as over a wire, where they are tied to when packets come.
+TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
+  constexpr std::size_t kTicks = 800;
+  std::deque<Stamped<TrackedTool>> under_way;
+  const auto later = [&under_way](RecordedTick& frame, double) {
+    under_way.push_back(frame.in.tool);
+    frame.in.tool = {};
+    if (under_way.size() <= kTicks) return;
+    frame.in.tool = under_way.front();
+    under_way.pop_front();
+    frame.in.tool.t += from_seconds(1e-3 * static_cast<double>(kTicks));
+  };
+  const trial::Shadow shadow = shadowed_frames(carrying(), 7, later);
+  EXPECT_THAT(named(shadow), testing::Contains("tool gross"));
+  ASSERT_FALSE(shadow.gross.empty());
+  EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("no tracker is so late"));
+}
+
+// Of bounds that no truth of the twin reaches: the record is altered frame by frame.
+TEST(ShadowTable, AMachineThatSaysItStandsElsewhereIsNamed) {
+  const auto aside = [](RecordedTick& frame, double) {
+    const Pose<'R', 'H'> said = frame.in.tip.value.X_RH;
+    frame.in.tip.value.X_RH = Pose<'R', 'H'>(Quat(said.q()), Vec3(said.p() + Vec3(0.0, 0.1e-3, 0.0)));
+  };
+  const trial::Shadow shadow = shadowed_frames(probing(), 7, aside);
+  EXPECT_THAT(named(shadow), testing::Contains("machine machine_place y"));
+  const trial::Divergence* place = found(shadow, Quantity::machine_place, "y");
+  ASSERT_NE(place, nullptr);
+  EXPECT_NEAR(place->off.value, 0.1e-3, 5e-6);
+}
+
+TEST(ShadowTable, AForceThatComesLaterIsNamed) {
+  const auto late = [](RecordedTick& frame, double) { frame.in.wrench.t += from_seconds(3e-3); };
+  const trial::Shadow shadow = shadowed_frames(probing(), 7, late);
+  EXPECT_THAT(named(shadow), ElementsAre("force force_time"));
+  const trial::Divergence* time = found(shadow, Quantity::force_time);
+  ASSERT_NE(time, nullptr);
+  EXPECT_NEAR(time->off.value, 3e-3, 0.3e-3);
+}
+
+TEST(ShadowTable, AMachineThatSpeedsUpOtherwiseHasARest) {
+  EXPECT_THAT(named(shadowed(carrying(), 7, {}, {"truth.hexapod.acceleration_m_s2=0.3"})),
+              testing::Contains("machine machine_rest"));
+}
+
+// A platform on legs that bend is not shaken by being led: it is placed where it said that it was.
+TEST(ShadowTable, AMachineOnElasticLegsIsJudgedAsAnyOther) {
+  const trial::Shadow shadow = shadowed(probing(), 3, {"truth.hexapod.form=structural"});
+  EXPECT_THAT(named(shadow), ElementsAre());
+  const trial::Divergence* stiffness = found(shadow, Quantity::stiffness);
+  ASSERT_NE(stiffness, nullptr);
+  EXPECT_LT(stiffness->off.half, 0.5 * stiffness->bound);
+}
+
+// Other seeds of the very set-up: none reaches a bound.
+void expect_below_bounds(const ShadowedScene& scene) {
+  for (int i = 1; i <= tests::thorough(4, 20); ++i) {
+    const std::uint64_t seed = 100 + static_cast<std::uint64_t>(i);
+    const trial::Shadow shadow = shadowed(scene, seed);
+    EXPECT_FALSE(shadow.found.empty());
+    for (const trial::Divergence& one : shadow.found) {
+      EXPECT_FALSE(one.diverges()) << scene.name << " " << seed << " " << word_of(one.quantity) << one.axis;
+      EXPECT_LT(std::abs(one.off.value), one.bound)
+          << scene.name << " " << seed << " " << word_of(one.quantity) << one.axis;
+    }
+  }
+}
+TEST(ShadowTable, WhereNothingWasAlteredAProbeStaysBelowItsBounds) { expect_below_bounds(probing()); }
+TEST(ShadowTable, WhereNothingWasAlteredACarriedToolStaysBelowItsBounds) { expect_below_bounds(carrying()); }
+TEST(ShadowTable, WhereNothingWasAlteredAPressStaysBelowItsBounds) { expect_below_bounds(pressing()); }
 
 }  // namespace
 }  // namespace enc::test

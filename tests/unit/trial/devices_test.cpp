@@ -2,26 +2,29 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <vector>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "core/devices/roles.h"
 #include "models/setup/driver_table.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/refusal.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/trial/runs.h"
+#include "trial/devices/device_log.h"
+#include "trial/trackers/frame_times.h"
+#include "trial/trackers/jittered_tracker.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
 
 using test::replaced;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::StartsWith;
+using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 
 constexpr std::array<std::string_view, 2> kWays{"fast", "exact"};
 
@@ -112,7 +115,7 @@ class DriverContract : public testing::Test {
   }
   models::Setup load(const std::string& table, const std::vector<std::string>& set = {}) {
     std::ofstream(rig_) << text_ << table;
-    return models::load(tests::source_dir() + "/models/scenes/clamped_tool.toml", rig_, set);
+    return test::shipped("clamped_tool", set, rig_);
   }
   // lab.toml:LINE:COLUMN, the line counted from the table on.
   [[nodiscard]] std::string at(int line, int column) const {
@@ -124,20 +127,13 @@ class DriverContract : public testing::Test {
     return rig_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ":1";
   }
   std::string refusal(const std::string& table, const std::vector<std::string>& set = {}) {
-    try {
+    return test::refusal(ErrorKind::input, [&] {
       models::Setup setup = load(table, set);
       read_driver_tables(setup, [](const std::string& name) { return &fake_module(name); });
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::input);
-      return e.what();
-    }
-    return {};
+    });
   }
   static TrialOptions options(bool armed) {
-    TrialOptions options;
-    options.drivers = fake_module;
-    options.armed = armed;
-    options.seconds = 0.05;
+    TrialOptions options{.seconds = 0.05, .drivers = fake_module, .armed = armed};
     return options;
   }
   test::TemporaryFolder folder_;
@@ -312,27 +308,18 @@ TEST_F(DriverContract, ParamsListsIt) {
 }
 
 TEST_F(DriverContract, ARoleThatItDoesNotFillIsAMistakeInTheFile) {
-  try {
-    Trial trial(load(kTable, {"rig.force.driver=box"}), options(false));
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-    EXPECT_STREQ(e.what(),
-                 "--set rig.force.driver=box: force: module 'box' drives no force sensor; choose "
-                 "another driver in the rig file");
-  }
+  EXPECT_EQ(
+      test::refusal(ErrorKind::input,
+                    [&] { Trial trial(load(kTable, {"rig.force.driver=box"}), options(false)); }),
+      "--set rig.force.driver=box: force: module 'box' drives no force sensor; choose another driver in "
+      "the rig file");
 }
 
 // A run says which of them, and where; a list of devices has the role before its words already.
 TEST_F(DriverContract, ADeviceThatIsNotThereIsNamedByItsRoleAndItsPlaceInTheFile) {
   given().absent = true;
-  try {
-    Trial trial(load(kTable), options(false));
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::device);
-    EXPECT_EQ(e.what(), named() + ": manipulator: 10.0.0.7: nobody listens there; switch it on");
-  }
+  EXPECT_EQ(test::refusal(ErrorKind::device, [&] { Trial trial(load(kTable), options(false)); }),
+            named() + ": manipulator: 10.0.0.7: nobody listens there; switch it on");
   const std::vector<DeviceWords> asked = ask_drivers(load(kTable), fake_module);
   ASSERT_EQ(asked.size(), 2U);
   EXPECT_EQ(asked[0].role, "manipulator");
@@ -346,13 +333,9 @@ TEST_F(DriverContract, AModuleThatIsNotThereIsNamedByItsRoleToo) {
   none.drivers = [](const std::string&) -> const ModuleInfo& {
     throw Error("there is no such module; build it", {}, ErrorKind::device);
   };
-  try {
-    Trial trial(load(kTable, {"rig.manipulator.driver=sim"}), none);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::device);
-    EXPECT_THAT(e.what(), AllOf(StartsWith(rig_ + ":"), HasSubstr(":1: gripper: there is no such module")));
-  }
+  EXPECT_THAT(test::refusal(ErrorKind::device,
+                            [&] { Trial trial(load(kTable, {"rig.manipulator.driver=sim"}), none); }),
+              AllOf(StartsWith(rig_ + ":"), HasSubstr(":1: gripper: there is no such module")));
 }
 
 TEST(Roles, HaveEachTheirOwnPlace) {
@@ -362,6 +345,91 @@ TEST(Roles, HaveEachTheirOwnPlace) {
     ++roles;
   });
   EXPECT_EQ(roles, kRoles);
+}
+
+// What devices say goes to a terminal: a line each, whatever bytes a wire brought.
+
+TEST(DeviceLog, ALineOfADeviceIsOneLine) {
+  DeviceLog log;
+  log.say("serial 7\nstate hash  122d7c00183e94e0\033[2J\x9B");
+  EXPECT_EQ(log.lines(), std::vector<std::string>{"serial 7\\nstate hash  122d7c00183e94e0\\x1b[2J\\x9b"});
+}
+
+// Results that come at irregular times: what is told, when, and what of it is felt.
+
+Time at_ms(std::int64_t ms) { return Time(Duration(1'000'000) * ms); }
+constexpr Duration kPeriod{50'000'000}, kLatency{50'000'000};
+
+// A frame each 50 ms, there as soon as it is exposed; its number is the tool's.
+class Frames final : public PoseTracker {
+ public:
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+    if (!exposures_.due(now)) return false;
+    newest = {{static_cast<std::int32_t>(exposures_.n - 1), {}}, now, Health::ok};
+    return true;
+  }
+
+ private:
+  Every exposures_{20.0};
+};
+
+struct Told {
+  std::int32_t frame;
+  double age;  // s
+};
+std::vector<Told> told(Duration jitter, std::uint64_t seed, int ms = 20'000) {
+  JitteredTracker tracker(std::make_unique<Frames>(), {kLatency, jitter, seed});
+  std::vector<Told> all;
+  Stamped<TrackedTool> newest;
+  for (int i = 0; i < ms; ++i) {
+    if (!tracker.poll(at_ms(i), newest)) continue;
+    EXPECT_EQ(newest.t, Time(kPeriod * newest.value.tool));  // the stamp stays true
+    all.push_back({newest.value.tool, age(at_ms(i), newest.t)});
+  }
+  return all;
+}
+
+TEST(JitteredTracker, WithoutJitterEachComesWhenItIsDue) {
+  const auto all = told({}, 1);
+  ASSERT_EQ(all.size(), 399U);
+  for (const Told& t : all) EXPECT_DOUBLE_EQ(t.age, 0.050);
+}
+
+// Early at the exposure, late when the next but one is exposed; in order, and as often one as the other.
+TEST(JitteredTracker, OneFrameEarlyOrLateInOrderAndRepeatable) {
+  const auto all = told(kPeriod, 7), again = told(kPeriod, 7), other = told(kPeriod, 8);
+  ASSERT_EQ(all.size(), again.size());
+  double least = 1.0, most = 0.0, sum = 0.0, differs = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].age, again[i].age);
+    EXPECT_TRUE(i == 0 || all[i].frame > all[i - 1].frame);
+    if (i < other.size()) differs += std::abs(all[i].age - other[i].age);
+    least = std::min(least, all[i].age);
+    most = std::max(most, all[i].age);
+    sum += all[i].age;
+  }
+  EXPECT_LT(least, 0.005);
+  EXPECT_GT(most, 0.095);
+  EXPECT_LE(most, 0.101);
+  EXPECT_NEAR(sum / static_cast<double>(all.size()), 0.055, 0.01);
+  EXPECT_GT(differs, 1.0);
+}
+
+TEST(FrameTimes, AStaleFrameIsNoFrameAndTheRateIsThatOfTheHandOvers) {
+  FrameTimes times;
+  times.reserve(10);
+  Stamped<TrackedTool> tool;
+  times.see(at_ms(0), tool);
+  EXPECT_EQ(times.frames, 0);
+  for (int i = 0; i < 200; ++i) {
+    if (i % 50 == 0) tool = {{}, at_ms(i), i == 150 ? Health::stale : Health::ok};
+    if (i == 150) tool.t = at_ms(100);  // told again
+    times.see(at_ms(i + 30), tool);
+  }
+  EXPECT_EQ(times.frames, 3);
+  EXPECT_DOUBLE_EQ(times.rate(), 20.0);
+  EXPECT_EQ(times.intervals, (std::vector<double>{0.050, 0.050}));
+  EXPECT_EQ(times.ages, (std::vector<double>{0.030, 0.030, 0.030}));
 }
 
 }  // namespace
