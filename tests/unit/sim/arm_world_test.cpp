@@ -1,13 +1,27 @@
-// The world with an arm: what holds, what falls, what the finger feels.
+// Whole worlds: with an arm, of a session, and as they are exported.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "models/setup/scene_file.h"
+#include "sim/bodies/mujoco.h"
 #include "sim/world.h"
+#include "tests/conformance/bench_world.h"
+#include "tests/support/built.h"
+#include "trial/assemble/assemble.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::sim {
 namespace {
+
+namespace fs = std::filesystem;
+using test::scene_file, test::Twin;
 
 constexpr double kSpring = 2000.0, kDamper = 5.0;  // of a stiff holder, N/m and N s/m
 
@@ -211,6 +225,151 @@ TEST(ArmWorld, ASlideAndAHingeAreAChain) {
   for (int i = 0; i < 100; ++i) room.tick({0.1, 0, 0});
   expect_on_its_circle();
   EXPECT_GT(room.world->truth().joints[0], 1e-4);
+}
+
+// A session in the twin: the tool is changed, nothing of it is felt, and all of it can be saved.
+
+// The change comes after the first press.
+std::vector<std::string> early() { return {"user.session.change_share=[0,0]", "user.session.duration_s=30"}; }
+
+// Until the tool in the hand is this one; false if it never is.
+bool run_until_held(Twin& twin, std::int32_t tool) {
+  for (int i = 0; i < 30000; ++i) {
+    twin.tick();
+    if (twin.world->truth().tool == tool) return true;
+  }
+  return false;
+}
+
+TEST(SessionWorld, TheOverlayShowsTheNewToolWithItsFirstPose) {
+  Twin twin(early(), 1, "session");
+  std::int32_t newest = -1;
+  double force = 0.0;
+  bool hidden = false;
+  ASSERT_TRUE(run_until_held(twin, -1));
+  for (int i = 0; i < 4000; ++i) {
+    twin.tick();
+    if (twin.in.tool.health == Health::ok) newest = twin.in.tool.value.tool;
+    hidden = hidden || twin.out.view.tool == -1;
+    if (newest == 1) {
+      EXPECT_EQ(twin.out.view.tool, 1);
+    }
+    if (twin.world->truth().phase == Phase::change) {
+      force = std::max(force, twin.world->truth().contact_force.norm());
+      EXPECT_EQ(twin.out.deflection, 0.0);
+      EXPECT_NE(twin.out.mode, Mode::hold) << why_text(twin.out.why);
+    }
+  }
+  EXPECT_EQ(newest, 1);
+  EXPECT_TRUE(hidden);  // while none was in view
+  EXPECT_LE(force, 0.2);
+}
+
+TEST(SessionWorld, TheToolLaidDownStaysWhereItIs) {
+  Twin twin(early(), 2, "session");
+  ASSERT_TRUE(run_until_held(twin, 1));
+  const mjModel* model = twin.world->physics().model();
+  const mjData* data = twin.world->physics().data();
+  const int joint = model->body_jntadr[mj_name2id(model, mjOBJ_BODY, "tool")];
+  const double* q = data->qpos + model->jnt_qposadr[joint];
+  const Vec3 there(q[0], q[1], q[2]);
+  EXPECT_LT((there - twin.setup.scene.user->session->tray).norm(), 2e-3);
+  twin.run(2000);
+  EXPECT_LT((Vec3(q[0], q[1], q[2]) - there).norm(), 1e-9);
+  EXPECT_EQ(twin.world->truth().tool_radius, twin.setup.scene.tools[1].tip_radius);
+}
+
+TEST(SessionWorld, GoesOnFromTheMiddleOfAChangeToTheBit) {
+  Twin twin(early(), 3, "session");
+  ASSERT_TRUE(run_until_held(twin, -1));
+  twin.run(300);
+  const std::vector<std::byte> saved = twin.world->save();
+  const Inputs in = twin.in;
+  const State state = twin.state;
+  const Outputs out = twin.out;
+  const std::uint64_t first = hashed(twin, 4000);
+  EXPECT_EQ(twin.world->truth().tool, 1);
+  twin.world->restore(saved);
+  twin.in = in;
+  twin.state = state;
+  twin.out = out;
+  EXPECT_EQ(hashed(twin, 4000), first);
+}
+
+TEST(SessionWorld, IsTheSameForTheSameSeed) {
+  Twin a({}, 5, "session"), b({}, 5, "session"), c({}, 6, "session");
+  const std::uint64_t first = hashed(a, 5000);
+  EXPECT_EQ(hashed(b, 5000), first);
+  EXPECT_NE(hashed(c, 5000), first);
+}
+
+// The tracker takes the pressing tool for the other one: the tip must neither leap nor let go. The other's
+// tip is 15 mm farther down the shaft, so it is thought to be deep inside.
+TEST(SessionWorld, AToolMistakenWhilePressingIsNotFelt) {
+  Twin twin({"user.session.depth_mm=[4,4]", "user.session.press_mm_s=[4,4]", "user.session.hold_s=[3,3]",
+             "truth.hand.aborted=0"},
+            4, "session");
+  while (twin.world->truth().phase != Phase::hold) twin.tick();
+  twin.run(1000);  // the hand has settled
+  ASSERT_EQ(twin.out.mode, Mode::contact);
+  const double force = twin.world->truth().contact_force.norm();
+  const double given = twin.out.deflection;
+  EXPECT_GT(force, 3.0);
+  bool switched = false;
+  twin.disturb = [](Inputs& in) { in.tool.value.tool = 1; };
+  for (int i = 0; i < 100; ++i) {
+    twin.tick();
+    switched = switched || twin.out.view.tool == 1;
+    EXPECT_NEAR(twin.world->truth().contact_force.norm(), force, 0.2) << i;
+    EXPECT_NEAR(twin.out.deflection, given, 0.1e-3) << i;
+  }
+  EXPECT_TRUE(switched);
+  EXPECT_EQ(twin.out.contacts, 1);
+}
+
+// `encounter export SCENE world.xml` of each scene that is shipped: MuJoCo's own programs open it.
+
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(tests::source_dir() + "/models/scenes"))
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path().string());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+sim::ModelPtr compiled(const std::string& xml) {
+  std::array<char, 500> why{};
+  const sim::SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, why.data(), static_cast<int>(why.size())));
+  EXPECT_TRUE(spec) << why.data();
+  if (!spec) return {};
+  sim::ModelPtr model(mj_compile(spec.get(), nullptr));
+  EXPECT_TRUE(model) << mjs_getError(spec.get());
+  return model;
+}
+
+TEST(ShippedExport, OpensInMujocoAsTheWorldThatItIs) {
+  const std::vector<std::string> scenes = shipped_scenes();
+  ASSERT_GE(scenes.size(), 28U);
+  for (const std::string& path : scenes) {
+    SCOPED_TRACE(path);
+    const models::Setup setup = models::load(path, "");
+    const Scene scene = trial::prepare_setup(setup);
+    const auto world = trial::make_world(setup, scene, 1, true);
+    const sim::ModelPtr opened = compiled(world->physics().xml());
+    if (!opened) continue;
+    const mjModel& built = *world->physics().model();
+    EXPECT_EQ(opened->nbody, built.nbody);
+    EXPECT_EQ(opened->njnt, built.njnt);
+    EXPECT_EQ(opened->ngeom, built.ngeom);
+    EXPECT_EQ(opened->nsensor, built.nsensor);
+    EXPECT_EQ(opened->ntendon, built.ntendon);
+    for (int i = 0; i < built.nbody && i < opened->nbody; ++i) {
+      EXPECT_NEAR(opened->body_mass[i], built.body_mass[i], 1e-5 * built.body_mass[i]) << "body " << i;
+      for (int k = 3 * i; k < 3 * i + 3; ++k)
+        EXPECT_NEAR(opened->body_inertia[k], built.body_inertia[k], 1e-5 * built.body_inertia[k])
+            << "body " << i;
+    }
+  }
 }
 
 }  // namespace
