@@ -44,15 +44,14 @@ set(optimised heavy property golden fuzz benchmarks hygiene shape terminal)
 # periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
 # in release belongs here.
 set(draws
-    unit/app/view/ unit/core/shape/deformation/ unit/core/vision/augment/ unit/core/vision/ball/ unit/models/identify/stereo/
-    unit/core/vision/finger/ unit/core/vision/segmentation/[a-z_]*_test unit/core/vision/stereo/match
-    unit/core/vision/finger_tracker unit/core/vision/hand/ unit/core/vision/vision_tracker unit/sim/camera/ unit/trial/camera/faulty unit/trial/identify/camera/
+    unit/app/view/ unit/core/shape/deformation/ unit/core/vision/augment/ unit/core/vision/ball/ unit/core/vision/finger/
+    unit/core/vision/hand/ unit/core/vision/segmentation/[a-z_]*_test unit/core/vision/stereo/match unit/core/vision/tracker_test
+    unit/models/identify/stereo/ unit/sim/camera/ unit/trial/camera/faulty unit/trial/identify/camera/
     input/app/calibrate/images/ input/app/camera/ input/app/camera_test)
 set(runs_scenes
-    unit/core/machine/motors unit/core/control/stages/edge unit/core/control/stages/guard unit/models/built_scene unit/sim/arm_world unit/sim/export unit/sim/legs
-    unit/sim/rig_test unit/sim/session_world unit/trial/identify/ball/ unit/trial/identify/rig/ unit/trial/jitter unit/trial/ledger/
-    unit/trial/measure/ unit/trial/precision/ unit/trial/seen_measure unit/trial/identify/shadow/ unit/trial/shipped unit/trial/touch_measure
-    unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_rig
+    unit/core/machine/motors unit/core/control/stages/edge unit/models/built_scene unit/sim/arm_world unit/sim/legs
+    unit/trial/identify/ball/ unit/trial/identify/rig/ unit/trial/identify/shadow/ unit/trial/measure/ unit/trial/whole_run
+    input/app/calibrate/calibrate_rig
     input/app/calibrate/calibrate_tracker input/app/calibrate/calibrate_camera input/app/check_test input/app/limits_input input/app/rig_test input/app/scenes/ input/app/shadow_input
     input/app/stop_test input/app/verdict_input)
 set(long_loops unit/core/control/safety/certificate/)
