@@ -419,7 +419,8 @@ TEST(SteeringLog, WhatIsWrongIsSaidWithItsLine) {
 class SteeredToolChange : public testing::Test {
  protected:
   // Runs the scene; `change` at these ticks. Gives the held tool at the end of each second.
-  std::vector<std::int32_t> held(const std::string& scene, int seconds, const std::vector<std::int64_t>& at) {
+  std::vector<std::int32_t> held(const std::string& scene, double seconds,
+                                 const std::vector<std::int64_t>& at) {
     TrialOptions options{.seconds = seconds};
     options.steer = [&](std::int64_t tick) -> std::optional<HandWord> {
       if (tick == 0) return HandWord{Point<'W'>(0, 0, 0.06)};
