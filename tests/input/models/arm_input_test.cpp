@@ -1,5 +1,5 @@
-// What can be wrong in the files of an arm, its truth and its objects: refused in one line, with the place of
-// the key.
+// What can be wrong in the files of an arm, its truth, its gains and its objects: each test expects one line
+// that names the place of the mistake.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "tests/conformance/bench_world.h"
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
@@ -22,6 +23,9 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
+
+// ---- What can be wrong in the files of an arm, its truth and its objects: refused in one line, with the
+// place of the key.
 
 // As `encounter run` says it.
 std::string said(const std::vector<std::string>& set, const std::string& scene = "wall",
@@ -281,6 +285,31 @@ TEST(ArmReport, WhatWasNotMeasuredIsSaid) {
   // A spring is fitted where one is pressed, not over reaches for several objects.
   EXPECT_THAT(tests::run_program({"run", scene_file("reaching"), "--for-s", "6"}).out,
               Not(HasSubstr("spring ")));
+}
+
+// ---- Gains of an arm's law that cannot be: one line, with the number that is wrong.
+
+std::string said_gains(const std::string& set) {
+  try {
+    (void)trial::prepare_setup(models::load(tests::source_dir() + "/models/scenes/wall.toml", "", {set}));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(GainsInput, UnderDampedIsRefusedWithTheRatio) {
+  EXPECT_EQ(said_gains("rig.arm.damping_Ns_per_m=11.5"), "");
+  EXPECT_THAT(said_gains("rig.arm.damping_Ns_per_m=5"),
+              AllOf(HasSubstr("under-damped: ratio 0.4"), HasSubstr("expected 1 or more"),
+                    HasSubstr("damping_Ns_per_m")));
+  EXPECT_THAT(said_gains("rig.arm.stiffness_N_per_m=1200"), HasSubstr("under-damped: ratio 0.5"));
+}
+
+TEST(GainsInput, NegativeOrZeroIsRefused) {
+  for (const char* key : {"stiffness_N_per_m", "damping_Ns_per_m", "filter_hz"})
+    for (const char* value : {"-1", "0", "nan"})
+      EXPECT_THAT(said_gains(std::string("rig.arm.") + key + "=" + value), HasSubstr(key)) << key << value;
 }
 
 }  // namespace
