@@ -1,25 +1,41 @@
-// The ball's response under random motion: no free energy, no jump, one deflection for each force; and how
-// well it follows the ball where the direction changes.
+// The response of the ball under random motion, mixed responses by direction, and how well `encounter fit
+// --ball` identifies a ball.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/control/scene/scene.h"
 #include "core/machine/loop_model.h"
 #include "core/shape/response/response.h"
+#include "models/directions/directions.h"
 #include "models/identify/response/loop_fit.h"
+#include "models/identify/response/response_fit.h"
+#include "models/order_statistics.h"
 #include "models/setup/scene_file.h"
+#include "sim/bodies/ball_contact.h"
 #include "sim/bodies/ball_plant.h"
+#include "sim/truth/random.h"
+#include "tests/support/ball_pushes.h"
 #include "tests/support/built.h"
 #include "tests/support/plant_loop.h"
+#include "trial/assemble/prepare.h"
+#include "trial/identify/ball/ball_fit.h"
 #include "trial/measure/record_table.h"
+#include "trial/trial.h"
 
-namespace enc {
+namespace enc::models {
 namespace {
+
+// ---- The ball's response under random motion: no free energy, no jump, one deflection for each force; and
+// how well it follows the ball where the direction changes.
 
 constexpr double kDeepest = 6e-3;  // m
 
@@ -321,5 +337,209 @@ TEST(QuietStops, KeepATremorSmallAndMissTheMinorLoops) {
   EXPECT_GT(minor_loop_error(quiet), 0.08);
 }
 
+// ---- Whatever is mixed of the tennis ball's three responses can be rendered: monotone, passive, not softer
+// than its parts.
+
+const std::string kModels = tests::source_dir() + "/models";
+constexpr double kLimit = 6e-3;
+
+class DirectionsProperty : public testing::Test {
+ protected:
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
+  }
+  PressWay any_way() { return {uniform(0.0, 0.4), uniform(0.0, 0.4)}; }
+  ResponseSpec any_mixture() { return mixed(parts_, weights(directions_, any_way())); }
+
+  std::vector<Direction> directions_ = load_directions(kModels + "/directions/tennis_ball_any.toml");
+  std::vector<ResponseSpec> parts_{load_response(kModels + "/responses/tennis_ball.toml"),
+                                   load_response(kModels + "/responses/tennis_ball_B.toml"),
+                                   load_response(kModels + "/responses/tennis_ball_C.toml")};
+  double floor_ = fit_floor(loop_of(load_rig(kModels + "/rigs/sim.toml")));
+  std::mt19937_64 random_{20};
+};
+
+TEST_F(DirectionsProperty, EveryMixtureIsAcceptedWithTheFloorOfItsParts) {
+  for (int n = 0; n < 50; ++n) {
+    const ResponseSpec mixture = any_mixture();
+    for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii})
+      EXPECT_NO_THROW(static_cast<void>(Response(mixture, floor_, reversal)));
+  }
+}
+
+TEST_F(DirectionsProperty, NoDirectionIsStifferOrSofterThanAllOfItsParts) {
+  for (int n = 0; n < 50; ++n) {
+    const Response mixture(any_mixture(), 0.0);
+    const double d = uniform(0.1e-3, kLimit);
+    double least = INFINITY, most = -INFINITY;
+    for (const ResponseSpec& part : parts_) {
+      const double force = Response(part, 0.0).press(d);
+      least = std::min(least, force);
+      most = std::max(most, force);
+    }
+    EXPECT_GE(mixture.press(d), least - 1e-9);
+    EXPECT_LE(mixture.press(d), most + 1e-9);
+  }
+}
+
+// A closed path of deflection, cycled twice before, yields no energy.
+TEST_F(DirectionsProperty, NoClosedPathYieldsEnergy) {
+  for (int n = 0; n < 40; ++n) {
+    const Response response(any_mixture(), 0.0,
+                            n % 2 == 0 ? Reversal::prandtl_ishlinskii : Reversal::energy_stop);
+    std::vector<double> turns(4);
+    for (double& turn : turns) turn = uniform(0.0, kLimit);
+    ResponseState state;
+    double at = turns.back(), force = response.force(state, at), work = 0.0;
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      work = 0.0;
+      for (const double turn : turns) {
+        constexpr int kSteps = 600;
+        const double from = at;
+        for (int i = 1; i <= kSteps; ++i) {
+          const double to = from + (turn - from) * i / kSteps;
+          const double now = response.force(state, to);
+          work += 0.5 * (force + now) * (to - at);
+          at = to;
+          force = now;
+        }
+      }
+    }
+    EXPECT_GE(work, -1e-6) << n;  // J
+  }
+}
+
+// Near directions have near weights: a user who wanders a little feels no step.
+TEST_F(DirectionsProperty, WeightsFollowTheDirectionContinuously) {
+  for (int n = 0; n < 200; ++n) {
+    const PressWay way = any_way();
+    const std::vector<double> here = weights(directions_, way);
+    const std::vector<double> there = weights(directions_, {way.location + 1e-4, way.slant - 1e-4});
+    for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 0.01);
+  }
+}
+
+// ---- `encounter fit --ball` finds the ball of a rig and knows how well: balls whose numbers the fit does
+// not know are pressed in the test rig, through sensor, servo and haptic loop.
+
+// Modulus within 15 %, the others within 30 % of the nominal ball.
+std::vector<std::string> drawn_ball(std::uint64_t seed) {
+  sim::Stream random(seed, "identification");
+  std::vector<std::string> settings;
+  for (std::size_t i = 0; i < trial::kNearer; ++i) {
+    const trial::BallNumber& n = trial::ball_numbers()[i];
+    const double share = i == trial::kRubberModulus ? 0.15 : 0.3;
+    const double value = trial::value_of(n, {}) * (1.0 + share * (2.0 * random.uniform() - 1.0));
+    settings.push_back(fmt::format("truth.ball.{}={}", n.name, value / n.unit));
+  }
+  return settings;
+}
+
+// What the rig reads while the probe presses.
+trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
+  trial::Pushes pushes;
+  trial::TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const trial::Glance& glance) {
+    const Outputs& out = glance.out;
+    if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) || !out.felt.finite()) return;
+    pushes.resize(static_cast<std::size_t>(out.contacts));
+    const double force = dot(out.felt, glance.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+    pushes.back().push_back({out.deflection, force, true, seconds(glance.tick.t.time_since_epoch())});
+  };
+  trial::Trial(setup, options).run();
+  return pushes;
+}
+
+// Of each number, over balls: how often the interval holds the injected value, and the interval's full width
+// over the value (of kNearer over 0.1 mm).
+struct Found {
+  std::array<int, trial::kNearer + 1> inside{};
+  std::array<std::vector<double>, trial::kNearer + 1> widths;
+};
+void identify(std::uint64_t seed, std::vector<std::string> more, bool nearer_free, Found& found) {
+  std::vector<std::string> settings = drawn_ball(seed);
+  settings.insert(settings.end(), more.begin(), more.end());
+  const models::Setup setup =
+      models::load(tests::source_dir() + "/models/scenes/rig_identify.toml", "sim", settings);
+  const Scene scene = trial::prepare_setup(setup);
+  const double radius = setup.scene.objects[static_cast<std::size_t>(scene.probe()->object)].radius;
+  const Vec<'W'> out = scene.probe()->X_WN * Vec<'N'>(0, 0, 1);
+  const trial::StandingBall truth{sim::ball_of(setup.twin.ball, radius),
+                                  dot(Vec<'W'>(setup.twin.ball.misplaced), out)};
+  trial::BallFitOptions options;
+  options.free[trial::kNearer] = nearer_free;
+  const trial::BallFit fit = trial::fit_ball(trial::BallLoops({pushes_of(setup, seed)}), options);
+  for (const trial::BallEstimate& e : fit.estimates) {
+    const double injected = trial::value_of(trial::ball_numbers()[e.number], truth);
+    found.inside.at(e.number) += e.interval.holds(injected) ? 1 : 0;
+    found.widths.at(e.number).push_back(e.width());
+  }
+}
+int inside(const Found& found) {  // of the numbers of the ball's law
+  int sum = 0;
+  for (std::size_t i = 0; i < trial::kNearer; ++i) sum += found.inside.at(i);
+  return sum;
+}
+
+void expect_narrow(const Found& found) {
+  for (std::size_t i = 0; i < trial::kNearer; ++i)
+    EXPECT_LE(models::median(found.widths.at(i)), 0.2) << trial::ball_numbers()[i].name;
+}
+
+TEST(Identification, IntervalsHoldTheBallOfTheRig) {
+  constexpr int kBalls = 6;
+  Found found;
+  for (std::uint64_t seed = 1; seed <= kBalls; ++seed) identify(seed, {}, true, found);
+  EXPECT_GE(inside(found), 43) << "nine of ten of the 48 numbers";
+  expect_narrow(found);
+}
+
+TEST(IdentificationLong, IntervalsHoldEachNumberOfAHundredBalls) {
+  constexpr int kBalls = 100;
+  Found found;
+  for (std::uint64_t seed = 1; seed <= kBalls; ++seed) identify(seed, {}, true, found);
+  for (std::size_t i = 0; i <= trial::kNearer; ++i)
+    EXPECT_GE(found.inside.at(i), 90) << trial::ball_numbers()[i].name;
+  expect_narrow(found);
+}
+
+// A ball that stands 0.1 mm nearer along the push is found with the rest. Taken to be in place, other numbers
+// answer for it, and their intervals, which know of noise only, do not hold.
+TEST(Identification, FindsWhereTheBallStands) {
+  const std::string nearer = "truth.ball.misplaced_mm=[0,0,-0.1]";
+  Found free, held;
+  for (const std::uint64_t seed : {1, 2}) {
+    identify(seed, {nearer}, true, free);
+    identify(seed, {nearer}, false, held);
+  }
+  EXPECT_GE(inside(free), 15);
+  EXPECT_LE(inside(held), 8);
+}
+
+// ---- Drawn balls under the sensor's noise: their numbers are inside of the intervals as often as these say.
+
+TEST(BallFitProperty, IntervalsHoldWhatWasInjected) {
+  constexpr int kTrials = 20;
+  int inside = 0;
+  double widest = 0.0;
+  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
+    sim::Stream random(seed, "ball_fit");
+    trial::StandingBall truth;
+    for (std::size_t i = 0; i < trial::kNearer; ++i)
+      trial::ball_numbers()[i].of(truth) *= 0.8 + 0.4 * random.uniform();
+    trial::Pushes pushes = test::ball_pushes(truth.law, {20e-3, 6e-3, 2.0});
+    test::add_noise(pushes, seed);
+    for (const trial::BallEstimate& e : trial::fit_ball(trial::BallLoops({pushes})).estimates) {
+      inside += e.interval.holds(trial::value_of(trial::ball_numbers()[e.number], truth)) ? 1 : 0;
+      if (e.number == trial::kRubberModulus) widest = std::max(widest, e.width());
+    }
+  }
+  // Of 180, 171 are expected; the errors of one ball's numbers go together, so half as many count: 5 and 4
+  // more or less.
+  EXPECT_GE(inside, 160);
+  EXPECT_LE(widest, 0.05);
+}
+
 }  // namespace
-}  // namespace enc
+}  // namespace enc::models

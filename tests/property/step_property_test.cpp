@@ -1,5 +1,7 @@
-// Whatever comes in, what goes out is within the limits. Seeded random inputs, and a child process that may
-// not call the system.
+// Whatever comes into step(), what goes out is within the limits; the hexapod's limits; and surfaces seen
+// from any pose.
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -11,6 +13,7 @@
 #include <unistd.h>
 
 #include "core/control/step.h"
+#include "core/machine/hexapod.h"
 #include "core/shape/deformation/dent.h"
 #include "tests/support/scenes.h"
 #include "tests/support/spoil.h"
@@ -25,6 +28,9 @@ namespace enc {
 namespace {
 
 using test::Loop;
+
+// ---- Whatever comes in, what goes out is within the limits. Seeded random inputs, and a child process that
+// may not call the system.
 
 // The tool wanders over the objects and leaps now and then; forces come and go; one input in `spoil_every` is
 // spoilt.
@@ -163,6 +169,211 @@ TEST(StepProperty, MakesNoSystemCall) {
   EXPECT_TRUE(WIFSIGNALED(trapped) && WTERMSIG(trapped) == SIGKILL);
 }
 #endif
+
+// Reachable poses, drawn over the catalogue's travels about the pivot and kept where the machine reaches.
+struct RandomPose {
+  const Hexapod& machine;
+  std::mt19937_64 random;
+  std::uniform_real_distribution<double> unit{-1.0, 1.0};
+  Pose<'R', 'H'> draw() {
+    for (;;) {
+      const Quat q = Eigen::AngleAxisd(0.26 * unit(random), Vec3::UnitX()) *
+                     Eigen::AngleAxisd(0.26 * unit(random), Vec3::UnitY()) *
+                     Eigen::AngleAxisd(0.52 * unit(random), Vec3::UnitZ());
+      const Vec3 pivot(0.080 * unit(random), 0.070 * unit(random), 0.180 + 0.026 * unit(random));
+      const Pose<'R', 'H'> X_RH(q, Vec3(pivot + q * Vec3(0, 0, 0.160)));
+      if (machine.limit(X_RH) == ReachLimit::none) return X_RH;
+    }
+  }
+};
+
+// Both quaternions of one rotation are the same pose.
+double turn_between(const Pose<'R', 'H'>& a, const Pose<'R', 'H'>& b) {
+  return 2.0 * (a.q().conjugate() * b.q()).vec().norm();
+}
+
+TEST(HexapodProperty, ForwardAfterInverseIsTheSamePose) {
+  const Hexapod machine{HexapodGeometry{}};
+  RandomPose poses{machine, std::mt19937_64(1)};
+  double worst = 0.0, worst_turn = 0.0;
+  int most_steps = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const Pose<'R', 'H'> X_RH = poses.draw();
+    const auto found = machine.forward(machine.inverse(X_RH), machine.zero());
+    ASSERT_TRUE(found) << i;
+    worst = std::max(worst, (found->X_RH.p() - X_RH.p()).norm());
+    worst_turn = std::max(worst_turn, turn_between(found->X_RH, X_RH));
+    most_steps = std::max(most_steps, found->steps);
+  }
+  EXPECT_LE(worst, 1e-9);
+  EXPECT_LE(worst_turn, 1e-8);  // 1e-9 m at 0.1 m
+  RecordProperty("most_newton_steps_from_zero", most_steps);
+}
+
+TEST(HexapodProperty, AtMostFourNewtonStepsFromATenthOfAMillimetre) {
+  const Hexapod machine{HexapodGeometry{}};
+  RandomPose poses{machine, std::mt19937_64(2)};
+  int most = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const Pose<'R', 'H'> X_RH = poses.draw();
+    const Vec3 away =
+        Vec3(poses.unit(poses.random), poses.unit(poses.random), poses.unit(poses.random)).normalized();
+    const Pose<'R', 'H'> guess(X_RH.q(), Vec3(X_RH.p() + 1e-4 * away));
+    const auto found = machine.forward(machine.inverse(X_RH), guess);
+    ASSERT_TRUE(found) << i;
+    most = std::max(most, found->steps);
+  }
+  EXPECT_LE(most, 4);
+}
+
+TEST(HexapodProperty, WorkspaceWithoutTurnsIs160By140By50) {
+  // The extents of all places that are reached without turning the platform, on a grid of 1 mm (x, y) and 0.5
+  // mm (z), each end then found to 1e-6 m.
+  const Hexapod machine{HexapodGeometry{}};
+  const auto ok = [&](const Vec3& p) {
+    return machine.limit({Quat::Identity(), Vec3(machine.zero().p() + p)}) == ReachLimit::none;
+  };
+  Vec3 most = Vec3::Zero(), least = Vec3::Zero();
+  const auto outward = [&](Vec3 p, int axis, double sign) {
+    for (double step = 1e-3; step > 5e-7; step *= 0.5)
+      while (ok(p + sign * step * Vec3::Unit(axis))) p(axis) += sign * step;
+    return p(axis);
+  };
+  for (int ix = -90; ix <= 90; ++ix)
+    for (int iy = -80; iy <= 80; ++iy)
+      for (int iz = -60; iz <= 60; ++iz) {
+        const Vec3 p(ix * 1e-3, iy * 1e-3, iz * 5e-4);
+        if (!ok(p)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          const double near = axis == 2 ? 1e-3 : 1.5e-3;
+          if (p(axis) > most(axis) - near) most(axis) = std::max(most(axis), outward(p, axis, 1.0));
+          if (p(axis) < least(axis) + near) least(axis) = std::min(least(axis), outward(p, axis, -1.0));
+        }
+      }
+  const Vec3 extent = most - least;
+  RecordProperty("x_um", static_cast<int>(extent.x() * 1e6));
+  RecordProperty("y_um", static_cast<int>(extent.y() * 1e6));
+  RecordProperty("z_um", static_cast<int>(extent.z() * 1e6));
+  EXPECT_NEAR(extent.x() / 0.160, 1.0, 0.02) << extent.transpose();
+  EXPECT_NEAR(extent.y() / 0.140, 1.0, 0.02) << extent.transpose();
+  EXPECT_NEAR(extent.z() / 0.050, 1.0, 0.02) << extent.transpose();
+  EXPECT_NEAR(extent.prod() / 1.12e-3, 1.0, 0.02)
+      << extent.transpose();  // the paper's volume is that of the box
+}
+
+// ---- The seen surface for any tip in any pose.
+
+// How far a point is inside a tip, m; negative outside.
+double inside(const Tip<'O'>& tip, const Vec3& p) {
+  const Vec3 from = p - tip.centre.e();
+  const Vec3 axis = tip.axis.e();
+  const double along = from.dot(axis);
+  if (tip.shape == TipShape::edge) {
+    const double at = std::clamp(along, -0.5 * tip.length, 0.5 * tip.length);
+    return tip.radius - (from - at * axis).norm();
+  }
+  if (tip.shape == TipShape::cone) {
+    const double beside = (from - along * axis).norm();
+    if (along + beside * std::tan(tip.half_angle) > 0.0)
+      return tip.radius + along * std::sin(tip.half_angle) - beside * std::cos(tip.half_angle);
+  }
+  return tip.radius - from.norm();
+}
+
+struct Case {
+  std::mt19937_64 random;
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+  Vec3 direction() {
+    Vec3 v;
+    do v = Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    while (v.norm() > 1.0 || v.norm() < 0.1);
+    return v.normalized();
+  }
+  Tip<'O'> tip(double zero, Vec3& n) {
+    n = zero > 0.0 ? direction() : Vec3(0, 0, 1);
+    Tip<'O'> tip{Point<'O'>(), uniform(0.0003, 0.010), static_cast<TipShape>(random() % 3)};
+    tip.axis = Vec<'O'>(direction());
+    if (tip.shape == TipShape::cone) {
+      tip.half_angle = uniform(0.1, 1.3);
+      const double tilt = uniform(0.0, 1.4 - tip.half_angle);
+      tip.axis = Vec<'O'>(Vec3(std::cos(tilt) * n + std::sin(tilt) * n.unitOrthogonal()));
+    }
+    if (tip.shape == TipShape::edge) tip.length = uniform(0.001, 0.040);
+    const double lift = tip.radius - uniform(1e-5, 0.006);
+    tip.centre = Point<'O'>(Vec3((zero + lift) * n));
+    return tip;
+  }
+};
+
+void any_pose(const Surface& surface, double zero, std::uint64_t seed) {
+  Case pick{std::mt19937_64(seed)};
+  double deepest_inside = -1.0;
+  int on_tip = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Vec3 n;
+    Tip<'O'> tip = pick.tip(zero, n);
+    DentSample dent = dent_of(surface, 0, tip);
+    if (dent.depth > 0.010) {  // an edge that leans: lift it
+      tip.centre = tip.centre + (dent.depth - 0.004) * Vec<'O'>(n);
+      dent = dent_of(surface, 0, tip);
+    }
+    if (!(dent.depth > 0.0) || dent.depth > 0.010) continue;
+    const DentField<double> field = dent_field(surface, dent);
+    const Vec3 under = deepest(surface, tip).at.point.e();
+    for (int k = 0; k < 40; ++k) {
+      const Nearest at = surface.nearest(Point<'O'>(Vec3(under + pick.uniform(0, 0.02) * pick.direction())));
+      const Displaced to = displaced(field, at.point, at.normal);
+      const double in = inside(tip, to.point.e());
+      deepest_inside = std::max(deepest_inside, in);
+      on_tip += in > -1e-9 ? 1 : 0;
+      ASSERT_GE(to.by, 0.0);
+      ASSERT_LE(to.by, dent.depth * (1.0 + 1e-6) + 1e-9)
+          << "convex objects: nowhere more than under the tool";
+      ASSERT_NEAR(to.normal.norm(), 1.0, 1e-12);
+      ASSERT_NEAR(dented_distance(surface, dent, to.point), 0.0, 1e-8);
+      const Vec<'O'> up = 20e-6 * Vec<'O'>(Vec3(Vec3::Map(field.n.data())));
+      ASSERT_GT(dented_distance(surface, dent, to.point + up), 0.0);
+      ASSERT_LT(dented_distance(surface, dent, to.point - up), 0.0);
+    }
+  }
+  EXPECT_LE(deepest_inside, 1e-6);
+  EXPECT_GT(on_tip, 1000);
+}
+
+TEST(DentProperty, NothingOfABallIsInsideTheTipAndTheSignIsRight) {
+  any_pose(Surface(Sphere{0.033}), 0.033, 1);
+}
+TEST(DentProperty, NothingOfAPlaneIsInsideTheTipAndTheSignIsRight) { any_pose(Surface(Plane{}), 0.0, 2); }
+
+TEST(DentProperty, TheFieldIsContinuousAndTheContactMovesByTheDepth) {
+  const Surface ball(Sphere{0.033});
+  Case pick{std::mt19937_64(3)};
+  for (int i = 0; i < 300; ++i) {
+    Vec3 n;
+    const Tip<'O'> tip = pick.tip(0.033, n);
+    const DentSample dent = dent_of(ball, 0, tip);
+    if (!(dent.depth > 0.0) || dent.depth > 0.010) continue;
+    const DentField<double> field = dent_field(ball, dent);
+    const Nearest contact = deepest(ball, tip).at;
+    ASSERT_NEAR(displaced(field, contact.point, contact.normal).by, dent.depth, 1e-9);
+    // Away along any great circle: a step of 1 um moves the point by a few at most, the last not at all.
+    const Vec3 up = contact.normal.e();
+    const Vec3 side = (pick.direction().cross(up)).normalized();
+    double before = dent.depth;
+    for (int k = 0; k <= 6000; ++k) {
+      const double polar = 1e-6 * k * 10 / 0.033;
+      const Vec3 out = std::cos(polar) * up + std::sin(polar) * side;
+      const double now = displaced(field, Point<'O'>(Vec3(0.033 * out)), Vec<'O'>(out)).by;
+      ASSERT_NEAR(now, before, 40e-6) << k;
+      before = now;
+    }
+    if (tip.shape == TipShape::sphere) {
+      ASSERT_EQ(before, 0.0);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace enc

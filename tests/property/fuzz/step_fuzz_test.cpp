@@ -1,28 +1,267 @@
-// step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s. What
-// is judged on each tick: the command is within speed, acceleration and reach; the whole tip it is sent to is
-// inside of the object; no mode outlives its cause (mode.h); and when all is well again, the hold is over.
-//
-// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED make it longer and other: 600 scenes take some minutes.
+// step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s, and
+// what judges each tick.
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/control/scene/scene.h"
+#include "core/control/step.h"
 #include "core/record/state_hash.h"
-#include "tests/property/fuzz/drawn_scene.h"
-#include "tests/property/fuzz/judges.h"
+#include "models/shapes/hare.h"
+#include "tests/support/built.h"
+#include "tests/support/scenes.h"
 #include "tests/support/spoil.h"
+#include "trial/assemble/prepare.h"
 
-namespace enc {
+namespace enc::test {
 namespace {
 
-using test::draw_scene;
-using test::Drawn;
-using test::Limits;
-using test::Modes;
-using test::Random;
+
+// ---- Scenes drawn at random, of both machines, with rigs that go with them.
+
+struct Random {
+  std::mt19937_64 engine;
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  Vec3 vec(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+  bool once_in(unsigned n) { return engine() % n == 0; }
+  std::size_t of(std::size_t n) { return static_cast<std::size_t>(engine() % n); }
+};
+
+struct Drawn {
+  std::string what;
+  Scene scene;
+};
+Drawn draw_scene(std::uint64_t seed, Random& random);
+
+Mesh wedge(double half_angle) {
+  const double half = 0.08 * std::tan(half_angle);
+  return prism({{-half, -0.05}, {half, -0.05}, {0.0, 0.03}}, 0.06);
+}
+
+SceneSpec hexapod_scene(Random& random, std::string& what) {
+  const BehaviourSpec behaviour =
+      random.once_in(2) ? lossy_ball() : spring(random.in(500.0, 20'000.0), random.in(0.002, 0.006));
+  const Vec3 turn = random.vec(3.0);
+  switch (random.of(8)) {
+    case 0: {
+      what = "two balls, display";
+      return two_balls(behaviour);
+    }
+    case 1:
+      what = "plane";
+      return plane_scene(behaviour);
+    case 2: {
+      what = "plane without a tracker";
+      SceneSpec spec = plane_scene(behaviour);
+      spec.tracker.reset();
+      spec.tools.clear();
+      return spec;
+    }
+    case 3:
+      what = "cube";
+      return mesh_scene(box(0.06, 0.06, 0.06), -0.022, Vec3::Zero(), behaviour);
+    case 4:
+      what = "turned cube";
+      return mesh_scene(box(0.06, 0.06, 0.06), -0.022, turn, behaviour);
+    case 5:
+      what = "wedge";
+      return mesh_scene(wedge(random.in(0.25, 0.8)), -0.02, Vec3(0, 0, turn.z()), behaviour);
+    case 6:
+      what = "groove";
+      return mesh_scene(groove(), -0.01, Vec3(0, 0, turn.z()), behaviour);
+    default: {
+      static const Mesh hare = models::hare_mesh();
+      what = "hare";
+      return mesh_scene(hare, -0.018, Vec3(0, 0, turn.z()), behaviour);
+    }
+  }
+}
+
+RigSpec drawn_rig(Random& random) {
+  RigSpec rig;
+  constexpr std::array kPredictions{Prediction::hold, Prediction::constant_velocity,
+                                    Prediction::constant_acceleration};
+  rig.tracker.prediction = kPredictions[random.of(3)];
+  constexpr std::array kTares{Tare::start, Tare::free, Tare::window};
+  rig.force.tare = kTares[random.of(3)];
+  rig.force.filter = random.in(2.0, 50.0);
+  rig.manipulator.speed = random.in(0.02, 0.2);
+  rig.manipulator.acceleration = random.in(0.2, 3.0);
+  rig.contact.softest = 0.0;
+  if (random.once_in(4)) rig.admittance.damping = Damping::observed;
+  return rig;
+}
+
+const std::vector<std::string> kArmScenes{"wall", "button", "keypad", "room", "hit_ball", "drum"};
+
+Drawn draw_scene(std::uint64_t seed, Random& random) {
+  Drawn drawn;
+  if (seed % 4 == 3) {
+    static std::map<std::string, models::Setup> setups;
+    const std::string name = kArmScenes[random.of(kArmScenes.size())];
+    if (!setups.contains(name))
+      setups[name] = models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "", {});
+    drawn.what = "arm, " + name;
+    drawn.scene = trial::prepare_setup(setups[name]);
+    return drawn;
+  }
+  const SceneSpec spec = hexapod_scene(random, drawn.what);
+  SceneSpec with = spec;
+  with.follow.inset = random.in(20e-6, 0.5e-3);
+  if (with.tracker && with.tools.size() == 1) {
+    ToolSpec other = with.tools.front();
+    other.name = "other";
+    for (Vec3& marker : other.markers) marker *= 1.3;
+    with.tools.push_back(other);
+  }
+  drawn.scene = prepare(with, drawn_rig(random));
+  return drawn;
+}
+
+// ---- What judges each tick of a fuzz: modes with their causes, commands within their limits. Empty: nothing
+// is wrong.
+
+// Ticks for which a mode has gone on without its cause (mode.h), by what the core itself believes.
+class Modes {
+ public:
+  std::int64_t judged = 0;  // ticks on which a hold would have been one too many
+  std::string judge(const Scene& scene, const State& state, const Outputs& out, bool well);
+
+ private:
+  double well_ = 0.0, far_ = 0.0, restore_ = 0.0, loose_ = 0.0, in_contact_ = 0.0;
+  double alone_ = 0.0,
+         same_force_ = 0.0;  // s for which a force of so many N stayed the same, its tool out of view
+};
+
+// Commands of a position-controlled machine; targets of an arm.
+class Limits {
+ public:
+  std::string judge(const Scene& scene, const State& state, const Outputs& out);
+
+ private:
+  std::string judge_machine(const Scene& scene, const State& state, const Outputs& out);
+  std::string judge_arm(const Scene& scene, const State& state, const Outputs& out);
+  static bool anew(const Outputs& out) { return out.mode == Mode::hold; }
+
+  bool known_ = false;
+  Vec3 before_{0, 0, 0}, velocity_{0, 0, 0};
+};
+
+constexpr double kGuard = 50e-6;  // m
+
+std::string Modes::judge(const Scene& scene, const State& state, const Outputs& out, bool well) {
+  const bool tool_known = std::isfinite(out.gap);
+  const double dt = scene.dt;
+  well_ = well ? well_ + dt : 0.0;
+  judged += well_ > 1.5 ? 1 : 0;
+  // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
+  // there, and a tip that is outside and on its way back.
+  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).aim.stuck &&
+      !recall<Commanded>(state).following.lost && (out.why & kOutsideObject) == 0)
+    return "hold goes on: " + why_text(out.why);
+  if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
+    return "hold without a reason, or a reason without";
+  if (out.mode == Mode::hold) return {};
+  const bool far =
+      state.mode == Mode::follow && scene.has_tracker && tool_known && out.gap > scene.follow.pause;
+  far_ = far ? far_ + dt : 0.0;
+  if (far_ > 1.5 * dt) return "follow beyond the pause distance";
+  restore_ = state.mode == Mode::restore ? restore_ + dt : 0.0;
+  if (restore_ > 2.0 + 2.0 * dt) return "restore goes on";
+  if (scene.impedance()) {
+    if (state.mode == Mode::contact && out.gap > scene.contact.leave_gap)
+      return "contact beyond the leave gap";
+    return {};
+  }
+  if (state.mode != Mode::contact) {
+    loose_ = in_contact_ = alone_ = 0.0;
+    return {};
+  }
+  in_contact_ += dt;
+  const double force = -out.force.xyz[2];
+  const bool own = tool_known && (!scene.has_tracker || state.tool.value.tool == contact_of(state).tool);
+  const bool near = own && out.gap <= scene.contact.leave_gap;
+  const bool elsewhere = !own && (!tool_known || out.gap > scene.force.tare_clearance);
+  const bool same = std::abs(force - same_force_) <= 0.15 * scene.force.contact;
+  if (!same) same_force_ = force;
+  alone_ = !own && same ? alone_ + dt : 0.0;
+  // Late poses do not count, and how late they are is not seen here: half as long again.
+  const double longest = elsewhere && force <= 3.0 * scene.force.contact ? 7.5 : 90.0;
+  const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
+  const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
+  loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
+  const bool damped = scene.render()->damping && !(tool_known && out.gap > 10e-3);
+  if (loose_ > scene.contact.leave_time + (damped ? 5.0 : 0.0) + 3.0 * dt)
+    return fmt::format("contact goes on: force {} N, gap {} mm", force, out.gap * 1e3);
+  return {};
+}
+
+std::string Limits::judge(const Scene& scene, const State& state, const Outputs& out) {
+  return scene.impedance() ? judge_arm(scene, state, out) : judge_machine(scene, state, out);
+}
+
+std::string Limits::judge_machine(const Scene& scene, const State& state, const Outputs& out) {
+  if (!state.started) return {};
+  if (!out.tip.valid()) return "the command is not a pose";
+  if (!scene.reach.contains(out.tip)) return "the command is out of reach";
+  const Vec3 at = out.tip.p();
+  if (!known_) before_ = at - scene.dt * recall<Commanded>(state).command_velocity.e();
+  const Vec3 velocity = (at - before_) / scene.dt;
+  const double change = (velocity - velocity_).norm() / scene.dt;
+  known_ = true;
+  before_ = at;
+  velocity_ = velocity;
+  if (velocity.norm() > scene.reach.speed * (1 + 1e-9)) return fmt::format("{} m/s", velocity.norm());
+  if (change > scene.reach.acceleration * (1 + 1e-6)) return fmt::format("{} m/s^2", change);
+  if (!state.entered || state.object < 0) return {};
+  const Object& object = scene.objects[static_cast<std::size_t>(state.object)];
+  const double outside =
+      object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<Commanded>(state).command))
+          .distance +
+      scene.tip_radius;
+  if (outside > kGuard) return fmt::format("the tip is sent {:.1f} um outside", outside * 1e6);
+  return {};
+}
+
+std::string Limits::judge_arm(const Scene& scene, const State& state, const Outputs& out) {
+  if (!out.arm_force.finite()) return {};
+  const ArmRig& rig = scene.impedance()->rig;
+  if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
+  const Vec3 velocity = recall<Meeting>(state).aim.velocity.e(), at = recall<Meeting>(state).aim.target.e();
+  // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
+  const bool hit = out.mode == Mode::contact && state.object >= 0 &&
+                   scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
+  const Vec3 normal = hit ? Vec3(contact_of(state).X_WN.q() * Vec3::UnitZ()) : Vec3(Vec3::Zero());
+  const auto of_the_arm = [&](const Vec3& v) { return Vec3(v - normal * normal.dot(v)); };
+  if (velocity.norm() > rig.speed * (1 + 1e-9)) return fmt::format("target at {} m/s", velocity.norm());
+  std::string what;
+  // A hold, or an arm that was not heard of, begins anew where the arm is.
+  if (known_ && !anew(out) && of_the_arm(at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
+    what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
+  const double change = of_the_arm(velocity - velocity_).norm();
+  const double most = recall<Meeting>(state).aim.hurried ? rig.reach_acceleration : rig.acceleration;
+  if (known_ && !anew(out) && change > most * scene.dt * (1 + 1e-6))
+    what = fmt::format("target at {} m/s^2", change / scene.dt);
+  known_ = recall<Meeting>(state).aim.target.finite() && !anew(out);
+  before_ = at;
+  velocity_ = velocity;
+  return what;
+}
+
+// ---- step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s.
+// What is judged on each tick: the command is within speed, acceleration and reach; the whole tip it is sent
+// to is inside of the object; no mode outlives its cause (mode.h); and when all is well again, the hold is
+// over.
+//
+// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED make it longer and other: 600 scenes take some minutes.
 
 struct Tally {
   std::array<std::int64_t, kModes> ticks{};
@@ -47,7 +286,7 @@ class World {
     honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
     jams_ = !scene.impedance() && random.once_in(4);
     if (!honest_ && random.once_in(3)) zero_jump_ = random.in(0.05, 0.4);
-    test::SpoilOne count{random.engine, -1};
+    SpoilOne count{random.engine, -1};
     fields(count, in);
     numbers_ = count.seen;
     pace_ = random.in(0.0, 1.0);
@@ -85,7 +324,7 @@ class World {
     if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
     if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
     if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
-      test::SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
+      SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
       fields(one, in);
       in.withheld = scene_.impedance() && !lags_ && !stuck_;
       well = false;
@@ -291,4 +530,4 @@ TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
 INSTANTIATE_TEST_SUITE_P(Shard, StepFuzz, testing::Range(0, 4));
 
 }  // namespace
-}  // namespace enc
+}  // namespace enc::test
