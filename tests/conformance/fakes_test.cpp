@@ -1,7 +1,9 @@
-// The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the other.
+// The laboratory in two programs: `encounter fake` on one side of real sockets, a run or a calibration on the
+// other.
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -12,9 +14,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/devices/mode.h"
 #include "hw_drivers/net/steady.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
@@ -25,9 +29,12 @@
 namespace enc::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using tests::Result;
 using tests::run_program;
+
+// ---- The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the
+// other.
 
 // The program, until it ends or this goes; what it prints goes into a file.
 class Started {
@@ -318,6 +325,100 @@ TEST(Fakes, TheirRigIsTheSimulatedOne) {
   fakes.rig.loop.late_cycles = sim.rig.loop.late_cycles;
   fakes.rig.force.stale = sim.rig.force.stale;
   EXPECT_EQ(text(fakes), text(sim));
+}
+
+// ---- Runs of the ball with poses from a tracker's own server, over TCP.
+
+// The first touch, with poses from a tracker's own server over TCP in each of the two forms that are asked
+// for.
+TEST(TrackerRun, InLockstepATrackersOwnServerGivesTheSameCommands) {
+  const TemporaryFolder folder;
+  const std::string none = folder.file("none.encrec");
+  const std::vector<std::string> how{"--for-s", "9", "--json", "--record"};
+  std::vector<std::string> pure{"run", kBall};
+  pure.insert(pure.end(), how.begin(), how.end());
+  pure.push_back(none);
+  EXPECT_EQ(json_of(run_program(pure))["contacts"], 1);
+  for (const std::string message : {"TRANSFORM", "TDATA"}) {
+    const Laboratory there(true, {"rig.driver.igtl.transport=tcp", "rig.driver.igtl.message=" + message});
+    std::vector<std::string> words = how;
+    words.insert(words.end(), {folder.file(message), "--armed", "--lockstep"});
+    EXPECT_EQ(json_of(run_program(there.words(words), {}, 400))["contacts"], 1) << message;
+    expect_same_commands(folder.file(message), none);
+  }
+}
+
+// The tracker's server hangs up in the middle of a run: it holds and says why, and the record has each of its
+// ticks, to the last.
+TEST(TrackerRun, ARecordOfARunWithAFaultIsWhole) {
+  const Laboratory there(false, {"rig.driver.igtl.transport=tcp"}, {"igtl:disconnect@1500ms"});
+  const TemporaryFolder folder;
+  const std::string record = folder.file("fault.encrec");
+  const Result run =
+      run_program(there.words({"--armed", "--yes", "--for-s", "3", "--json", "--record", record}));
+  EXPECT_EQ(run.code, 4) << run.err;
+  const nlohmann::json report = nlohmann::json::parse(run.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("then it hung up"));
+  RecordReader reader(record);
+  EXPECT_TRUE(reader.sealed());
+  EXPECT_EQ(reader.ticks(), report["ticks"].get<std::int64_t>());
+  RecordedTick last;
+  std::int64_t before = -1;
+  while (reader.next(last)) {
+    ASSERT_GT(last.tick.index, before);
+    before = last.tick.index;
+  }
+  EXPECT_EQ(last.out.mode, Mode::hold);
+  EXPECT_NE(last.out.why & kTrackerFault, 0U);
+}
+
+// ---- `encounter calibrate rig` over the wires of the laboratory: the machine that is sent from pose to pose
+// is behind its own, and so are force sensor and tracker.
+
+const std::string kClamped = tests::source_dir() + "/models/scenes/clamped_tool.toml";
+const std::vector<std::string> kWrong{
+    "truth.frames.W_C.position_mm=[3, -896, 600]", "truth.frames.W_C.rotation_deg=[1, -1, 1.4]",
+    "truth.force.turned_deg=[1, 1, -1.4]", "truth.hexapod.mass_kg=1.11", "truth.tracker.bias_mm=[0, 0, 0]"};
+
+std::vector<std::string> calibrating(const Laboratory& there, const std::vector<std::string>& more) {
+  std::vector<std::string> all{"calibrate", "rig", "fakes", "--armed", "--lockstep"};
+  for (const std::string& set : there.ports) all.insert(all.end(), {"--set", set});
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(CalibrateRig, FindsBehindItsWiresWhatTheRigDoesNotKnow) {
+  const Laboratory there(true, kWrong, {}, kClamped);
+  const TemporaryFolder folder;
+  const std::string file = folder.file("measured.toml");
+  const Result r = run_program(
+      calibrating(there, {"--poses", "12", "--json", "--scene", kClamped, "--out", file}), {}, 400);
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto told = nlohmann::json::parse(r.out);
+  const auto force = told["force"], tracker = told["tracker"];
+  EXPECT_NEAR(force["mass_kg"].get<double>(), 1.11, 3 * force["mass_half_kg"].get<double>());
+  EXPECT_LT(force["mass_half_kg"].get<double>(), 0.05);
+  const std::vector<double> place{3, -896, 600};
+  for (std::size_t a = 0; a < 3; ++a)
+    EXPECT_NEAR(tracker["position_mm"][a].get<double>(), place[a],
+                3 * tracker["position_half_mm"][a].get<double>());
+  EXPECT_LT(tracker["origin_half_mm"][0].get<double>(), 0.05);
+  EXPECT_EQ(told["unseen"], 0);
+  EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+// A force sensor that falls silent: it ends at once, and no file is made.
+TEST(CalibrateRig, WhatFailsOnTheWayEndsItAndLeavesNoFile) {
+  const Laboratory there(true, {}, {"netft:stall@4s"}, kClamped);
+  const TemporaryFolder folder;
+  const std::string file = folder.file("measured.toml");
+  const Result r =
+      run_program(calibrating(there, {"--poses", "12", "--scene", kClamped, "--out", file}), {}, 400);
+  EXPECT_EQ(r.code, 3) << r.out << r.err;
+  EXPECT_THAT(r.err, HasSubstr("the machine is in hold"));
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
 }
 
 }  // namespace

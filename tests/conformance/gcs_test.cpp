@@ -10,7 +10,6 @@
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "sim/plants/hexapod_plant.h"
 #include "tests/conformance/gcs_bench.h"
-#include "tests/conformance/gcs_port.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 

@@ -1,9 +1,15 @@
 // Runs the program as a person would, for tests of what it prints and how it ends.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include "tests/support/built.h"
 
@@ -30,5 +36,35 @@ Result run(const std::vector<std::string>& command, const Environment& environme
 // program_file() with these arguments, with `environment` on top of ours.
 Result run_program(const std::vector<std::string>& args, const Environment& environment = {},
                    double timeout = 60.0);
+
+// A program that writes to us and runs until we close its input.
+class PipedChild {
+ public:
+  explicit PipedChild(std::vector<std::string> words);  // the program and what it is told; it must be there
+  ~PipedChild();                                        // killed, where it still runs
+  PipedChild(const PipedChild&) = delete;
+  PipedChild& operator=(const PipedChild&) = delete;
+
+  // What came, after at most so many ms; 0: nothing, or closed().
+  std::size_t read(std::span<char> into, int milliseconds);
+  [[nodiscard]] bool closed() const { return closed_; }
+  // Closes its input and waits for its end; the exit code.
+  int end();
+
+ private:
+  void close(std::size_t end);
+
+  pid_t pid_ = -1;
+  std::array<int, 2> ends_{-1, -1};  // its input and its output
+  bool closed_ = false;
+};
+
+// Expects a refusal: one line on stderr, nothing on stdout, exit code 2. Returns the line.
+inline std::string one_line(const Result& r) {
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_EQ(r.out, "");
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  return r.err;
+}
 
 }  // namespace enc::tests

@@ -13,7 +13,6 @@
 #include "core/record/record.h"
 #include "tests/input/app/program.h"
 #include "tests/support/bytes_of.h"
-#include "tests/support/one_line.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 

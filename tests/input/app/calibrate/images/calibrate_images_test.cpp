@@ -17,7 +17,6 @@
 #include "sim/picture/picture.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
-#include "tests/support/one_line.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/vision/chessboard.h"

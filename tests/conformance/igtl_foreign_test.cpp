@@ -16,9 +16,9 @@
 #include <igtlTrackingDataMessage.h>
 #include <igtlTransformMessage.h>
 
-#include "tests/conformance/foreign/piped_child.h"
-#include "tests/conformance/tracker/igtl_bench.h"
+#include "tests/conformance/igtl_bench.h"
 #include "tests/support/built.h"
+#include "tests/support/run_program.h"
 
 namespace enc::test {
 namespace {

@@ -1,0 +1,258 @@
+// Our fakes, drivers and files against programs that others wrote, each in a program of its own.
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/record/record.h"
+#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "hw_drivers/netft/wire/record.h"
+#include "tests/conformance/gcs_bench.h"
+#include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// ---- The fake C-887 and the driver against PI's own client and server of GCS (PIPython), each in a program
+// of its own.
+
+const std::string kPipython = tests::source_dir() + "/.deps/pipython";
+const std::string kScripts = tests::source_dir() + "/tests/conformance/foreign/";
+
+class GcsForeign : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kPipython)) GTEST_SKIP() << "no " << kPipython << ": ./check fetches it";
+  }
+  static std::vector<std::string> script(const std::string& name) {
+    return {"/usr/bin/python3", "-B", kScripts + name, kPipython};
+  }
+};
+
+// Connects, references, moves, waits on target, meets limits, stops in three ways, sends two commands in one
+// segment and one byte at a time.
+TEST_F(GcsForeign, PipythonDrivesTheFake) {
+  const GcsPort there({.referenced = false});
+  std::vector<std::string> words = script("pipython_client.py");
+  words.push_back(std::to_string(there.server.port()));
+  const tests::Result result = tests::run(words);
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+}
+
+TEST_F(GcsForeign, TheDriverSpeaksToPipythonsServer) {
+  tests::PipedChild child(script("pipython_replies.py"));
+  std::array<char, 64> line{};
+  const std::string port(line.data(), child.read(line, 20'000));
+  ASSERT_NE(port, "");
+  GcsPort other;
+  other.table.port = std::stoi(port);
+  {
+    const auto driver = gcs::connected(other.offer());
+    EXPECT_THAT(driver->describe(), testing::EndsWith(", firmware 2.3.0.1, referenced"));
+    const auto there = Pose<'R', 'H'>::shift(0.0015, 0, driver->reach().machine.zero().p().z());
+    for (int i = 0; i < 500; ++i) {
+      tell(*driver, there);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const auto sample = driver->read(Time{});
+    EXPECT_EQ(sample.health, Health::ok);
+    EXPECT_LT((sample.value.X_RH.p() - there.p()).norm(), 1e-12);
+  }
+  EXPECT_EQ(child.end(), 0);
+}
+
+// ---- The fake Net F/T against a foreign client (pynetft), in a program of its own.
+
+const std::string kPynetft = tests::source_dir() + "/.deps/pynetft";
+const std::string kPynetftScript = tests::source_dir() + "/tests/conformance/foreign/pynetft_client.py";
+
+// As in pynetft_client.py. No two axes are alike, so that their order, their signs and their bytes count.
+struct PressedTwoWays final : ForceSensor {
+  Stamped<Wrench> read(Time now) noexcept override {
+    const Wrench one{Vec<'F'>(1.234567, -23.456789, -123.456789), Vec<'F'>(0.345678, -4.567891, 9.876543)};
+    const Wrench other{Vec<'F'>(-7.654321, 31.415926, -60.5), Vec<'F'>(-1.25, 2.718281, -8.000001)};
+    return {second ? other : one, now, health};
+  }
+  std::atomic<bool> second = false;
+  std::atomic<Health> health = Health::ok;
+};
+
+// More counts for a newton metre than for a newton, so that they cannot be mistaken for each other.
+netft::Configuration gamma_of_two_scales() {
+  netft::Configuration of = netft::gamma();
+  of.per_newton_metre = 2e6;
+  return of;
+}
+
+// A box with a clock of its own, a millisecond to a record: its numbers do not depend on this machine's load.
+class PacedBox {
+ public:
+  ~PacedBox() { end(); }
+  PacedBox() = default;
+  PacedBox(const PacedBox&) = delete;
+  PacedBox& operator=(const PacedBox&) = delete;
+  void end() {
+    end_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  void turn() {
+    server.box().fail(status);
+    server.serve(now_);
+    now_ += Duration(1'000'000);
+    server.publish(now_);
+  }
+
+  PressedTwoWays sensor;
+  std::atomic<std::uint32_t> status = 0;
+  netft::Server server{sensor, gamma_of_two_scales(), "127.0.0.1", netft::Ports{}};
+
+ private:
+  Time now_{};
+  std::atomic<bool> end_ = false;
+  std::thread thread_{[this] {
+    while (!end_) {
+      turn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }};
+};
+
+// Its scales over HTTP, one record, a stream and its numbers, a bias, another over it, which stays where
+// another client comes; then a warning, which ends nothing, and a saturated sensor, which does.
+TEST(NetftForeign, PynetftDrivesTheFake) {
+  if (!std::filesystem::exists(kPynetft)) GTEST_SKIP() << "no " << kPynetft << ": ./check fetches it";
+  PacedBox there;
+  tests::PipedChild child({"/usr/bin/python3", "-B", kPynetftScript, kPynetft,
+                           std::to_string(there.server.port()), std::to_string(there.server.http_port())});
+  const auto said = [&] {  // a line, in whatever pieces
+    std::string line;
+    std::array<char, 64> bytes{};
+    while (!line.ends_with('\n')) {
+      const std::size_t got = child.read(bytes, 30'000);
+      if (got == 0) break;
+      line.append(bytes.data(), got);
+    }
+    return line;
+  };
+  ASSERT_EQ(said(), "biased\n");
+  there.sensor.second = true;
+  ASSERT_EQ(said(), "biased again\n");
+  there.sensor.second = false;
+  ASSERT_EQ(said(), "started again\n");
+  there.status = netft::kError | netft::kMonitor;
+  ASSERT_EQ(said(), "warned\n");
+  there.sensor.health = Health::saturated;
+  EXPECT_EQ(child.end(), 0);
+  there.end();
+  there.turn();  // what came last
+  EXPECT_FALSE(there.server.box().streams()) << "its stop is not heard";
+}
+
+// ---- What export writes as MCAP against the reader of those who made the format (mcap of PyPI), in a
+// program of its own: that readers we have not written find all of it.
+
+const std::string kMcap = tests::source_dir() + "/.deps/mcap";
+const std::string kMcapScript = tests::source_dir() + "/tests/conformance/foreign/mcap_reader.py";
+const std::string kPress = tests::source_dir() + "/tests/data/press.encrec";
+const std::string kArmPress = tests::source_dir() + "/tests/data/arm_press.encrec";
+
+class McapForeign : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kMcap)) GTEST_SKIP() << "no " << kMcap << ": ./check fetches it";
+  }
+  [[nodiscard]] std::string file() const { return folder_.file("r.mcap"); }
+  void written(const std::string& record) const {
+    const tests::Result r = tests::run_program({"export", record, "--mcap", file()});
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out + r.err, "");
+  }
+  [[nodiscard]] tests::Result judged() const {
+    return tests::run({"/usr/bin/python3", "-B", kMcapScript, kMcap, file()});
+  }
+  TemporaryFolder folder_;
+};
+
+std::string of_each_tick(const std::string& topic, std::int64_t ticks, const std::string& schema) {
+  return topic + " " + std::to_string(ticks) + " " + schema + "\n";
+}
+
+// A machine that carries a tip: all of its ticks are there, and a viewer finds names of schemas that it
+// knows.
+TEST_F(McapForeign, ItsReaderFindsEachTickOfAPress) {
+  RecordReader record(kPress);
+  const std::int64_t ticks = record.ticks();
+  written(kPress);
+  const tests::Result said = judged();
+  ASSERT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("/frames 1 foxglove.FrameTransforms\n"),
+                              HasSubstr(of_each_tick("/tip", ticks, "foxglove.PoseInFrame")),
+                              HasSubstr(of_each_tick("/command", ticks, "foxglove.PoseInFrame")),
+                              HasSubstr(of_each_tick("/wrench", ticks, "encounter.Wrench")),
+                              HasSubstr(of_each_tick("/core", ticks, "encounter.Core")),
+                              Not(HasSubstr("/arm ")), Not(HasSubstr("/gripper "))));
+  EXPECT_THAT(said.out, AllOf(HasSubstr("\nticks = " + std::to_string(ticks) + "\n"),
+                              HasSubstr("\nmissed_cycles = 0\n"), HasSubstr("\nstate = whole\n"),
+                              HasSubstr("\nversion = " + record.texts().at("version") + "\n"),
+                              HasSubstr("attached resolved.toml " +
+                                        std::to_string(record.texts().at("resolved").size()) + "\n")));
+}
+
+// An arm pushes and carries no pose: other channels, the joints by their own names.
+TEST_F(McapForeign, ItsReaderFindsEachTickOfAnArm) {
+  const std::int64_t ticks = RecordReader(kArmPress).ticks();
+  written(kArmPress);
+  const tests::Result said = judged();
+  ASSERT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr(of_each_tick("/arm", ticks, "encounter.Arm")),
+                              HasSubstr(of_each_tick("/core", ticks, "encounter.Core")),
+                              Not(HasSubstr("/tip ")), Not(HasSubstr("/wrench "))));
+  EXPECT_THAT(bytes_of(file()), HasSubstr("\"joint_1_rad\":"));
+}
+
+// A run long enough for several chunks, with packets of a tracker and a gripper.
+TEST_F(McapForeign, ItsReaderFindsTheChunksOfALongRun) {
+  const std::string record = folder_.file("long.encrec");
+  const tests::Result ran =
+      tests::run_program({"run", tests::shipped_scene("tracking"), "--for-s", "5", "--record", record});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::int64_t ticks = RecordReader(record).ticks();
+  written(record);
+  EXPECT_GT(std::filesystem::file_size(file()), 3U << 20U);
+  const tests::Result said = judged();
+  ASSERT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr(of_each_tick("/core", ticks, "encounter.Core")),
+                              HasSubstr(of_each_tick("/gripper", ticks, "encounter.Gripper")),
+                              HasSubstr("/tool 498 foxglove.PoseInFrame\n")))
+      << "its tracker has 100 Hz and its first packet comes late";
+}
+
+// The judge must be able to say no: a byte of a message that is another.
+TEST_F(McapForeign, ItsReaderRefusesAChangedByte) {
+  written(kPress);
+  std::string bytes = bytes_of(file());
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(file(), std::ios::binary) << bytes;
+  const tests::Result said = judged();
+  EXPECT_NE(said.code, 0);
+  EXPECT_THAT(said.err, HasSubstr("crc validation failed"));
+}
+
+}  // namespace
+}  // namespace enc::test
