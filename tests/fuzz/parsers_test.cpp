@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/fuzz/machine/judge.h"
-#include "tests/fuzz/machine/memory.h"
-#include "tests/fuzz/machine/mutate.h"
+#include "tests/fuzz/machine/fuzzing.h"
 
 namespace enc::fuzz {
 namespace {

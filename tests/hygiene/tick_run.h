@@ -1,16 +1,33 @@
-// A run of a shipped scene as `run` has it, whose ticks are counted.
+// A run of a shipped scene as `run` has it, whose ticks are counted in a process of its own: nobody leaves a
+// filter of system calls again.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/hygiene/in_child.h"
+#include "tests/hygiene/tally.h"
 #include "trial/trial.h"
 
 namespace enc::test {
+
+// A tally that a process of its own has made: of a filter nobody gets out again.
+
+struct Told {
+  Tally tally;
+  double extra = 0.0;  // as the child said
+  std::string error;   // empty: it came to its end
+};
+// What `work` tells, in a child of this process. Of one thread: the others are not in the child.
+[[nodiscard]] Told in_child(const std::function<void(Told&)>& work);
+
+// "2 heap, 1 lock in 60000 ticks", and who made the first: a line for each.
+[[nodiscard]] std::string words(const Tally& tally);
+
+// A run of a shipped scene as `run` has it, whose ticks are counted.
 
 inline constexpr std::int64_t kWarmUp = 100;    // ticks
 inline constexpr std::int64_t kTicks = 60'000;  // of each scene

@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "tests/fuzz/machine/judge.h"
-#include "tests/fuzz/machine/mutate.h"
+#include "tests/fuzz/machine/fuzzing.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <zlib.h>
 
 #include "hw_drivers/images/files/image_file.h"
-#include "tests/fuzz/machine/target.h"
+#include "tests/fuzz/machine/fuzzing.h"
 #include "tests/fuzz/targets/seeds.h"
 
 namespace enc::fuzz {

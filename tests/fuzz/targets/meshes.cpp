@@ -14,7 +14,7 @@
 #include "models/mesh_files/mesh_write.h"
 #include "models/schema/wording.h"
 #include "models/shapes/shapes.h"
-#include "tests/fuzz/machine/target.h"
+#include "tests/fuzz/machine/fuzzing.h"
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/scenes.h"
 #include "trial/assemble/prepare.h"

@@ -8,7 +8,7 @@
 #include "core/record/replay.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"
-#include "tests/fuzz/machine/target.h"
+#include "tests/fuzz/machine/fuzzing.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "trial/assemble/prepare.h"

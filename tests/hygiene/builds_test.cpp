@@ -1,5 +1,4 @@
-// The door for other people's code: examples/, built by somebody else over an installed core, and in the tree
-// over the twin.
+// Other builds: examples/ over an installed core and in the tree, and the program without vision.
 #include <filesystem>
 #include <string>
 
@@ -15,8 +14,11 @@ namespace enc::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ContainsRegex;
-using testing::HasSubstr;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+// ---- The door for other people's code: examples/, built by somebody else over an installed core, and in the
+// tree over the twin.
 
 std::string build_dir() { return fs::path(program_file()).parent_path().string(); }
 
@@ -74,6 +76,25 @@ TEST(Door, TwinAndReplayRunInTheTree) {
   const Result replayed = run({build_dir() + "/example_replay", record}, kShipped);
   EXPECT_EQ(replayed.code, 0) << replayed.out;
   EXPECT_THAT(replayed.out, HasSubstr("state hash " + ran.out.substr(ran.out.find("state hash  ") + 12, 16)));
+}
+
+// ---- The program that is built without vision (preset lean) runs what needs none, and says of the rest that
+// it is not there.
+
+TEST(LeftOut, WithoutVisionTheProgramRunsWhatNeedsNoneAndRefusesTheRestInALine) {
+  if (is_built("vision")) GTEST_SKIP() << "vision is built here";
+  const Result ball = run_program({"run", shipped_scene("tennis_ball")}, kShipped);
+  EXPECT_EQ(ball.code, 0) << ball.err;
+  EXPECT_THAT(ball.out, HasSubstr("state hash"));
+  const Result seen =
+      run_program({"run", shipped_scene("plane"), "--set", "rig.tracker.driver=vision"}, kShipped);
+  EXPECT_EQ(seen.code, 2);
+  EXPECT_THAT(seen.err,
+              HasSubstr("--set rig.tracker.driver=vision: there is no driver 'vision'; expected one of"));
+  EXPECT_THAT(seen.err, HasSubstr("build it"));
+  const Result images = run_program({"calibrate", "camera", "vishap", "--through-images"}, kShipped);
+  EXPECT_EQ(images.code, 2);
+  EXPECT_THAT(images.err, HasSubstr("there is no module 'vision'; build it"));
 }
 
 }  // namespace
