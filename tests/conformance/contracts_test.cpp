@@ -8,10 +8,10 @@
 
 #include "app/modules/modules.h"
 #include "sim/plants/tracker_plant.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/support/built.h"
-#include "tests/support/devices/default_offer.h"
+#include "tests/support/devices.h"
+#include "tests/support/twin.h"
 
 namespace enc::test {
 namespace {

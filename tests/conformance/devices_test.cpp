@@ -1,5 +1,7 @@
 // Devices that cannot be reached or used: what `encounter devices` prints of each cause, and addresses that
 // are wrong.
+#include "tests/support/devices.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -27,9 +29,6 @@
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
 #include "hw_drivers/netft/wire/record.h"
-#include "tests/support/devices/default_offer.h"
-#include "tests/support/devices/following_machine.h"
-#include "tests/support/devices/served.h"
 #include "tests/support/run_program.h"
 #include "trial/devices/device_log.h"
 

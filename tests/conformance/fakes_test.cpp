@@ -22,9 +22,8 @@
 #include "hw_drivers/net/steady.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::test {
 namespace {

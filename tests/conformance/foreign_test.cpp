@@ -18,9 +18,8 @@
 #include "hw_drivers/netft/wire/record.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::test {
 namespace {

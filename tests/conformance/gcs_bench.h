@@ -15,9 +15,7 @@
 #include "hw_drivers/gcs/fake/server.h"
 #include "hw_drivers/net/steady.h"
 #include "hw_drivers/wires/string_link.h"
-#include "tests/support/devices/default_offer.h"
-#include "tests/support/devices/following_machine.h"
-#include "tests/support/devices/served.h"
+#include "tests/support/devices.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::test {

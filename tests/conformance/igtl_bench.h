@@ -14,8 +14,7 @@
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/net/steady.h"
-#include "tests/support/devices/default_offer.h"
-#include "tests/support/devices/served.h"
+#include "tests/support/devices.h"
 
 namespace enc::test {
 

@@ -12,8 +12,7 @@
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
 #include "hw_drivers/netft/wire/command.h"
-#include "tests/support/devices/default_offer.h"
-#include "tests/support/devices/served.h"
+#include "tests/support/devices.h"
 
 namespace enc::test {
 namespace {

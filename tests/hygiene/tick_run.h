@@ -1,5 +1,4 @@
-// A run of a shipped scene as `run` has it, whose ticks are counted in a process of its own: nobody leaves a
-// filter of system calls again.
+// A run of a shipped scene as `run` has it, whose ticks are counted in a process of its own.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,7 @@
 
 namespace enc::test {
 
-// A tally that a process of its own has made: of a filter nobody gets out again.
-
+// A tally that a process of its own has made: a filter of system calls can never be removed.
 struct Told {
   Tally tally;
   double extra = 0.0;  // as the child said
@@ -26,8 +24,6 @@ struct Told {
 
 // "2 heap, 1 lock in 60000 ticks", and who made the first: a line for each.
 [[nodiscard]] std::string words(const Tally& tally);
-
-// A run of a shipped scene as `run` has it, whose ticks are counted.
 
 inline constexpr std::int64_t kWarmUp = 100;    // ticks
 inline constexpr std::int64_t kTicks = 60'000;  // of each scene

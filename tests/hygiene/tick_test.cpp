@@ -25,7 +25,7 @@
 #include "sim/bodies/mujoco.h"
 #include "tests/hygiene/tick_run.h"
 #include "tests/support/built.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "trial/assemble/prepare.h"
 #include "trial/time/record_thread.h"
 

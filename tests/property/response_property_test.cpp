@@ -23,7 +23,6 @@
 #include "sim/bodies/ball_contact.h"
 #include "sim/bodies/ball_plant.h"
 #include "sim/truth/random.h"
-#include "tests/support/ball_pushes.h"
 #include "tests/support/built.h"
 #include "tests/support/plant_loop.h"
 #include "trial/assemble/prepare.h"

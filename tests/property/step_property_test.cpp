@@ -15,8 +15,8 @@
 #include "core/control/step.h"
 #include "core/machine/hexapod.h"
 #include "core/shape/deformation/dent.h"
+#include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"
-#include "tests/support/spoil.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ENC_SANITIZED 1  // their runtime calls the system by itself

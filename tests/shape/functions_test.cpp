@@ -1,11 +1,15 @@
-// A function is read at one sight: at most 40 lines from its opening to its closing brace. Found in the text,
-// by braces and without a compiler; the lambdas of a function count with it.
+// Functions, found in the text by braces and names, without a compiler. A function is read at one sight: at
+// most 40 lines from its opening to its closing brace, its lambdas included. A helper has a name or
+// parameters of its own within its folder.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,15 +18,71 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/shape/bare_code.h"
 #include "tests/support/built.h"
 
 namespace enc::functions {
 namespace {
 
 namespace fs = std::filesystem;
-using shape::in_word;
-using shape::trim;
+
+// ---- The text of a source file without what is no code, to be read by its braces and names.
+
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+std::string_view trim(std::string_view text) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// The place behind the next `what` from `at` on, or the end.
+std::size_t behind(std::string_view text, std::string_view what, std::size_t at) {
+  const std::size_t found = text.find(what, std::min(at, text.size()));
+  return found == std::string_view::npos ? text.size() : found + what.size();
+}
+
+std::size_t behind_quote(std::string_view text, std::size_t at) {
+  const char mark = text[at++];
+  while (at < text.size() && text[at] != mark) at += text[at] == '\\' ? 2 : 1;
+  return std::min(at + 1, text.size());
+}
+
+// Where the comment, directive or quote ends that begins at `at`; `at`: none begins there.
+std::size_t end_of_words(std::string_view text, std::size_t at) {
+  const std::string_view rest = text.substr(at);
+  const bool in_name = at > 0 && in_word(text[at - 1]);  // 1'000 has no quotes
+  if (rest.starts_with("//")) return std::min(text.find('\n', at), text.size());
+  if (rest.starts_with("/*")) return behind(text, "*/", at + 2);
+  if (rest.starts_with('#')) {
+    std::size_t end = at;
+    do end = behind(text, "\n", end);
+    while (end < text.size() && text[end - 2] == '\\');
+    return end;
+  }
+  if (rest.starts_with("R\"") && !in_name)
+    return behind(text, ")" + std::string(rest.substr(2, rest.find('(') - 2)) + "\"", at);
+  return rest[0] == '"' || (rest[0] == '\'' && !in_name) ? behind_quote(text, at) : at;
+}
+
+// Without comments, directives, and what stands in quotes; its lines stay lines.
+std::string bare(std::string_view text) {
+  std::string code;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = end_of_words(text, i);
+    if (end == i) {
+      code += text[i++];
+      continue;
+    }
+    code.append(static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                                    text.begin() + static_cast<std::ptrdiff_t>(end), '\n')),
+                '\n');
+    i = end;
+  }
+  return code;
+}
+
+// ---- Functions.
 
 constexpr std::size_t kMostLines = 40;
 
@@ -228,7 +288,7 @@ class Reader {
 
 Reader read(std::string_view text) {
   Reader reader;
-  for (const char c : shape::bare(text)) reader.see(c);
+  for (const char c : bare(text)) reader.see(c);
   return reader;
 }
 
@@ -325,6 +385,150 @@ TEST(Functions, ExceptionsAreFewAndStillNeeded) {
     EXPECT_TRUE(is_longer(one.function) && !one.why.empty()) << one.function << ": take it off the list";
   for (const std::string_view one : kToShorten)
     EXPECT_TRUE(is_longer(one)) << one << ": take it off the list";
+}
+
+// ---- Helpers. The files of a folder are compiled as one (enc_batches in cmake/targets.cmake): two helpers
+// of one name and with the same parameters, in anonymous namespaces of two of them, are one too many there,
+// and nowhere else.
+
+// "int" of "int count = 3"; of "const Setup&" all.
+std::string type_of(std::string_view parameter) {
+  parameter = trim(parameter.substr(0, parameter.find('=')));
+  std::size_t word = parameter.size();
+  while (word > 0 && in_word(parameter[word - 1])) --word;
+  const std::string_view type = trim(parameter.substr(0, word));
+  const bool unnamed = type.empty() || type.ends_with(':') || type == "const" || type == "unsigned";
+  std::string text;
+  for (const char c : unnamed || word == parameter.size() ? parameter : type)
+    if (in_word(c) && !text.empty() && text.back() == ' ')
+      text += c;
+    else if (std::isspace(static_cast<unsigned char>(c)) == 0)
+      text += c;
+    else if (!text.empty() && in_word(text.back()))
+      text += ' ';
+  return std::string(trim(text));
+}
+
+// Of "(int a, std::map<int, int> b)" from its parenthesis on.
+std::string types_of(std::string_view list) {
+  std::string types;
+  int depth = 0;
+  std::size_t begin = 1;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const char c = list[i];
+    if (std::string_view("([{<").find(c) != std::string_view::npos) ++depth;
+    if (std::string_view(")]}>").find(c) != std::string_view::npos) --depth;
+    if (depth > 1 || (depth == 1 && c != ',')) continue;
+    types += (types.empty() ? "" : ", ") + type_of(list.substr(begin, i - begin));
+    begin = i + 1;
+    if (depth == 0) break;
+  }
+  return types;
+}
+
+// "refused(const Setup&)" of what stands before a brace; none: it is no function of ours.
+std::optional<std::string> function_of(std::string_view head) {
+  head = trim(head);
+  for (const std::string_view other : {"struct ", "class ", "enum ", "union "})
+    if (head.starts_with(other)) return {};
+  int depth = 0;
+  for (std::size_t i = 0; i < head.size(); ++i) {
+    if (head[i] == '<') ++depth;
+    if (head[i] == '>') --depth;
+    if (head[i] == '=' && depth == 0) return {};
+    if (head[i] != '(' || depth > 0) continue;
+    const std::string_view before = trim(head.substr(0, i));
+    std::size_t word = before.size();
+    while (word > 0 && in_word(before[word - 1])) --word;
+    const std::string_view name = before.substr(word);
+    const bool macro =
+        std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::islower(c) != 0; });
+    const bool member = before.substr(0, word).ends_with(':');
+    if (macro || member) return {};
+    return std::string(name) + "(" + types_of(head.substr(i)) + ")";
+  }
+  return {};
+}
+
+// Each function that is in an anonymous namespace, behind the named ones around it.
+std::set<std::string> helpers_of(std::string_view text) {
+  struct Space {
+    bool space;
+    std::string name;  // of a namespace; empty: anonymous
+  };
+  std::set<std::string> found;
+  std::vector<Space> scopes;
+  std::string head;
+  for (const char c : bare(text)) {
+    if (c == '{') {
+      const std::string_view words = trim(head);
+      const bool space = words.starts_with("namespace");
+      if (space) scopes.push_back({true, std::string(trim(words.substr(9)))});
+      const bool anonymous =
+          std::all_of(scopes.begin(), scopes.end(), [](const Space& one) { return one.space; }) &&
+          std::any_of(scopes.begin(), scopes.end(), [](const Space& one) { return one.name.empty(); });
+      if (const auto function = function_of(words); !space && anonymous && function) {
+        std::string path;
+        for (const Space& one : scopes) path += one.name.empty() ? "" : one.name + "::";
+        found.insert(path + *function);
+      }
+      if (!space) scopes.push_back({false, {}});
+    } else if (c == '}' && !scopes.empty()) {
+      scopes.pop_back();
+    }
+    if (c == '{' || c == '}' || c == ';')
+      head.clear();
+    else
+      head += c;
+  }
+  return found;
+}
+
+TEST(Helpers, AreFoundInTheTextOfATest) {
+  EXPECT_THAT(helpers_of(R"text(
+#define BRACE {
+namespace enc::test {
+int outside(int a) { return a; }
+namespace {
+// void commented() {}
+constexpr int kMany = 1'000;
+struct Bench { int member() { return f({1}); } };
+Bench::Bench(int a) : a_{a} {}
+const auto lambda = [](int x) { return x; };
+std::string refused(const models::Setup& setup, int times = 3) { if (a) { b(); } return "}{"; }
+template <class Made, int kSize>
+std::function<void(int)> made(std::map<int, Made> all, char quote /* '{' */, std::size_t) { return {}; }
+void declared(int);
+TEST(Some, Thing) { const char c = '{'; }
+TEST_F(Other, Thing) {}
+[[noreturn]] void raw(std::string_view text = R"(})") noexcept {}
+}
+namespace deeper { namespace { bool mine() { return true; } } }
+}
+)text"),
+              testing::ElementsAre(
+                  "enc::test::deeper::mine()", "enc::test::made(std::map<int,Made>, char, std::size_t)",
+                  "enc::test::raw(std::string_view)", "enc::test::refused(const models::Setup&, int)"));
+}
+
+TEST(Helpers, OfAFolderHaveNamesOrParametersOfTheirOwn) {
+  std::map<std::string, std::map<std::string, std::string>> folders;  // file by helper
+  std::size_t all = 0;
+  for (const char* top : {"app", "benchmarks", "core", "hw_drivers", "models", "sim", "tests", "trial"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(tests::source_dir()) / top)) {
+      const std::string folder = entry.path().parent_path().string(), file = entry.path().filename().string();
+      const bool alone = file == "main.cpp" || file.ends_with("_avx2.cpp");
+      if (entry.path().extension() != ".cpp" || alone) continue;
+      std::ifstream in(entry.path());
+      const std::string text(std::istreambuf_iterator<char>(in), {});
+      for (const std::string& helper : helpers_of(text)) {
+        ++all;
+        const auto [other, is_new] = folders[folder].emplace(helper, file);
+        EXPECT_TRUE(is_new) << folder << ": " << helper << " is in " << other->second << " and in " << file
+                            << ": these are compiled as one; rename one of them";
+      }
+    }
+  EXPECT_GT(all, 1000U) << "nothing is found any more";
 }
 
 }  // namespace

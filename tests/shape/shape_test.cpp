@@ -310,6 +310,72 @@ TEST(Shape, EveryFrameLetterIsKnown) {
         }
 }
 
+// ---- the benchmarks
+
+std::vector<fs::path> sources_in(const std::string& folder) {
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::recursive_directory_iterator(kTop / folder))
+    if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") all.push_back(entry.path());
+  return all;
+}
+
+// What docs/reference/report.md shows as the example.
+TEST(BenchmarkShape, APlainBenchmarkIsOneShortFile) {
+  const std::vector<fs::path> files = sources_in("benchmarks/encounter");
+  ASSERT_EQ(files.size(), 1U);
+  std::ifstream in(files.front());
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line);) ++lines;
+  EXPECT_GT(lines, 20U);
+  EXPECT_LE(lines, 150U) << files.front();
+}
+
+// 24 would be too many; a fifth of that is room.
+TEST(BenchmarkShape, FoldersHaveRoom) {
+  for (const char* where : {"benchmarks", "tests/benchmarks"}) {
+    std::map<fs::path, int> files;
+    for (const fs::path& source : sources_in(where)) ++files[source.parent_path()];
+    EXPECT_GT(files.size(), 3U) << where;
+    for (const auto& [folder, count] : files) EXPECT_LE(count, 19) << folder;
+  }
+}
+
+// The kit, the report and the commands take benchmarks from the table, which these write themselves.
+TEST(BenchmarkShape, NoneIsIncludedByWhatServesThemAll) {
+  static const std::regex kInclude(R"(^#\s*include "benchmarks[/](\w+).)");
+  std::smatch include;
+  for (const char* where :
+       {"benchmarks/kit", "benchmarks/report", "benchmarks/verdict", "benchmarks/commands"})
+    for (const fs::path& source : sources_in(where)) {
+      std::ifstream in(source);
+      for (std::string line; std::getline(in, line);) {
+        if (!std::regex_search(line, include, kInclude)) continue;
+        const std::string folder = include[1];
+        EXPECT_TRUE(folder == "kit" || folder == "report" || folder == "commands" ||
+                    folder == "questionnaire" || folder == "verdict")
+            << source << ": " << line;
+      }
+    }
+}
+
+// ---- the question which machine
+// Each machine has its own code behind one interface. A place that asks which machine it has needs an edit
+// for each new machine, so there are only so many, and they only become fewer.
+TEST(Shape, FewPlacesAskWhichMachine) {
+  constexpr std::size_t kMost = 80;
+  static const std::regex kAsks(R"(impedance\(\)|scene\.arm\b|\bs\.arm\b|has_arm)");
+  std::vector<std::string> places;
+  for (const Source& source : sources()) {
+    if (source.folder == "core") continue;
+    for (std::size_t i = 0; i < source.lines.size(); ++i)
+      if (std::regex_search(source.lines[i], kAsks))
+        places.push_back(source.name + ":" + std::to_string(i + 1) + ":" + source.lines[i] + "\n");
+  }
+  std::string all;
+  for (const std::string& place : places) all += place;
+  EXPECT_LE(places.size(), kMost) << all;
+}
+
 // ---- where the numbers come from: docs/sources
 // --------------------------------------------------------------
 

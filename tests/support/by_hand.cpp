@@ -5,7 +5,6 @@
 #include "core/shape/deformation/dent.h"
 
 namespace enc::test {
-
 Loop make(const SceneSpec& spec, const RigSpec& rig) { return Loop(prepare(spec, rig)); }
 
 SceneSpec with_display() {

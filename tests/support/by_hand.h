@@ -1,8 +1,26 @@
-// step() driven by hand: ways into each mode on a ball, and what holds on every tick.
+// step() driven by hand: ways into each mode on a ball, an arm's loop under a finger, and nonsense in the
+// inputs.
 #pragma once
 
+#include <array>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/base/frames.h"
+#include "core/base/sample.h"
+#include "core/base/time.h"
 #include "core/control/stages/walk.h"
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
+#include "trial/finger_loop.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 
@@ -20,5 +38,62 @@ void to_contact(Loop& loop);
 void draw(Inputs& in, const Loop& loop);
 
 void expect_within_limits(const Loop& loop);
+
+// An arm's loop under a finger, as tests of its stages use it: the core alone, finger and arm are where a
+// test puts them.
+inline Scene finger_scene(const std::string& name, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
+  set.insert(set.end(), more.begin(), more.end());
+  return trial::prepare_setup(
+      models::load(fmt::format("{}/models/scenes/{}.toml", tests::source_dir(), name), "", set));
+}
+
+// A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,
+// too, if it is pressed.
+struct FingerBench {
+  explicit FingerBench(const std::string& name, const std::vector<std::string>& more = {})
+      : loop(finger_scene(name, more)) {}
+  const Outputs& at(double depth, int ticks = 1, double x = 0.0) {
+    for (int i = 0; i < ticks; ++i) loop.tick(Point<'W'>(x, 0.0, 0.008 - depth));
+    return loop.out;
+  }
+  // The tip `depth` under the surface, where a finger has pressed it.
+  void press_tip(double depth) { put_tip({0, 0, -depth}); }
+  void put_tip(const Point<'W'>& at) {
+    const Impedance& law = *loop.scene.impedance();
+    ArmSample& arm = loop.in.arm.value;
+    ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * at, arm.joints));
+    arm.tip = law.arm.tip(arm.joints);
+  }
+  // What is pushed with beyond gravity, N along z of W.
+  [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
+  trial::FingerLoop loop;
+};
+
+// Puts nonsense in one number of the inputs. A visitor of fields(): spoils the `wanted`-th, -1: none, and
+// counts them. What is withheld or resumed is no
+// sample of a device.
+struct SpoilOne {
+  std::mt19937_64& random;
+  int wanted;
+  int seen = 0;
+  template <class T>
+  void operator()(std::string_view name, T& x) {
+    if (name == "withheld" || name == "resumed" || seen++ != wanted) return;
+    if constexpr (std::is_same_v<T, double>) {
+      constexpr double kInf = std::numeric_limits<double>::infinity();
+      const double share = std::uniform_real_distribution<double>(-0.1, 0.1)(random);
+      const std::array<double, 12> bad{kUnset, kInf, -kInf, 1e12,   -1e12,  1e308,
+                                       0.0,    1.0,  -1.0,  1e-300, 5e-324, x * (1.0 + share)};
+      x = bad[random() % bad.size()];
+    } else if constexpr (std::is_same_v<T, Time>) {
+      x = Time(Duration(static_cast<std::int64_t>(random() % 2'000'000'000'000) - 1'000'000'000'000));
+    } else if constexpr (std::is_same_v<T, Health>) {
+      x = static_cast<Health>(random() % 6);
+    } else {
+      x = static_cast<T>(static_cast<std::int64_t>(random() % 2001) - 1000);
+    }
+  }
+};
 
 }  // namespace enc::test

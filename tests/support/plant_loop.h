@@ -1,5 +1,5 @@
-// Loops of the plant formula alone, without a rig around it: what a press would read on an ideal machine. For
-// tests and benchmarks, and for balls that no rig has pressed yet.
+// Loops and pushes of the plant formula alone, without a rig around it: what a press would read on an ideal
+// machine. For tests and benchmarks, and for balls that no rig has pressed yet.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "models/identify/response/response_fit.h"
 #include "sim/bodies/ball_plant.h"
+#include "trial/identify/ball/ball_loops.h"
 
 namespace enc::test {
 
@@ -36,5 +37,22 @@ struct LawLoop {
 // N at a deflection in mm: 11.88 N pressing and 8.71 N releasing at 6 mm.
 [[nodiscard]] double law_force(double deflection_mm, bool pressing);
 [[nodiscard]] std::string law_loop_csv(const LawLoop& loop, std::uint64_t seed);
+
+// Pushes of the plant formula alone with times and a dwell, for tests of what is identified from them.
+struct PushProgramme {
+  double speed = 20e-3;  // m/s
+  double depth = 6e-3;   // m
+  double dwell = 4.0;    // s
+  double rest = 2.0;     // s, clear of the ball
+  int repeats = 2;
+  double period = 1e-3;  // s
+  double nearer = 0.0;   // m: the ball stands so much nearer than the deflection says
+};
+
+// Without noise.
+[[nodiscard]] trial::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme);
+
+// A sensor as the simulated one: white noise, steps, a zero that wanders and is found anew before each push.
+void add_noise(trial::Pushes& pushes, std::uint64_t seed);
 
 }  // namespace enc::test

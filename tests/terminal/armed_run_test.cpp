@@ -1,35 +1,184 @@
 // A person at the terminal of an armed run: whatever is pressed, sent or closed, the machine is stopped and
-// the record is sealed. The fakes are in this process, the run is started by a shell on a pseudo-terminal.
+// the run has ended.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <future>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <pty.h>
+#include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
 #include "core/record/record.h"
 #include "tests/conformance/laboratory.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/terminal/run_record.h"
-#include "tests/terminal/terminal.h"
 
 namespace enc::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
+using tests::module_folder;
+
+// A person's terminal: an interactive shell on a pseudo-terminal, keys that are typed, and all that is shown.
+class Terminal {
+ public:
+  // With bash as its shell, which has job control and sends SIGHUP to its jobs when the terminal is closed.
+  Terminal();
+  ~Terminal();  // closes it, and kills what is left
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  // Types a command line, each word quoted, with the rest as it is.
+  void run(const std::vector<std::string>& words, const std::string& rest = {});
+  void type(const std::string& keys) const;  // as they are: "\x03" is Ctrl-C
+  void close();
+  void hang(bool hangs) { reads_ = !hangs; }  // its link: nobody reads what is written to it
+
+  // All that was shown so far.
+  [[nodiscard]] std::string shown() const;
+  // Waits until that has this text behind `from`; false after so many seconds.
+  [[nodiscard]] bool shows(const std::string& text, double seconds, std::size_t from = 0) const;
+  // The program that the shell runs; -1: none within a second.
+  [[nodiscard]] pid_t child() const;
+
+ private:
+  int master_ = -1;
+  pid_t shell_ = -1;
+  mutable std::mutex mutex_;
+  std::string shown_;
+  std::atomic<bool> over_ = false, reads_ = true;
+  std::thread reader_;
+};
+
+// Whether a process has ended within so many seconds.
+bool ends(pid_t process, double seconds);
+
+using Clock = std::chrono::steady_clock;
+void wait_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
+template <class Is>
+bool within(double seconds, const Is& is) {
+  const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+  while (!is()) {
+    if (Clock::now() > until) return false;
+    wait_ms(1);
+  }
+  return true;
+}
+
+Terminal::Terminal() {
+  winsize size{};
+  size.ws_col = 200;
+  size.ws_row = 50;
+  // Made before the fork: several terminals may be opened from several threads.
+  std::vector<std::string> variables{"ENCOUNTER_MODULES=" + module_folder(), "PS1=$ ", "TERM=dumb",
+                                     "HOME=/tmp", "PATH=/usr/local/bin:/usr/bin:/bin"};
+  std::vector<std::string> words{"bash", "--norc", "--noprofile", "--noediting", "-i"};
+  std::vector<char*> environment, arguments;
+  for (std::string& one : variables) environment.push_back(one.data());
+  for (std::string& one : words) arguments.push_back(one.data());
+  environment.push_back(nullptr);
+  arguments.push_back(nullptr);
+  static_cast<void>(fflush(nullptr));  // the child has none of it
+  shell_ = forkpty(&master_, nullptr, nullptr, &size);
+  if (shell_ == 0) {
+    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGTTIN, SIGTTOU})
+      std::signal(signal, SIG_DFL);
+    close_range(3, ~0U, 0);  // else this shell keeps the terminals of other tests open
+    execve("/bin/bash", arguments.data(), environment.data());
+    _exit(127);
+  }
+  fcntl(master_, F_SETFD, FD_CLOEXEC);
+  reader_ = std::thread([this] {
+    std::array<char, 4096> bytes{};
+    while (!over_) {
+      pollfd ready{master_, POLLIN, 0};
+      if (!reads_) wait_ms(2);
+      if (!reads_ || poll(&ready, 1, 2) <= 0) continue;
+      const ssize_t got = read(master_, bytes.data(), bytes.size());
+      if (got <= 0) break;
+      const std::lock_guard lock(mutex_);
+      shown_.append(bytes.data(), static_cast<std::size_t>(got));
+    }
+  });
+}
+
+Terminal::~Terminal() {
+  const pid_t left = child();
+  close();
+  if (left > 0 && !ends(left, 2.0)) kill(left, SIGKILL);
+  kill(shell_, SIGKILL);
+  waitpid(shell_, nullptr, 0);
+}
+
+void Terminal::close() {
+  over_ = true;
+  if (reader_.joinable()) reader_.join();
+  if (master_ >= 0) ::close(master_);
+  master_ = -1;
+}
+
+void Terminal::run(const std::vector<std::string>& words, const std::string& rest) {
+  std::string line;
+  for (const std::string& word : words) line += "'" + word + "' ";
+  type(line + rest + "\n");
+}
+
+void Terminal::type(const std::string& keys) const {
+  static_cast<void>(write(master_, keys.data(), keys.size()));
+}
+
+std::string Terminal::shown() const {
+  const std::lock_guard lock(mutex_);
+  return shown_;
+}
+
+bool Terminal::shows(const std::string& text, double seconds, std::size_t from) const {
+  return within(seconds, [&] { return shown().find(text, from) != std::string::npos; });
+}
+
+pid_t Terminal::child() const {
+  const std::string list =
+      "/proc/" + std::to_string(shell_) + "/task/" + std::to_string(shell_) + "/children";
+  pid_t found = -1;
+  static_cast<void>(within(1.0, [&] { return bool(std::ifstream(list) >> found); }));
+  return found;
+}
+
+bool ends(pid_t process, double seconds) {
+  return within(seconds, [&] {
+    std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+    std::string all;
+    if (!std::getline(status, all)) return true;
+    const std::size_t name_end = all.rfind(')');
+    return name_end == std::string::npos || all.substr(name_end + 2, 1) == "Z";
+  });
+}
+
+// ---- A person at the terminal of an armed run: whatever is pressed, sent or closed, the machine is stopped
+// and the record is sealed. The fakes are in this process, the run is started by a shell on a
+// pseudo-terminal.
 
 constexpr double kSetPoints = 0.030;  // s: three set-points of models/rigs/fakes.toml
 
@@ -116,7 +265,7 @@ class Attended {
   }
   void end(pid_t run) const {
     kill(run, SIGTERM);
-    EXPECT_TRUE(tests::ends(run, 10.0)) << terminal.shown();
+    EXPECT_TRUE(ends(run, 10.0)) << terminal.shown();
   }
   void fault(const std::string& text) {
     there_->pause();
@@ -148,7 +297,7 @@ class Attended {
     std::this_thread::sleep_for(std::chrono::duration<double>(time));
     return !there_->moves;
   }
-  tests::Terminal terminal;
+  Terminal terminal;
 
  private:
   const TemporaryFolder folder_;
@@ -200,7 +349,7 @@ void end_in(const Way& way, const std::string& mode) {
     const double before = at.now();
     way.act(at, run);
     const double acted = at.now();
-    ASSERT_TRUE(tests::ends(run, 10.0)) << at.terminal.shown();
+    ASSERT_TRUE(ends(run, 10.0)) << at.terminal.shown();
     EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
     ASSERT_NO_THROW(met = last_mode(at.record())) << at.terminal.shown();
     if (way.code < 0) continue;
@@ -239,7 +388,7 @@ void suspend_in(const std::string& mode) {
     at.terminal.type("r");
     EXPECT_TRUE(at.terminal.shows("s  resumed", 10.0)) << at.terminal.shown();
     at.terminal.type("q");
-    ASSERT_TRUE(tests::ends(run, 10.0)) << at.terminal.shown();
+    ASSERT_TRUE(ends(run, 10.0)) << at.terminal.shown();
     // The mode of the tick in which the stop was sent; and when that was.
     double sent = kUnset;
     RecordReader reader(at.record());
@@ -313,7 +462,7 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   const double acted = at.now();
   EXPECT_TRUE(at.is_sealed_within(5.0));
   at.terminal.type("\x11");  // it has ended but for its report
-  ASSERT_TRUE(tests::ends(run, 10.0));
+  ASSERT_TRUE(ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
   RecordReader reader(at.record());
   EXPECT_TRUE(reader.sealed());
@@ -336,7 +485,7 @@ TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
   const double acted = at.now();
   EXPECT_TRUE(at.is_sealed_within(5.0));
   at.terminal.hang(false);  // it has ended but for its report
-  ASSERT_TRUE(tests::ends(run, 10.0));
+  ASSERT_TRUE(ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
 }
 

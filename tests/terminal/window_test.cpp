@@ -7,8 +7,8 @@
 
 #include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/terminal/run_record.h"
 
 namespace enc::test {

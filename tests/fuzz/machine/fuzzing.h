@@ -12,8 +12,6 @@
 
 namespace enc::fuzz {
 
-// A parser as a target of fuzzing: where it starts from, what its format is made of, how it is called.
-
 inline std::string text_of(std::span<const std::byte> bytes) {
   std::string text;
   for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
@@ -25,6 +23,7 @@ struct Bound {
   std::size_t per_byte = 0, besides = 0;
 };
 
+// A parser as a target of fuzzing: where it starts from, what its format is made of, how it is called.
 struct Target {
   std::string name;
   std::vector<std::string> seeds;   // whole inputs, most of which are accepted
@@ -53,7 +52,6 @@ struct Offer {
 [[nodiscard]] const Target& target(const std::string& name);
 
 // Spoils inputs at random: bits, bytes, words, lines, lengths, nesting, and pieces of other inputs.
-
 class Mutator {
  public:
   Mutator(std::uint64_t seed, std::vector<std::string> seeds, std::vector<std::string> tokens);
@@ -77,12 +75,9 @@ class Mutator {
 
 // Heap of this program through operator new, counted; of a build with a sanitizer nothing is counted, because
 // that one watches itself.
-
 [[nodiscard]] std::size_t live_bytes();  // now
 [[nodiscard]] std::size_t peak_bytes();  // most since forget_peak()
 void forget_peak();
-
-// Runs one input through a target and says what is wrong with how it took it.
 
 struct Verdict {
   bool accepted = false;
@@ -90,6 +85,7 @@ struct Verdict {
   std::size_t most_heap = 0;  // bytes
   double seconds = 0.0;       // of CPU time
 };
+// Runs one input through a target and says what is wrong with how it took it.
 [[nodiscard]] Verdict judge(const Target& target, const std::string& input);
 
 // Writes the input to a file of the temporary folder and gives its name.

@@ -1,4 +1,6 @@
 // What drivers take from devices, and fakes from anybody: GCS, the Net F/T, tool data.
+#include "tests/support/devices.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,7 +22,6 @@
 #include "hw_drivers/netft/wire/command.h"
 #include "hw_drivers/netft/wire/http.h"
 #include "tests/fuzz/machine/fuzzing.h"
-#include "tests/support/devices/following_machine.h"
 
 namespace enc::fuzz {
 namespace {

@@ -1,5 +1,7 @@
 // Scenes and what they name, calibrations, records, tables and folders of frames: what is accepted is as it
 // must be.
+#include "tests/support/files.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,9 +25,7 @@
 #include "models/setup/stereo_file.h"
 #include "tests/fuzz/machine/fuzzing.h"
 #include "tests/fuzz/targets/seeds.h"
-#include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
-#include "tests/support/variable.h"
 #include "trial/assemble/prepare.h"
 #include "trial/camera/kept_frames.h"
 

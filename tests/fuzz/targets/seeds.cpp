@@ -10,7 +10,7 @@
 #include "models/shapes/shapes.h"
 #include "tests/fuzz/machine/fuzzing.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "trial/assemble/prepare.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/input/app/program.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 
 namespace enc::tests {
 namespace {

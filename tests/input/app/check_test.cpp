@@ -11,8 +11,8 @@
 #include "app/built.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

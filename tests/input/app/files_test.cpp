@@ -1,5 +1,7 @@
 // The program and its files: nothing is overwritten or lost; and records: what is wrong with one, and that a
 // replay is the run again.
+#include "tests/support/files.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -20,9 +22,7 @@
 #include "core/record/record.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

@@ -12,11 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/input/app/program.h"
-#include "tests/support/ball_pushes.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/plant_loop.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 #include "trial/identify/ball/ball_loops.h"
 
 namespace enc::tests {

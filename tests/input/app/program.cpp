@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 
 namespace enc::tests {
 

@@ -15,9 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

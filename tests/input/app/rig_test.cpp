@@ -12,9 +12,8 @@
 
 #include "core/record/record.h"
 #include "tests/input/app/program.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/twin.h"
 #include "trial/trial.h"
 
 namespace enc::test {

@@ -20,10 +20,8 @@
 #include "models/setup/scene_sizes.h"
 #include "models/shapes/shapes.h"
 #include "tests/support/built.h"
-#include "tests/support/replaced.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/variable.h"
 #include "trial/assemble/prepare.h"
 #include "trial/trial.h"
 

@@ -14,10 +14,8 @@
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
-#include "tests/support/replaced.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

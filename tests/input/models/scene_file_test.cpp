@@ -15,8 +15,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/replaced.h"
-#include "tests/support/variable.h"
+#include "tests/support/files.h"
 
 namespace enc::models {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "tests/conformance/bench_world.h"
+#include "tests/support/twin.h"
 #include "trial/trial.h"
 
 namespace enc::test {

@@ -17,13 +17,12 @@
 #include "core/record/state_hash.h"
 #include "models/shapes/hare.h"
 #include "tests/support/built.h"
+#include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"
-#include "tests/support/spoil.h"
 #include "trial/assemble/prepare.h"
 
 namespace enc::test {
 namespace {
-
 
 // ---- Scenes drawn at random, of both machines, with rigs that go with them.
 

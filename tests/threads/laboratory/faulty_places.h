@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hw_drivers/gcs/drive/net_link.h"
@@ -14,12 +16,41 @@
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
-#include "tests/support/devices/following_machine.h"
-#include "tests/threads/laboratory/faulty_table.h"
+#include "tests/support/devices.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::test {
 
-// A machine that is where it is told to be.
+// s: longer than any test, on any machine; and shorter.
+inline constexpr double kPatient = 100.0, kImpatient = 0.03;
+
+struct FaultyTable final : DefaultOffer::Defaults {
+  using DefaultOffer::Defaults::value;
+  void value(const Setting& key, double& number) override {
+    if (const auto own = numbers.find(key.name); own != numbers.end()) number = own->second;
+  }
+  void value(const Setting& key, std::int64_t& whole) override {
+    if (const auto own = ports.find(key.name); own != ports.end()) whole = own->second;
+  }
+  void value(const Setting& key, std::string& text) override {
+    if (key.name == "address") text = "127.0.0.1";
+    if (key.name == "transport") text = transport;
+  }
+  std::string transport = "udp";               // of tool data
+  std::map<std::string_view, double> numbers;  // SI
+  std::map<std::string_view, std::int64_t> ports;
+};
+
+struct FaultyPlace {
+  Offer offer(const Reach& reach) {
+    return {table, defaults.rig, reach, Duration(1'000'000), log, false, false, tools};
+  }
+  DefaultOffer defaults;
+  FaultyTable table;
+  std::vector<std::string> tools{"stylus"};
+  trial::DeviceLog log, log_of_fake;  // of the driver, and of its fake
+};
+
 struct FaultyGcs : FaultyPlace {
   // Without an answer for so long its link is lost, s.
   explicit FaultyGcs(double patience, std::uint64_t seed = 1)

@@ -17,7 +17,7 @@
 
 #include "tests/input/app/calibrate/calibrate_files.h"
 #include "tests/support/built.h"
-#include "tests/support/replaced.h"
+#include "tests/support/files.h"
 
 namespace enc::tests {
 namespace {

@@ -12,10 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/vision/quarter_size.h"
+#include "tests/support/twin.h"
 
 namespace enc::tests {
 namespace {

@@ -16,9 +16,8 @@
 #include "models/setup/stereo_file.h"
 #include "sim/picture/picture.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/vision/chessboard.h"
 
 namespace enc::tests {

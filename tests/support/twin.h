@@ -1,4 +1,4 @@
-// A simulated world of the tennis ball scene, for the suites here.
+// A simulated world of a shipped scene, and settings of scenes for tests.
 #pragma once
 
 #include <cstdint>
@@ -75,6 +75,19 @@ inline std::uint64_t hashed(Twin& twin, int ticks) {
 inline std::vector<std::string> exact_force() {
   return {"truth.force.noise_N=0", "truth.force.torque_noise_Nm=0", "truth.force.zero_N=0",
           "truth.force.drift_N_per_sqrt_s=0"};
+}
+
+// Settings of a scene that looks through the twin's camera: images of a quarter of the pixels.
+[[nodiscard]] inline std::vector<std::string> quarter_size() {
+  return {"rig.camera.width_px=320",
+          "rig.camera.height_px=240",
+          "rig.camera.left.focal_px=[360.5, 360.5]",
+          "rig.camera.left.centre_px=[159.5, 119.5]",
+          "rig.camera.right.focal_px=[360.5, 360.5]",
+          "rig.camera.right.centre_px=[159.5, 119.5]",
+          "truth.camera.width_px=320",
+          "truth.camera.height_px=240",
+          "truth.camera.focal_px=360.5"};
 }
 
 }  // namespace enc::test
