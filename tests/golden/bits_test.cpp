@@ -1,6 +1,5 @@
 // The same bits on every processor: what the C library chooses by the processor is not called, whole runs
 // agree where parts of the processor are hidden from it, and the README shows the hash that a run prints.
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -16,7 +16,6 @@ std::int64_t Tally::all() const { return std::accumulate(count.begin(), count.en
 #include <charconv>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <string_view>
 

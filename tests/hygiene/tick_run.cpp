@@ -8,7 +8,6 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 #include <type_traits>
 #include <vector>
 

@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/hygiene/tally.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <string>
 
 #include <gtest/gtest.h>
 #include <linux/seccomp.h>

@@ -1,7 +1,6 @@
 // The words of comments and pages: turns of phrase that stop a reader, counted per 1,000 words, and comments
 // that open with a preposition or a relative. The limits only go down.
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,7 +9,6 @@
 #include <regex>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>

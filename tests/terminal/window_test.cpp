@@ -1,5 +1,4 @@
 // The window on a virtual screen, with real mouse and key events.
-#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
 // Pictures of cameras: PNG and JPEG. What is accepted has the size that its header said.
-#include <cstring>
 
 #include <turbojpeg.h>
 #include <zlib.h>

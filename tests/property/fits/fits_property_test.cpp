@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/rotation.h"

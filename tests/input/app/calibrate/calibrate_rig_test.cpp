@@ -1,8 +1,6 @@
 // `encounter calibrate rig`, `calibrate camera` and `calibrate tracker` as a person uses them: what they find
 // and print, and mistakes, one line each.
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
