@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <sstream>
 #include <string>
@@ -206,8 +204,7 @@ TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
     before = time;
   }
   EXPECT_EQ(mode.substr(0, mode.find(',')), "hold");
-  std::ifstream printed(report);
-  const std::string text(std::istreambuf_iterator<char>(printed), {});
+  const std::string text = bytes_of(report);
   EXPECT_THAT(text, HasSubstr("modes"));
   EXPECT_THAT(text, testing::Not(HasSubstr("error 8")));
 }

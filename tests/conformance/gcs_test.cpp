@@ -11,6 +11,7 @@
 #include "sim/plants/hexapod_plant.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/support/built.h"
+#include "tests/support/error_of.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {
@@ -21,13 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::string refused(GcsBench& bench) {
-  try {
-    bench.driver();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::device);
-    return e.what();
-  }
-  return "";
+  return error_of([&] { bench.driver(); }, ErrorKind::device);
 }
 void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 // Until something holds, at most 3 s.
@@ -145,12 +140,8 @@ TEST(GcsDriver, AnErrorOfBeforeIsSaidAsSuch) {
 TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
   GcsBench bench;
   bench.settings.watchdog = 0.0029;
-  try {
-    static_cast<void>(bench.driver());
-    ADD_FAILURE() << "it would stop and go";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("watchdog_ms is 2.9, and the loop's cycle takes 1 ms"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(bench.driver()); }),
+              HasSubstr("watchdog_ms is 2.9, and the loop's cycle takes 1 ms"));
   bench.settings.watchdog = 0.003;
   EXPECT_TRUE(bench.driver()->linked());
 }
@@ -158,12 +149,8 @@ TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
 TEST(GcsDriver, APositionThatIsLostBeforeTheNextIsRefused) {
   GcsBench bench;
   bench.settings.poll = 0.0051;
-  try {
-    static_cast<void>(bench.driver());
-    ADD_FAILURE() << "it would hold all the time";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("stale_ms of [force] is 5, and poll_ms is 5.1"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(bench.driver()); }),
+              HasSubstr("stale_ms of [force] is 5, and poll_ms is 5.1"));
   bench.settings.poll = 0.005;
   EXPECT_TRUE(bench.driver()->linked());
 }
@@ -192,12 +179,8 @@ TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
   const auto first = gcs::connected(there.offer());
   EXPECT_EQ(first->describe(), "C-887.53 119000000 at 127.0.0.1:" + std::to_string(there.server.port()) +
                                    ", firmware 2.10.0.1, referenced");
-  try {
-    static_cast<void>(gcs::connected(there.offer()));
-    ADD_FAILURE() << "two clients of one controller";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("closed the connection; close other clients"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(gcs::connected(there.offer())); }),
+              HasSubstr("closed the connection; close other clients"));
   EXPECT_THAT(there.log.lines(), ElementsAre("fake C-887: a second client was refused"));
   EXPECT_TRUE(comes([&] {
     tell(*first, beside(*first, 0.001));  // each time: one that grew old on a busy machine is not sent
@@ -306,13 +289,8 @@ TEST(GcsPort, AFaultOfTheLineIsTheSameHoweverLateTheClientCame) {
 TEST(GcsPort, NobodyThereIsOneLine) {
   GcsPort there;
   there.table.port = 1;
-  try {
-    static_cast<void>(gcs::connected(there.offer()));
-    ADD_FAILURE() << "there is nobody";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::device);
-    EXPECT_THAT(e.what(), HasSubstr("127.0.0.1:1: nobody listens there"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(gcs::connected(there.offer())); }, ErrorKind::device),
+              HasSubstr("127.0.0.1:1: nobody listens there"));
 }
 
 // What the driver believes of the machine under its set-points is what the twin's machine does, to the bit:

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "tests/conformance/igtl_bench.h"
+#include "tests/support/error_of.h"
 
 namespace enc::test {
 namespace {
@@ -86,13 +87,8 @@ TEST(IgtlDriver, AnErrorOfTheServerWithoutACodeIsAStatusOfIts) {
 
 TEST(IgtlDriver, WhoDoesNotAnswerIsNamed) {
   IgtlPort there;
-  try {
-    static_cast<void>(igtl::subscribed(there.offer()));
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::device);
-    EXPECT_THAT(e.what(), HasSubstr("no tool data within 300 ms; see that its server runs"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(igtl::subscribed(there.offer())); }, ErrorKind::device),
+              HasSubstr("no tool data within 300 ms; see that its server runs"));
 }
 
 // ---- The driver of a tracker's own server: OpenIGTLink over TCP, against our fake and against bytes that no

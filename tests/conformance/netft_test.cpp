@@ -13,6 +13,7 @@
 #include "hw_drivers/netft/fake/server.h"
 #include "hw_drivers/netft/wire/command.h"
 #include "tests/support/devices.h"
+#include "tests/support/error_of.h"
 
 namespace enc::test {
 namespace {
@@ -59,13 +60,7 @@ struct NetftPorts {
   }
   Offer offer() { return {table, defaults.rig, defaults.reach, Duration(1'000'000), defaults.log}; }
   std::string refused() {
-    try {
-      static_cast<void>(netft::streaming(offer()));
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::device);
-      return e.what();
-    }
-    return "";
+    return error_of([&] { static_cast<void>(netft::streaming(offer())); }, ErrorKind::device);
   }
 
   DefaultOffer defaults;
@@ -206,12 +201,8 @@ TEST(NetftDriver, ACommandInterfaceThatMeansOtherUnitsIsRefused) {
   netft::agree(answer, netft::gamma(), settings);
   netft::Configuration pounds = netft::gamma();
   pounds.per_newton /= 4.4482216152605;
-  try {
-    netft::agree(answer, pounds, settings);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("its command interface 1000000 for unit 2 and 1000000 for unit 3"));
-  }
+  EXPECT_THAT(error_of([&] { netft::agree(answer, pounds, settings); }),
+              HasSubstr("its command interface 1000000 for unit 2 and 1000000 for unit 3"));
   settings.command_port = 1;
   EXPECT_TRUE(netft::ask_calibration(settings).empty()) << "nobody listens there";
 }
@@ -223,12 +214,8 @@ TEST(NetftDriver, AnotherPageIsNotFound) {
   settings.address = "127.0.0.1";
   settings.http_port = there.server.http_port();
   EXPECT_THAT(netft::fetch(settings, "/netftapi2.xml?index=3"), HasSubstr("<prodname>Net F/T</prodname>"));
-  try {
-    static_cast<void>(netft::fetch(settings, "/else"));
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("/else answered with HTTP status 404, expected 200"));
-  }
+  EXPECT_THAT(error_of([&] { static_cast<void>(netft::fetch(settings, "/else")); }),
+              HasSubstr("/else answered with HTTP status 404, expected 200"));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // The same bits on every processor: what the C library chooses by the processor is not called, whole runs
 // agree where parts of the processor are hidden from it, and the README shows the hash that a run prints.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -129,8 +127,7 @@ TEST(BitsLong, WholeRunsReplayWithoutFmaAndAvx) {
 }
 
 TEST(Bits, TheReadmeShowsThem) {
-  std::ifstream file(kRoot / "README.md");
-  const std::string readme((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string readme = test::bytes_of(kRoot / "README.md");
   std::smatch match;
   ASSERT_TRUE(std::regex_search(readme, match, kHash));
   EXPECT_EQ(match[1], hash_of({"run", (kRoot / "models/scenes/tennis_ball.toml").string()}, kPlain));

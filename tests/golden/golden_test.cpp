@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -29,6 +28,7 @@
 #include "models/shapes/hare.h"
 #include "sim/truth/truth_fields.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "trial/measure/record_table.h"
 #include "trial/trial.h"
 
@@ -82,8 +82,7 @@ std::string record_again(const Press& press) {
 }
 
 TEST(ResolvedGolden, TennisBall) {
-  std::ifstream file(kResolved, std::ios::binary);
-  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string committed = test::bytes_of(kResolved);
   const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "sim");
   const std::string text = models::resolved(setup);
   EXPECT_TRUE(text == committed) << resolve_again(text);
@@ -92,8 +91,7 @@ TEST(ResolvedGolden, TennisBall) {
 
 // The committed text needs no other file and means the same as those it was made from.
 TEST(ResolvedGolden, TheCommittedTextStandsAlone) {
-  std::ifstream file(kResolved, std::ios::binary);
-  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string committed = test::bytes_of(kResolved);
   const models::Setup setup = models::parse_resolved(committed, kResolved);
   EXPECT_EQ(models::resolved(setup), committed);
   ASSERT_EQ(setup.scene.objects.size(), 1U);
@@ -272,8 +270,7 @@ double floor_of_rig() {
 
 // What run, export and fit do, in one process.
 void expect_fitted(const std::string& scene, const std::string& ball, const std::string& response) {
-  std::ifstream file(kResponses + response, std::ios::binary);
-  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string committed = test::bytes_of(kResponses + response);
   ASSERT_FALSE(committed.empty());
   const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "sim",
                                            {"truth.ball.set=" + ball});
@@ -323,8 +320,7 @@ TEST(ResponseGoldenLong, RegulationBallFileIsAcceptedAndFiftyNewton) {
 
 TEST(HareGoldenLong, IsReproducedAndSound) {
   const std::string path = tests::source_dir() + "/models/meshes/hare.glb";
-  std::ifstream file(path, std::ios::binary);
-  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string committed = test::bytes_of(path);
   ASSERT_FALSE(committed.empty());
   EXPECT_LT(committed.size(), 600'000U);
   EXPECT_TRUE(models::mesh_bytes(models::hare_mesh(), ".glb") == committed);

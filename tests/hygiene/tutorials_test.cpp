@@ -82,11 +82,7 @@ void follow(const std::string& page) {
     }
   }
   const Result ran = run({"bash", "-c", script}, kShipped, 300.0);
-  const auto printed = [&](std::size_t i) {
-    std::ostringstream all;
-    all << std::ifstream(folder.file("out" + std::to_string(i))).rdbuf();
-    return all.str();
-  };
+  const auto printed = [&](std::size_t i) { return test::bytes_of(folder.file("out" + std::to_string(i))); };
   std::size_t last = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks[i].language == "sh") last = i;

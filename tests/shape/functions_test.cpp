@@ -6,8 +6,6 @@
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 
 namespace enc::functions {
 namespace {
@@ -309,8 +308,7 @@ Product read_product() {
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const fs::path& path = entry.path();
       if (path.extension() != ".h" && path.extension() != ".cpp") continue;
-      std::ifstream in(path);
-      const Reader reader = read(std::string(std::istreambuf_iterator<char>(in), {}));
+      const Reader reader = read(test::bytes_of(path));
       product.functions += reader.all.size();
       const std::string name = fs::relative(path, root).generic_string();
       if (!reader.balanced()) product.unbalanced.push_back(name);
@@ -519,8 +517,7 @@ TEST(Helpers, OfAFolderHaveNamesOrParametersOfTheirOwn) {
       const std::string folder = entry.path().parent_path().string(), file = entry.path().filename().string();
       const bool alone = file == "main.cpp" || file.ends_with("_avx2.cpp");
       if (entry.path().extension() != ".cpp" || alone) continue;
-      std::ifstream in(entry.path());
-      const std::string text(std::istreambuf_iterator<char>(in), {});
+      const std::string text = test::bytes_of(entry.path());
       for (const std::string& helper : helpers_of(text)) {
         ++all;
         const auto [other, is_new] = folders[folder].emplace(helper, file);

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 
 namespace enc::words {
 namespace {
@@ -151,8 +152,7 @@ TEST(Words, Tutorials) { expect_within(count({"docs/tutorial"}, {".md"}, prose_o
 
 // The three minutes of a reader.
 TEST(Words, ReadmeIsShort) {
-  std::ifstream in(tests::source_dir() + "/README.md");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = test::bytes_of(tests::source_dir() + "/README.md");
   EXPECT_LE(words_in(text), 900U);
 }
 

@@ -10,6 +10,7 @@
 #include "sim/picture/picture.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 
 namespace enc::tests {
 namespace {
@@ -29,17 +30,13 @@ class Camera : public Program {
   }
   // A rig whose camera is a folder of images.
   [[nodiscard]] std::string images_rig(const std::string& folder) const {
-    std::string text = text_of(path("models/rigs/vishap.toml"));
+    std::string text = test::bytes_of(path("models/rigs/vishap.toml"));
     text = replaced(text,
                     "[camera]                              # of scenes that look through one: STH-MDCS "
                     "(sources/tracking 7)\ndriver = \"sim\"",
                     "[driver.images]\npath = \"" + folder + "\"\n[camera]\ndriver = \"images\"");
     write("models/rigs/files.toml", text);
     return path("models/rigs/files.toml");
-  }
-  [[nodiscard]] static std::string text_of(const std::string& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
 };
 
@@ -100,7 +97,7 @@ TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
   EXPECT_THAT(line(keypad, "rotation_deg=[-35, 0, 30]"), HasSubstr(", and none of the others in view"));
   EXPECT_THAT(refused({"run", kScene, "--set", "rig.frames.W_C.rotation_deg=[-35, 0, 30]"}),
               HasSubstr(expected));
-  const std::string place = line_and_column(text_of(path("models/rigs/vishap.toml")), "[frames.W_C]");
+  const std::string place = line_and_column(test::bytes_of(path("models/rigs/vishap.toml")), "[frames.W_C]");
   edit("models/rigs/vishap.toml", "rotation_deg = [-125, 0, 30]          # likewise\n\n[arm]",
        "rotation_deg = [-35, 0, 30]\n\n[arm]");
   EXPECT_THAT(refused({"check", kScene, "--rig", path("models/rigs/vishap.toml")}),
@@ -179,9 +176,9 @@ TEST_F(Camera, PlayedFramesGiveTheStateHashOfTheirRun) {
 }
 
 TEST_F(Camera, NeedsATrackerAnArmAndARigThatHasOne) {
-  write("models/scenes/seen.toml", text_of(kScene));
+  write("models/scenes/seen.toml", test::bytes_of(kScene));
   const auto without = [&](const std::string& table) {
-    write("models/scenes/seen.toml", replaced(text_of(kScene), "\n" + table, "\n#" + table));
+    write("models/scenes/seen.toml", replaced(test::bytes_of(kScene), "\n" + table, "\n#" + table));
     return refused({"check", path("models/scenes/seen.toml")});
   };
   EXPECT_THAT(without("[tracker]"), HasSubstr("expected a [tracker]; add it"));
@@ -249,7 +246,7 @@ TEST_F(Camera, ACalibrationSaysAllAndIsNamed) {
         "distortion = [-0.1, 0.02, 0, 0, 0]\nposition_mm = [90.1, 0.2, -0.1]\n"
         "rotation_deg = [0.1, -0.4, 0.03]\n");
   const std::string own =
-      replaced(text_of(path("models/rigs/vishap.toml")), "rate_hz = 20\nlatency_ms = 50\n\n[vision]",
+      replaced(test::bytes_of(path("models/rigs/vishap.toml")), "rate_hz = 20\nlatency_ms = 50\n\n[vision]",
                "rate_hz = 20\nlatency_ms = 50\ncalibration = \"head.toml\"\n\n[vision]");
   const std::string rig = path("models/rigs/mine.toml");
   write("models/rigs/mine.toml", own);
@@ -271,7 +268,7 @@ TEST_F(Camera, ACalibrationSaysAllAndIsNamed) {
               AllOf(HasSubstr("--set rig.camera.left.focal_px=[800, 800]: "),
                     HasSubstr("by the calibration 'head.toml'; expected one of the two")));
   write("models/rigs/mine.toml", replaced(own, "calibration =", "width_px = 320\ncalibration ="));
-  const std::string place = line_and_column(text_of(rig), "width_px = 320");
+  const std::string place = line_and_column(test::bytes_of(rig), "width_px = 320");
   EXPECT_THAT(refused({"check", kScene, "--rig", rig}),
               HasSubstr(rig + ":" + place + ": rig.camera.width_px is said here and by the calibration"));
 }
@@ -280,7 +277,7 @@ TEST_F(Camera, APictureIsDrawnWithoutVision) {
   const Result r = run_program({"view", kScene, "--at-s", "0.5", "--shot", path("wall.png")});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.err, HasSubstr("drawn without vision"));
-  EXPECT_THAT(text_of(path("wall.png")), testing::StartsWith("\x89PNG"));
+  EXPECT_THAT(test::bytes_of(path("wall.png")), testing::StartsWith("\x89PNG"));
 }
 
 TEST_F(Camera, ATrueLensHasFiveNumbers) {
@@ -314,7 +311,7 @@ TEST_F(Camera, TheViewThroughItIsRawWithoutTheArmOrAugmented) {
         run_program({"view", kScene, "--through-camera", what, "--at-s", "1.5", "--shot", shot});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("640 x 480 pixels, the left camera's at 1.5"));
-    const std::string png = text_of(shot);
+    const std::string png = test::bytes_of(shot);
     EXPECT_GT(png.size(), 100'000U);
     EXPECT_NE(png, before);
     before = png;

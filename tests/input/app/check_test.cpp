@@ -1,7 +1,6 @@
 // `encounter check`, limits that it names before a run, and the verdict of a run on itself.
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -291,8 +290,7 @@ TEST(Limits, CheckTellsTheClassAndEachBound) {
 TEST(Limits, ARigThatDoesNotSayWhatItLosesHasNoCertificate) {
   const test::TemporaryFolder folder;
   const std::string rig = folder.file("rig.toml");
-  std::ifstream shipped(tests::source_dir() + "/models/rigs/vishap.toml");
-  std::string text{std::istreambuf_iterator<char>(shipped), {}};
+  std::string text = test::bytes_of(tests::source_dir() + "/models/rigs/vishap.toml");
   const std::size_t from = text.find("[arm.loop]");
   text.erase(from, text.find("[arm.machine]") - from);
   std::ofstream(rig) << text;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -405,14 +404,9 @@ TEST(Export, McapSaysWhatOfItsRecordIsMissing) {
 
 using Json = nlohmann::json;
 
-std::string symbols_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // enc::bench as the compiler writes it into the names of functions.
 TEST(Footprint, TheProgramHoldsNoBenchmark) {
-  const std::string program = symbols_of(program_file());
+  const std::string program = test::bytes_of(program_file());
   ASSERT_GT(program.size(), 100'000U);
   EXPECT_NE(program.find("3enc5trial"), std::string::npos);  // so names can be found
   EXPECT_EQ(program.find("3enc5bench"), std::string::npos);

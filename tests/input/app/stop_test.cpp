@@ -3,7 +3,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -60,12 +59,7 @@ class Started {
     waitpid(child_, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  [[nodiscard]] std::string text() const {
-    std::ifstream file(out_);
-    std::ostringstream all;
-    all << file.rdbuf();
-    return all.str();
-  }
+  [[nodiscard]] std::string text() const { return test::bytes_of(out_); }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:

@@ -2,13 +2,13 @@
 // that names the place of the mistake.
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
 #include "tests/support/built.h"
+#include "tests/support/error_of.h"
 #include "tests/support/files.h"
 #include "tests/support/run_program.h"
 #include "tests/support/twin.h"
@@ -130,12 +130,8 @@ TEST(ArmInput, ChainsHaveOneToThreeLinksAndTheTruthAsMany) {
               AllOf(HasSubstr("vishap.toml"), HasSubstr("has 0 links"), HasSubstr("'[[arm.machine.link]]'")));
   models::Setup setup = models::load(scene_file("wall"), "stage");
   setup.twin.arm.machine.links.pop_back();
-  try {
-    models::check(setup);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), AllOf(HasSubstr("stage.toml"), HasSubstr("has 1 joints; expected 2")));
-  }
+  EXPECT_THAT(error_of([&] { models::check(setup); }),
+              AllOf(HasSubstr("stage.toml"), HasSubstr("has 1 joints; expected 2")));
 }
 
 TEST(ArmInput, AxesAndWaysThatHaveNoLengthOfOneAreNamed) {
@@ -207,12 +203,7 @@ TEST(ArmInput, OneFingerOfAFingersSize) {
   models::Setup setup = models::load(scene_file("wall"), "");
   setup.scene.tools.push_back(setup.scene.tools[0]);
   setup.scene.tools.back().name = "thumb";
-  try {
-    models::check(setup);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("tool 'thumb' is another"));
-  }
+  EXPECT_THAT(error_of([&] { models::check(setup); }), HasSubstr("tool 'thumb' is another"));
 }
 
 TEST(ArmInput, APressOutOfReach) {
@@ -237,18 +228,12 @@ TEST(ArmInput, TheRigThatIsOfferedHasAnArm) {
 
 TEST(ArmInput, MadeForARigThatIsNotThere) {
   const TemporaryFolder folder;
-  std::ifstream wall(scene_file("wall"));
-  std::string text{std::istreambuf_iterator<char>(wall), {}};
+  std::string text = bytes_of(scene_file("wall"));
   const std::string path = folder.file("wall.toml");
   std::ofstream(path) << text.replace(text.find("\"vishap\""), 8, "\"vishp\"");
   for (const char* rig : {"", "vishap"}) {
-    try {
-      (void)models::load(path, rig);
-      ADD_FAILURE();
-    } catch (const Error& e) {
-      EXPECT_THAT(e.what(), AllOf(StartsWith(path + ":4:1: "), HasSubstr("'vishp'"),
-                                  EndsWith("did you mean 'vishap'?")));
-    }
+    EXPECT_THAT(error_of([&] { (void)models::load(path, rig); }),
+                AllOf(StartsWith(path + ":4:1: "), HasSubstr("'vishp'"), EndsWith("did you mean 'vishap'?")));
   }
 }
 
@@ -290,12 +275,9 @@ TEST(ArmReport, WhatWasNotMeasuredIsSaid) {
 // ---- Gains of an arm's law that cannot be: one line, with the number that is wrong.
 
 std::string said_gains(const std::string& set) {
-  try {
+  return error_of([&] {
     (void)trial::prepare_setup(models::load(tests::source_dir() + "/models/scenes/wall.toml", "", {set}));
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return {};
+  });
 }
 
 TEST(GainsInput, UnderDampedIsRefusedWithTheRatio) {

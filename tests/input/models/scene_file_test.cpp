@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -93,10 +92,7 @@ void SceneFile::SetUp() {
   folder_ = fs::temp_directory_path() / ("enc_scene_file_" + std::to_string(getpid()));
   models_.emplace("ENCOUNTER_MODELS", folder_.string());
   for (const char* sub : {"scenes", "rigs", "responses"}) fs::create_directories(folder_ / sub);
-  std::ifstream rig(tests::source_dir() + "/models/rigs/sim.toml");
-  std::stringstream text;
-  text << rig.rdbuf();
-  rig_ = text.str();
+  rig_ = test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml");
   write("rigs/sim.toml", rig_);
   write("behaviours.toml", kBehaviours);
   write("responses/tennis_ball.toml", kResponse);

@@ -1,8 +1,6 @@
 // `encounter calibrate rig`, `calibrate camera` and `calibrate tracker` as a person uses them: what they find
 // and print, and mistakes, one line each.
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -29,10 +27,6 @@ using ::testing::HasSubstr;
 
 class CalibrateRig : public CalibrateFiles {
  protected:
-  static std::string text_of(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
 };
 
 TEST_F(CalibrateRig, WritesWhatTheRigReads) {
@@ -46,13 +40,13 @@ TEST_F(CalibrateRig, WritesWhatTheRigReads) {
                            HasSubstr("the rig believes 0.91"), HasSubstr("tracker     position_mm = ["),
                            HasSubstr("mm from what the rig believes"), HasSubstr("tool        tip_mm = ["),
                            HasSubstr("intervals   99 % for each number")));
-  const std::string file = text_of(out);
+  const std::string file = test::bytes_of(out);
   EXPECT_THAT(file, AllOf(HasSubstr("# 12 poses in "), HasSubstr("\n[of]\nmanipulator = \"sim\"\n"),
                           HasSubstr("[frames.W_C]"), HasSubstr("[frames.H_F]"), HasSubstr("mass_kg = 1.1")));
   // It is not written over.
   EXPECT_THAT(line({"calibrate", "rig", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
   // The rig that names it believes it, and says so.
-  write("rig.toml", replaced(text_of(tests::source_dir() + "/models/rigs/sim.toml"), "\n[loop]\n",
+  write("rig.toml", replaced(test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml"), "\n[loop]\n",
                              "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
   const std::string scene = tests::source_dir() + "/models/scenes/tracking.toml";
   const Result params = run_program({"params", scene, "--rig", path("rig.toml")}, kShipped);
@@ -86,7 +80,7 @@ TEST_F(CalibrateRig, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(
       line({"calibrate", "rig", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
       HasSubstr("here it is 'none'"));
-  write("bare.toml", replaced(text_of(tests::source_dir() + "/models/scenes/clamped_tool.toml"),
+  write("bare.toml", replaced(test::bytes_of(tests::source_dir() + "/models/scenes/clamped_tool.toml"),
                               "[force]\n[tracker]\n", ""));
   EXPECT_THAT(line({"calibrate", "rig", "sim", "--scene", path("bare.toml"), "--set", "rig.force.driver=none",
                     "--set", "rig.tracker.driver=none"}),

@@ -1,7 +1,6 @@
 // Every shipped scene, and a newcomer's first scene of their own.
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "models/setup/scene_names.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
 
 namespace enc::tests {
@@ -69,14 +69,9 @@ TEST(ShippedScenesLong, EndWellWithSeeds1To20) {
 
 using Json = nlohmann::json;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The scene that the guide shows, as a reader copies it.
 std::string scene_of_guide() {
-  const std::string page = text_of(source_dir() + "/docs/guide/scene.md");
+  const std::string page = test::bytes_of(source_dir() + "/docs/guide/scene.md");
   const std::string begin = "```toml\n";
   const std::size_t from = page.find(begin) + begin.size();
   return page.substr(from, page.find("```", from) - from);
@@ -125,10 +120,11 @@ TEST_F(OwnScene, MayHaveABehaviourOfItsOwn) {
 TEST_F(OwnScene, NamesItsBehaviourAsNoOtherIsNamed) {
   edit("models/scenes/plane.toml", "[[object]]",
        "[[behaviour]]\nname = \"wall\"\nstiffness_N_per_mm = 0.8\nlimit_mm = 5\n\n[[object]]");
-  EXPECT_THAT(scene_refused(plane()),
-              AllOf(StartsWith(plane() + ":" + line_and_column(text_of(plane()), "name = \"wall\"\nstiff") +
-                               ": behaviour 'wall' has the name of an entry of"),
-                    HasSubstr("behaviours.toml:"), HasSubstr("rename it")));
+  EXPECT_THAT(
+      scene_refused(plane()),
+      AllOf(StartsWith(plane() + ":" + line_and_column(test::bytes_of(plane()), "name = \"wall\"\nstiff") +
+                       ": behaviour 'wall' has the name of an entry of"),
+            HasSubstr("behaviours.toml:"), HasSubstr("rename it")));
 }
 
 TEST_F(OwnScene, ABehaviourWithAMistakeIsNamedWithItsPlace) {
@@ -141,7 +137,7 @@ TEST_F(OwnScene, ABehaviourWithAMistakeIsNamedWithItsPlace) {
   edit("models/scenes/plane.toml", "spunge", "sponge");
   edit("models/scenes/plane.toml", "stiffness_N_per_mm = 0.8", "stiffness_N_per_mm = -0.8");
   EXPECT_THAT(scene_refused(plane()),
-              StartsWith(plane() + ":" + line_and_column(text_of(plane()), "-0.8") + ": "));
+              StartsWith(plane() + ":" + line_and_column(test::bytes_of(plane()), "-0.8") + ": "));
 }
 
 // A scene names no file outside of models/, and reading a list of scenes waits for nothing.
