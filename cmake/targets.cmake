@@ -55,7 +55,7 @@ function(enc_precompile_as name other)
 endfunction()
 
 # Files of one folder are compiled together, which takes half the time or less: they include the same headers. So what is in
-# their anonymous namespaces has names of its own within the folder (tests/shape/helpers_test.cpp). Each also compiles alone.
+# their anonymous namespaces has names of its own within the folder (tests/shape/functions_test.cpp). Each also compiles alone.
 function(enc_batches name folders) # enc_batches(name "folder;folder")
   if(ENCOUNTER_FAST_BUILD)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
