@@ -169,6 +169,8 @@ TEST(StepProperty, MakesNoSystemCall) {
 }
 #endif
 
+// ---- The hexapod.
+
 // Reachable poses, drawn over the catalogue's travels about the pivot and kept where the machine reaches.
 struct RandomPose {
   const Hexapod& machine;

@@ -21,9 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-// ---- Files that are wrong: each ends with exit code 2 (3 for a device), one line that says where and what
-// was expected, and before anything has run.
-
 struct BadFile {
   const char* name;   // of the test
   const char* file;   // edited, under models/

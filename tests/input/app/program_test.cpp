@@ -29,8 +29,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// ---- The program as a person calls it: what good input prints.
-
 using Json = nlohmann::json;
 
 TEST_F(Program, JsonSaysWhatIsInTheProcess) {

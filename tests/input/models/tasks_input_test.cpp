@@ -63,7 +63,7 @@ TEST(PusherInput, SofterThanTheLoopRendersIsRefusedUnlessWanted) {
   EXPECT_THAT(said_of({soft, "rig.contact.softest_N_per_mm=0.021"}), HasSubstr("softer"));
 }
 
-// ---- Bad [user.reaches] tables: one line each, which says what is wrong and what to do.
+// ---- [user.reaches].
 
 std::string said_reaching(const std::vector<std::string>& set, const std::string& scene = "reaching") {
   return error_of([&] { (void)trial::prepare_setup(models::load(scene_file(scene), "", set)); });
