@@ -1,22 +1,207 @@
 // What is left out, and what it would have cost: each scene as it ships, beside the same with everything in
 // it and with one part at a time. What the hand feels must be the same to the bit.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "benchmarks/ablation/form.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
+#include "core/base/error.h"
+#include "core/record/record.h"
+#include "core/record/state_hash.h"
+#include "trial/assemble/vision.h"
+#include "trial/devices/device_log.h"
+#include "trial/run/run_measures.h"
+#include "trial/trial.h"
 
 namespace enc::bench::ablation {
 namespace {
+
+// A scene with more in it than it needs. Nothing of it may change what the hand feels.
+
+// What can be left out of a scene, each with a cost of its own.
+enum class Part : std::uint8_t {
+  display,   // a device: the headset, and the surface that it draws
+  camera,    // images and vision beside the tracker that the scene has: a device, buffers and libraries
+  pictures,  // elements of the physics: the bodies, meshes and lights that are only looked at
+  features,  // of the physics: contacts and constraints, where nothing can touch
+  counts,    // what `run` counts: presses, touches, the energy ledger
+  record,    // each tick into a file
+};
+
+constexpr std::array kParts{Part::display,  Part::camera, Part::pictures,
+                            Part::features, Part::counts, Part::record};
+
+// What a run has done, tick for tick, as hashes: what touches, where everything is and what is commanded; and
+// all that the core knows and says.
+struct Bits {
+  std::uint64_t felt = 0, core = 0;
+  bool operator==(const Bits&) const = default;
+};
+
+// A run of a scene with some of them.
+class Form {
+ public:
+  Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with, double seconds);
+  Form(const Form&) = delete;
+  Form& operator=(const Form&) = delete;
+  ~Form();
+
+  void run(int ticks);
+  [[nodiscard]] Bits bits() const { return {felt_.value, trial_->result().hash}; }
+  [[nodiscard]] bool has(Part part) const;
+  // Which of its parts did nothing so far, or are off: they would have cost nothing.
+  [[nodiscard]] std::vector<Part> idle(const Form& minimal) const;
+  [[nodiscard]] std::int64_t touched() const { return touched_; }  // ticks
+  [[nodiscard]] int elements() const { return trial_->world().physics().elements(); }
+  [[nodiscard]] const models::Setup& setup() const { return setup_; }
+  [[nodiscard]] sim::World& world() { return trial_->world(); }
+
+ private:
+  void see(const trial::Glance& glance);
+  [[nodiscard]] bool works(Part part, const Form& minimal) const;
+
+  std::vector<Part> parts_;
+  models::Setup setup_;
+  std::unique_ptr<trial::RunMeasures> counts_;
+  std::unique_ptr<trial::Trial> trial_;
+  trial::DeviceLog log_;
+  std::unique_ptr<PoseTracker> vision_;
+  int file_ = -1;  // in memory
+  std::unique_ptr<RecordWriter> record_;
+  Stamped<TrackedTool> unused_;
+  std::int64_t ticks_ = 0, touched_ = 0;
+  std::int64_t pictures_ = 0, surfaces_ = 0;  // seen by vision; drawn by the display
+  Time drawn_{};
+  StateHash felt_;
+};
+
+bool among(const std::vector<Part>& parts, Part part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+// Islands are no part of it: an arm's contacts are solved in another order with them, which gives other bits.
+constexpr int kFeatures = mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
+
+// A camera's scene is run for some seconds only: its finger comes from nearby.
+std::vector<std::string> soon_touched(const std::string& scene) {
+  if (!scene.starts_with("camera/")) return {};
+  return {"user.approach_from_mm=20", "user.approach_mm_s=[50]"};
+}
+
+const char* name_of(Part part) {
+  constexpr std::array<const char*, 6> kNames{"display",  "camera", "pictures",
+                                              "features", "counts", "record"};
+  return kNames.at(static_cast<std::size_t>(part));
+}
+
+// What the scene leaves out.
+std::vector<Part> left_out(const BenchContext& context, const std::string& scene) {
+  Form form(context, scene, {}, 1.0);
+  const SceneSpec& named = form.setup().scene;
+  const bool renders = named.manipulator && named.user;  // something that could be seen
+  const int looked_at = Form(context, scene, {Part::pictures}, 1.0).elements();
+  std::vector<Part> parts;
+  for (const Part part : kParts)
+    if ((part != Part::display || (!named.display && renders)) &&
+        (part != Part::pictures || looked_at > form.elements()) &&
+        (part != Part::camera || (!named.camera && named.arm && named.user)) &&  // whose rig has one
+        (part != Part::features || (form.world().physics().model()->opt.disableflags & kFeatures) != 0))
+      parts.push_back(part);
+  return parts;
+}
+
+Form::Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with,
+           double seconds)
+    : parts_(with), setup_(load_scene(context, scene, {}, soon_touched(scene))) {
+  trial::TrialOptions options{.seed = context.seed, .seconds = seconds, .drivers = modules_of(context)};
+  if (among(with, Part::display)) setup_.scene.display = DisplaySpec{};
+  options.draw_all = among(with, Part::pictures);
+  if (among(with, Part::counts)) counts_ = std::make_unique<trial::RunMeasures>(setup_, options);
+  options.watch = [this](const trial::Glance& glance) { see(glance); };
+  trial_ = std::make_unique<trial::Trial>(setup_, options);
+  if (among(with, Part::features)) world().physics().model()->opt.disableflags &= ~kFeatures;
+  if (among(with, Part::camera))
+    vision_ = trial::make_vision(setup_, options.drivers, {&world(), context.seed, log_});
+  if (!among(with, Part::record)) return;
+  file_ = memfd_create("record", 0);
+  if (file_ < 0) throw Error("no file in memory could be made");
+  record_ = std::make_unique<RecordWriter>(fmt::format("/proc/self/fd/{}", file_),
+                                           models::record_texts(setup_), layout_hash(trial_->scene()));
+  trial_->record_to(record_.get());
+}
+
+Form::~Form() {
+  if (record_) record_->close();
+  if (file_ >= 0) close(file_);
+}
+
+void Form::run(int ticks) {
+  for (int i = 0; i < ticks && trial_->tick(); ++i) {
+  }
+}
+
+// Nine tenths of what is due: the first picture comes late.
+bool Form::works(Part part, const Form& minimal) const {
+  const double due = 0.9 * static_cast<double>(ticks_) / setup_.rig.loop.rate;
+  switch (part) {
+    case Part::display:
+      return static_cast<double>(surfaces_) >= due * setup_.twin.display.rate;
+    case Part::camera:
+      return static_cast<double>(pictures_) >= due * setup_.rig.camera.rate;
+    case Part::pictures:
+      return elements() > minimal.elements();
+    case Part::features:
+      return (trial_->world().physics().model()->opt.disableflags & kFeatures) == 0;
+    case Part::counts:  // a contact is booked when it is over
+      return trial_->result().contacts < 2 || !counts_->ledger.contacts().empty() ||
+             !counts_->presses.presses().empty() || !counts_->pushes.pushes().empty();
+    case Part::record: {
+      struct stat file {};
+      return fstat(file_, &file) == 0 &&
+             file.st_size >= static_cast<off_t>(static_cast<double>(ticks_) * 0.5 * sizeof(Inputs));
+    }
+  }
+  return false;
+}
+
+bool Form::has(Part part) const { return among(parts_, part); }
+
+std::vector<Part> Form::idle(const Form& minimal) const {
+  std::vector<Part> all;
+  for (const Part part : parts_)
+    if (!works(part, minimal)) all.push_back(part);
+  return all;
+}
+
+void Form::see(const trial::Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  for (const Vec3 v : {truth.tip.e(), truth.tool_tip.e(), truth.contact_force.e(), glance.out.tip.p(),
+                       glance.out.force.e(), glance.out.arm_force.e()})
+    for (const double x : v) felt_.add(leaf_bits(x));
+  felt_.add(leaf_bits(glance.out.mode));
+  ++ticks_;
+  touched_ += truth.touching ? 1 : 0;
+  if (counts_) counts_->see(glance);
+  if (vision_ && vision_->poll(glance.tick.t, unused_)) ++pictures_;
+  if (glance.in.dent.health == Health::absent || glance.in.dent.t == drawn_) return;
+  drawn_ = glance.in.dent.t;
+  ++surfaces_;
+}
 
 namespace fs = std::filesystem;
 
@@ -160,8 +345,7 @@ Costs costs_of(const BenchContext& context, const std::string& scene) {
 void run(Bench& bench) {
   Table table{"scenes",
               "What each part that a scene leaves out would cost, us for each tick",
-              {"scene", "as it ships", "everything", "times"},
-              {}};
+              {"scene", "as it ships", "everything", "times"}};
   for (const Part part : kParts) table.columns.emplace_back(name_of(part));
   table.columns.insert(table.columns.end(), {"sum of parts (%)", "MuJoCo elements"});
   table.printed = true;
@@ -169,17 +353,15 @@ void run(Bench& bench) {
   for (const std::string& scene : all) {
     bench.progress(static_cast<double>(table.rows.size()) / static_cast<double>(all.size()));
     const Costs costs = costs_of(bench.context, scene);
-    std::vector<std::string> row{scene, fmt::format("{:.2f}", costs.minimal * 1e6),
-                                 fmt::format("{:.2f}", costs.everything * 1e6),
-                                 fmt::format("{:.2f}", costs.ratio)};
+    std::vector<std::string> row{scene, fixed(costs.minimal * 1e6, 2), fixed(costs.everything * 1e6, 2),
+                                 fixed(costs.ratio, 2)};
     for (const Part part : kParts) {
       const auto at = std::find(costs.parts.begin(), costs.parts.end(), part);
-      row.push_back(
-          at == costs.parts.end()
-              ? "-"
-              : fmt::format("{:.2f}", costs.each[static_cast<std::size_t>(at - costs.parts.begin())] * 1e6));
+      row.push_back(at == costs.parts.end()
+                        ? "-"
+                        : fixed(costs.each[static_cast<std::size_t>(at - costs.parts.begin())] * 1e6, 2));
     }
-    row.push_back(costs.seen ? "-" : fmt::format("{:.0f}", costs.explained * 100.0));
+    row.push_back(costs.seen ? "-" : fixed(costs.explained * 100.0, 0));
     row.push_back(fmt::format("{} of {}", costs.elements, costs.all_elements));
     table.rows.push_back(std::move(row));
     std::string name = scene;

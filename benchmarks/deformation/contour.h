@@ -2,6 +2,8 @@
 // the axis, r sideways, z upwards, origin in the ball's middle, from the pole outwards; m.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,5 +36,18 @@ struct Overlap {
   double volume = 0.0;  // of the solid of revolution
 };
 [[nodiscard]] Overlap overlap(const Contour& a, const Contour& b, double ball_radius);
+
+// The committed reference for Fig 11: contours of the pressed ball of the twin (set S-nominal) under the
+// rig's probe and under a stylus. A finite-element solution, kept as data (docs/notes/deformation.md).
+
+inline constexpr double kStylus = 2e-3;                   // m, tip radius
+[[nodiscard]] const std::vector<double>& fig11_depths();  // m
+
+struct Fig11Contours {
+  std::vector<Contour> probe, stylus;  // for each depth
+};
+// From benchmarks/reference/fig11_contour.csv. Throws enc::Error, one line, where that is not as written.
+[[nodiscard]] Fig11Contours load_fig11(const std::string& models);
+[[nodiscard]] Fig11Contours parse_fig11(std::string_view text, const std::string& name);
 
 }  // namespace enc::bench::deformation

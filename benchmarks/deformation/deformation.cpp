@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/deformation/fig11_contour.h"
+#include "benchmarks/deformation/contour.h"
 #include "benchmarks/kit/kit.h"
 #include "core/base/units.h"
 #include "core/control/scene/scene.h"
@@ -78,11 +78,10 @@ void add_depth(BenchResult& result, std::size_t depth, const Seen& probe, const 
 }
 
 Series line(const std::string& name, const Contour& contour, double radius) {
-  Series series{name, {}, {}};
+  Series series{name};
   for (const Vec2& p : contour) {
     if (p[1] < 0.5 * radius) break;
-    series.x.push_back(kMmPerM * p[0]);
-    series.y.push_back(kMmPerM * p[1]);
+    series.add(kMmPerM * p[0], kMmPerM * p[1]);
   }
   return series;
 }
@@ -94,30 +93,23 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
     round.emplace_back(radius * std::sin(0.5 * M_PI * i / 180), radius * std::cos(0.5 * M_PI * i / 180));
   const auto contours = [&](const std::string& id, const std::string& title, const Contour& pressed,
                             const Seen& seen) {
-    Plot plot{id, title, "from the axis (mm)", "height over the ball's middle (mm)", false, false, {}};
+    Plot plot{id, title, "from the axis (mm)", "height over the ball's middle (mm)"};
     plot.series = {line("pressed ball", pressed, radius), line("seen ball", seen.contour, radius),
                    line("undeformed", round, radius)};
     plot.equal = true;
     plot.caption = "Half of the section. The pressed ball is computed, its felt rides on the wall.";
     result.plots.push_back(std::move(plot));
   };
-  Plot gaps{"deformation_residual",
-            "Pressed ball outside of the seen ball",
-            "along the seen contour (mm)",
-            "distance (mm)",
-            false,
-            false,
-            {}};
+  Plot gaps{"deformation_residual", "Pressed ball outside of the seen ball", "along the seen contour (mm)",
+            "distance (mm)"};
   for (std::size_t d = 0; d < fig11_depths().size(); ++d) {
     const double mm = kMmPerM * fig11_depths()[d];
     contours(fmt::format("deformation_fig11_{:g}mm", mm), fmt::format("Fig 11: {:g} mm under the probe", mm),
              reference.probe[d], probe[d]);
     const GapAlong gap = gap_along(probe[d].contour, reference.probe[d]);
-    Series series{fmt::format("{:g} mm deep", mm), {}, {}};
-    for (std::size_t i = 0; i < gap.length.size(); i += 4) {
-      series.x.push_back(kMmPerM * gap.length[i]);
-      series.y.push_back(kMmPerM * gap.outside[i]);
-    }
+    Series series{fmt::format("{:g} mm deep", mm)};
+    for (std::size_t i = 0; i < gap.length.size(); i += 4)
+      series.add(kMmPerM * gap.length[i], kMmPerM * gap.outside[i]);
     gaps.series.push_back(std::move(series));
   }
   gaps.caption =
@@ -141,17 +133,14 @@ void add_search(BenchResult& result, const Surface& ball, const Fig11Contours& r
   });
   Table table{"deformation_calibration",
               "Search for the seen ball's two numbers",
-              {"stiffness (R)", "width (R)", "RMS at 2 and 6 mm (mm)", "RMS at 4 mm (mm)"},
-              {}};
+              {"stiffness (R)", "width (R)", "RMS at 2 and 6 mm (mm)", "RMS at 4 mm (mm)"}};
   for (std::size_t i = 0; i < rms.size(); ++i)
-    table.rows.push_back({fmt::format("{:.3f}", kStiff[i / 5]), fmt::format("{:.2f}", kWide[i % 5]),
-                          fmt::format("{:.4f}", kMmPerM * std::hypot(rms[i][0], rms[i][2]) / std::sqrt(2.0)),
-                          fmt::format("{:.4f}", kMmPerM * rms[i][1])});
+    table.rows.push_back({fixed(kStiff[i / 5], 3), fixed(kWide[i % 5], 2),
+                          fixed(kMmPerM * std::hypot(rms[i][0], rms[i][2]) / std::sqrt(2.0), 4),
+                          fixed(kMmPerM * rms[i][1], 4)});
   table.note = "Calibrated at 2 and 6 mm under the 10 mm probe; 4 mm was left out. Used: 0.116 and 0.80.";
   result.tables.push_back(std::move(table));
 }
-
-}  // namespace
 
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
@@ -179,6 +168,8 @@ void run(Bench& bench) {
       "The paper's figure is two rows of photographs; the pressed ball is computed "
       "(docs/notes/deformation.md).";
 }
+
+}  // namespace
 
 const Entry kEntry{"deformation", "tennis_ball",
                    "the seen ball's contour against that of a pressed ball (VHMR Fig 11)", run};

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/precision.h"
 #include "core/base/units.h"
 #include "trial/measure/press_measure.h"
 

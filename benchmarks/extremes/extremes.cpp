@@ -1,14 +1,224 @@
 // Extreme cases: each done to a whole trial, with the criterion that it has to meet
 // (docs/reference/extremes.md).
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/statistics.h"
+#include "core/base/error.h"
 
 namespace enc::bench::extremes {
 namespace {
+
+// Error against run time at the edges: extreme cases over time step and integrator, each against a converged
+// run of its own. What fails is a point, too.
+
+constexpr double kRings = 0.05e-3;  // m rms: what goes farther rings
+
+// What is compared of a run.
+enum class Compared : std::uint8_t {
+  swing,  // how far the tip goes to and fro while the finger holds, rms
+  way     // the tool's way, from the first touch on
+};
+
+struct Study {
+  const char* id;
+  const char* title;
+  const char* scene;
+  const char* table;  // where step and integrator stand
+  Compared compared;
+  double seconds;  // s
+  std::vector<std::string> set;
+  double within;                       // %: what the default has to keep
+  bool refused = false;                // at the default, which says so
+  std::vector<std::string> instead{};  // of what is refused: a run that costs as much
+};
+
+const std::vector<Study>& studies() {
+  static const std::vector<Study> kStudies{
+      {"wall_3",
+       "arm, wall of 3 N/mm: how it rings",
+       "wall",
+       "truth.arm",
+       Compared::swing,
+       4.9,
+       {"behaviour.phantom_wall.stiffness_N_per_mm=3", "user.push_N=4", "user.approach_mm_s=[100]",
+        "user.press_s=1", "user.hold_s=1.5"},
+       25.0},
+      {"wall_10",
+       "arm, wall of 10 N/mm: how it rings",
+       "wall",
+       "truth.arm",
+       Compared::swing,
+       4.9,
+       {"behaviour.phantom_wall.stiffness_N_per_mm=10", "user.push_N=4", "user.approach_mm_s=[100]",
+        "user.press_s=1", "user.hold_s=1.5"},
+       25.0},
+      {"impact",
+       "arm, touched at 5 m/s: way of the finger",
+       "wall",
+       "truth.arm",
+       Compared::way,
+       1.5,
+       {"user.approach_mm_s=[5000]", "user.approach_from_mm=1500", "user.approach_tilt_deg=0",
+        "user.press_s=0.3", "user.hold_s=0.1", "user.release_s=0.3", "user.rest_s=0.2"},
+       10.0},
+      {"light",
+       "hexapod, tool of 1 g: its way",
+       "tennis_ball",
+       "truth.world",
+       Compared::way,
+       1.5,
+       {"tool.stylus.mass_kg=0.001", "user.approach_mm_s=[200]", "user.press_s=0.3", "user.release_s=0.3",
+        "user.approach_from_mm=50"},
+       kUnset,
+       true,
+       {"tool.stylus.mass_kg=0.05"}},
+  };
+  return kStudies;
+}
+
+struct Stepped {
+  std::string integrator;
+  double step;  // s
+};
+
+struct Outcome {
+  std::vector<Vec3> way{};    // m, of the tool, at each tick
+  double swing = 0.0;         // m rms
+  std::int64_t touched = -1;  // tick
+  double cpu = kUnset;        // s of CPU for each second of experiment
+  std::string failure{};
+};
+
+double rms_about_mean(std::vector<double> all) {
+  if (all.empty()) return 0.0;
+  const double middle = mean(all);
+  for (double& x : all) x -= middle;
+  return rms(all);
+}
+
+Outcome run_once(const Study& study, const BenchContext& context, const Stepped& at,
+                 const std::vector<std::string>& more = {}) {
+  Outcome found;
+  // A hand that does not drift, so that each meets the same place.
+  std::vector<std::string> held{"truth.hand.drift_mm=0",
+                                fmt::format("{}.timestep_us={:g}", study.table, at.step * 1e6),
+                                fmt::format("{}.integrator={}", study.table, at.integrator)};
+  held.insert(held.end(), more.begin(), more.end());
+  std::vector<double> held_at;  // m, of the tip along z, while the finger holds
+  try {
+    const models::Setup setup = load_scene(context, study.scene, study.set, held);
+    trial::TrialOptions options{.seed = context.seed, .seconds = study.seconds};
+    const double start = thread_seconds();
+    const Run run = judged(setup, options, [&](const trial::Glance& g) {
+      found.way.push_back(g.truth.tool_tip.e());
+      if (g.truth.touching && found.touched < 0) found.touched = g.tick.index;
+      if (g.truth.phase == sim::Phase::hold) held_at.push_back(g.truth.tip.xyz[2]);
+    });
+    found.swing = rms_about_mean(held_at);
+    found.cpu = (thread_seconds() - start) / run.result.simulated;
+    if (run.result.diverged_at >= 0)
+      found.failure = fmt::format("diverged at tick {}", run.result.diverged_at);
+    else if (run.judge.broken() > 0)
+      found.failure = run.judge.first();
+    else if (found.touched < 0)
+      found.failure = "never touched";
+  } catch (const Error& e) {
+    found.failure = e.what();
+  }
+  return found;
+}
+
+// % of the converged run's; NaN with the reason where it says another thing than that.
+double error_of(const Study& study, const Outcome& converged, Outcome& found) {
+  if (!found.failure.empty()) return kUnset;
+  if (study.compared == Compared::swing) {
+    if ((found.swing > kRings) != (converged.swing > kRings)) {
+      found.failure = found.swing > kRings ? "rings, where it does not" : "is still, where it rings";
+      return kUnset;
+    }
+    return 100.0 * std::abs(found.swing / converged.swing - 1.0);
+  }
+  const auto from = static_cast<std::size_t>(converged.touched);
+  const std::size_t to = std::min(found.way.size(), converged.way.size());
+  double sum = 0.0, size = 0.0;
+  for (std::size_t i = from; i < to; ++i) {
+    sum += (found.way[i] - converged.way[i]).squaredNorm();
+    size += (converged.way[i] - converged.way[from]).squaredNorm();
+  }
+  return 100.0 * std::sqrt(sum / size);
+}
+
+struct Tried {
+  const Study* study;
+  Stepped at;
+  double error = kUnset, cost = kUnset;  // %; s of CPU for each second
+  std::string failure{};
+};
+
+bool is_default(const Tried& point, const BenchContext& context) {
+  const models::Setup setup = load_scene(context, point.study->scene);
+  const sim::Stepping shipped = setup.twin.stepping(setup.scene);
+  return shipped.integrator == point.at.integrator && std::abs(shipped.timestep - point.at.step) < 1e-9;
+}
+
+// Rounds go through all points, so that a slow moment of the machine does not hit one alone.
+void race(const BenchContext& context, int rounds, const std::map<const Study*, Outcome>& converged,
+          std::vector<Tried>& points) {
+  std::vector<std::vector<double>> costs(points.size());
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Tried& point = points[i];
+      Outcome found = run_once(*point.study, context, point.at);
+      point.error = error_of(*point.study, converged.at(point.study), found);
+      point.failure = found.failure;
+      if (std::isnan(found.cpu)) found = run_once(*point.study, context, point.at, point.study->instead);
+      costs[i].push_back(found.cpu);
+    }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].cost = median(costs[i]);
+}
+
+void draw(Bench& bench, const std::vector<std::string>& integrators, const std::vector<Tried>& points) {
+  Plot plot{.id = "work_precision",
+            .title = "Error against run time at the edges",
+            .x_label = "CPU time for one second of experiment (s)",
+            .y_label = "error (% of the converged run)",
+            .log_x = true,
+            .log_y = true,
+            .caption =
+                "Time steps from 1 ms (left) on, halved each time. Crosses at the upper edge failed: what "
+                "they say is another thing than the converged run, or they were refused before they ran; "
+                "then they stand where a heavier tool does. The shipped step and integrator are marked; "
+                "where they failed, by a black cross."};
+  plot.columns = 2;
+  std::map<const Study*, std::size_t> panel;
+  for (const Study& study : studies()) {
+    panel[&study] = plot.panels.size();
+    plot.panels.emplace_back(study.title);
+  }
+  // Failures follow those whose failures they are: so they have their colour.
+  const auto draw_all = [&](std::size_t in, const std::string& name, bool paper, const auto& wanted) {
+    Series there{.name = name, .mark = paper ? Mark::points : Mark::both, .paper = paper, .panel = in};
+    Series failed{.name = name + ", failed", .mark = Mark::crosses, .panel = in};
+    for (const Tried& point : points)
+      if (panel.at(point.study) == in && wanted(point))
+        (point.failure.empty() ? there : failed).add(point.cost, point.error);
+    plot.series.push_back(std::move(there));
+    plot.series.push_back(std::move(failed));
+  };
+  for (std::size_t in = 0; in < plot.panels.size(); ++in) {
+    for (const std::string& integrator : integrators)
+      draw_all(in, integrator, false, [&](const Tried& point) { return point.at.integrator == integrator; });
+    draw_all(in, "as shipped", true, [&](const Tried& point) { return is_default(point, bench.context); });
+  }
+  bench.plot(std::move(plot));
+}
 
 bool holds(const Number& n) {
   Figure figure;
@@ -47,6 +257,49 @@ std::string verdict_of(const Found& found) {
                               : !stated.empty() ? "STATED: " + stated
                                                 : "holds" + measured(found);
   return found.words.empty() ? verdict : verdict + "; " + found.words;
+}
+
+// Error against run time.
+void add_error_over_time(Bench& bench) {
+  const bool full = bench.context.full;
+  const std::vector<std::string> integrators =
+      full ? std::vector<std::string>{"rk4", "implicitfast", "euler", "discrete"}
+           : std::vector<std::string>{"rk4", "implicitfast"};
+  const int halved = full ? 5 : 3;
+  std::vector<Tried> points;
+  std::vector<const Study*> each;
+  for (const Study& study : studies()) {
+    each.push_back(&study);
+    for (const std::string& integrator : integrators)
+      for (int i = 0; i < halved; ++i) points.push_back({&study, {integrator, std::ldexp(1e-3, -i)}});
+  }
+  const Stepped fine{"rk4", std::ldexp(1e-3, full ? -6 : -5)};
+  const std::vector<Outcome> references =
+      bench.each(each, [&](const Study* study) { return run_once(*study, bench.context, fine); });
+  std::map<const Study*, Outcome> converged;
+  for (std::size_t i = 0; i < each.size(); ++i) converged[each[i]] = references[i];
+  race(bench.context, full ? 3 : 1, converged, points);
+
+  Table table{"work_precision",
+              "Error against run time at the edges",
+              {"case", "integrator", "time step (us)", "error (%)", "CPU s per s", "failure"}};
+  for (const Tried& p : points) {
+    table.add(p.study->id, p.at.integrator, fmt::format("{:g}", p.at.step * 1e6),
+              p.failure.empty() ? fmt::format("{:.3g}", p.error) : "", fmt::format("{:.3g}", p.cost),
+              p.failure);
+    if (!is_default(p, bench.context)) continue;
+    const std::string id = fmt::format("work_precision.{}.", p.study->id);
+    const std::string note = fmt::format("default: {} at {:g} us", p.at.integrator, p.at.step * 1e6);
+    bench.figure(id + "failed.value", p.failure.empty() ? 0.0 : 1.0, "",
+                 exactly(p.study->refused ? 1.0 : 0.0), p.failure.empty() ? note : note + ": " + p.failure);
+    if (!p.study->refused) bench.figure(id + "error.value", p.error, "%", at_most(p.study->within), note);
+  }
+  for (const Study* study : each)
+    bench.figure(fmt::format("work_precision.{}.converged.value", study->id),
+                 converged.at(study).failure.empty() ? 1.0 : 0.0, "", exactly(1.0),
+                 converged.at(study).failure);
+  bench.table(std::move(table));
+  draw(bench, integrators, points);
 }
 
 void run(Bench& bench) {

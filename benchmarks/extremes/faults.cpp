@@ -1,8 +1,16 @@
+// The faults, and the cases of inputs and links that they make.
 #include "benchmarks/extremes/faults.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "benchmarks/extremes/case.h"
+#include "core/base/units.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -30,6 +38,207 @@ class CleanDisplay final : public Clean<Display, DentSample> {
   using Clean::Clean;
   void show(const View& view) noexcept override { device_->show(view); }
 };
+
+// Nonsense in one number of what the devices say, each number and each kind once.
+
+constexpr std::int64_t kEvery = 30;  // ticks between two
+
+// Whether each number was followed by a tick on which nothing is held.
+class Recovery {
+ public:
+  void see(const trial::Glance& g, bool spoiled) {
+    const bool held = g.out.mode == Mode::hold;
+    caught_ += spoiled && held ? 1 : 0;
+    spoiled_ += spoiled ? 1 : 0;
+    late_ += was_spoiled_ && !spoiled && held ? 1 : 0;
+    was_spoiled_ = spoiled;
+  }
+  [[nodiscard]] double late() const { return static_cast<double>(late_); }
+  [[nodiscard]] double caught() const { return static_cast<double>(caught_); }
+  [[nodiscard]] double spoiled() const { return static_cast<double>(spoiled_); }
+
+ private:
+  std::int64_t late_ = 0, caught_ = 0, spoiled_ = 0;
+  bool was_spoiled_ = false;
+};
+
+Found spoiled(const BenchContext& context, bool arm, bool quick) {
+  const models::Setup setup =
+      load_scene(context, arm ? "wall" : "tennis_ball",
+                 {"user.press_s=2", "user.hold_s=4", "user.depth_mm=4", "user.approach_mm_s=[50]",
+                  "user.approach_from_mm=40", "user.repeats=9"});
+  Found found{fmt::format("{}.toml, NaN, Inf, -Inf, 1e12 in each input", arm ? "wall" : "tennis_ball"),
+              "command as the judge wants it; no hold on the next good tick",
+              {}};
+  Inputs none;
+  Spoil count;
+  fields(count, none);
+  constexpr std::int64_t kFrom = 1500;  // ticks: it follows, or is in contact
+  const std::int64_t number = 4 * count.seen / (quick ? 4 : 1);
+  Recovery recovery;
+  bool now = false;
+  std::int64_t tick = 0, done = 0, next = kFrom;
+  Time packet{};
+  trial::TrialOptions options{.seed = context.seed,
+                              .seconds = 1e-3 * static_cast<double>(kFrom + 2 * kEvery * (number + 2)),
+                              .fit_out = keep_clean};
+  // With a new packet of the tool: a repeated one says nothing, and its junk would not, either.
+  options.disturb = [&](Inputs& in) {
+    const bool fresh = in.tool.t > packet;
+    packet = in.tool.t;
+    now = tick++ >= next && fresh && done < number;
+    if (!now) return;
+    next = tick + kEvery;
+    Spoil one{static_cast<int>(quick ? done : done / 4), static_cast<Junk>(done % 4)};
+    fields(one, in);
+    ++done;
+  };
+  const Run run = judged(setup, options, [&](const trial::Glance& g) { recovery.see(g, now); });
+  found.numbers = {
+      {"late.value", recovery.late(), "", exactly(0.0), "holds on the tick after, all good again"},
+      {"spoiled.value", recovery.spoiled(), "", at_least(static_cast<double>(number)), "inputs"},
+      {"held.value", recovery.caught(), "", at_least(1.0), "of them with a hold at once"}};
+  add_soundness(run, found);
+  return found;
+}
+
+// Drop-outs of the tracker, packets that are lost, overtake and come twice, and a clock that stalls.
+
+constexpr double kSpeed = 40.0;  // mm/s, of the tool
+
+// m: where the tool is believed to be, against where it is.
+double belief_error(const trial::Glance& g) {
+  return g.out.view.tip.finite() ? (g.out.view.tip - g.truth.tool_tip).norm() : 0.0;
+}
+
+models::Setup approach(const BenchContext& context, bool arm, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set{fmt::format("user.approach_mm_s=[{:g}]", kSpeed), "user.approach_from_mm=80",
+                               "user.press_s=1", "user.release_s=1", "user.hold_s=0.5"};
+  set.insert(set.end(), more.begin(), more.end());
+  return load_scene(context, arm ? "wall" : "tennis_ball", set);
+}
+
+// While the tool comes: it is seen for the last time at 1.5 s.
+Found dropout(const BenchContext& context, bool arm, double length) {
+  constexpr double kAt = 1.5, kExtrapolated = 0.1, kStops = 0.2;  // s
+  const models::Setup setup = approach(context, arm,
+                                       {fmt::format("truth.tracker.blackout_at_s={:g}", kAt),
+                                        fmt::format("truth.tracker.blackout_for_s={:g}", length)});
+  Found found{
+      fmt::format("{}.toml, tool unseen for {:g} ms at 40 mm/s", arm ? "wall" : "tennis_ball", 1e3 * length),
+      "within 1.5 mm for 100 ms, then at rest within 200 ms; back at once",
+      {}};
+  const double lost = setup.rig.tracker.lost_age;
+  const double again =
+      kAt + length + 1.0 / setup.twin.tracker.rate + 0.06;  // a frame, and its way: 55 ms of the arm's
+  double error = 0.0, speed = 0.0, held_after = 0.0;
+  Vec3 before = Vec3::Zero();
+  trial::TrialOptions options{.seed = context.seed, .seconds = 4.0};
+  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+    const double t = time_of(g);
+    const Vec3 command = arm ? Vec3(g.out.wanted.e()) : Vec3(g.out.tip.p());
+    if (t >= kAt && t <= kAt + std::min(length, kExtrapolated)) error = std::max(error, belief_error(g));
+    if (t > kAt + lost + kStops && t < kAt + length)
+      speed = std::max(speed, (command - before).norm() / g.scene.dt);
+    held_after += t > again && g.out.mode == Mode::hold ? 1.0 : 0.0;
+    before = command;
+  });
+  found.numbers = {{"error.max", error * kMmPerM, "mm", at_most(1.5), "of the believed place, 100 ms long"},
+                   {"late.value", held_after, "", exactly(0.0), "ticks of hold once it is seen again"}};
+  if (length > lost + kStops)
+    found.numbers.push_back(
+        {"speed.max", speed * kMmPerM, "mm/s", at_most(1e-3), "commanded, 200 ms after it is lost"});
+  add_soundness(run, found);
+  return found;
+}
+
+struct Link {
+  double rms = kUnset;  // m, of the believed place, along the worst axis
+  std::uint64_t hash = 0;
+  Run run;
+};
+// A way of 16 mm: the hand goes back at 40 mm/s, too.
+Link link_of(const BenchContext& context, const Network::Faults& faults) {
+  Link link;
+  Network network(faults, context.seed);
+  Vec3 sum = Vec3::Zero();
+  std::int64_t number = 0;
+  Time now{};
+  trial::TrialOptions options{.seed = context.seed, .seconds = 6.0, .fit_out = keep_clean};
+  options.disturb = [&](Inputs& in) {
+    network(now, in);
+    now += Duration(1'000'000);
+  };
+  link.run = judged(approach(context, false, {"truth.tracker.bias_mm=[0,0,0]", "user.approach_from_mm=16"}),
+                    options, [&](const trial::Glance& g) {
+                      if (time_of(g) < 1.0 || !g.out.view.tip.finite()) return;
+                      const Vec3 error = (g.out.view.tip - g.truth.tool_tip).e();
+                      sum += error.cwiseAbs2();
+                      ++number;
+                    });
+  link.rms = std::sqrt(sum.maxCoeff() / static_cast<double>(number));
+  link.hash = link.run.result.hash;
+  return link;
+}
+
+Found network(const BenchContext& context, const char* what, const Network::Faults& faults) {
+  const Link clean = link_of(context, {}), bad = link_of(context, faults);
+  const bool twice = faults.twice > 0.0;
+  Found found{fmt::format("tennis_ball.toml, {}", what),
+              twice ? "the same bits as without" : "rms of the believed place at most 0.13 mm",
+              {}};
+  found.numbers = {
+      {"rms.value", bad.rms * kMmPerM, "mm", at_most(0.13),
+       "of the believed place along its worst axis, registered without error"},
+      {"clean_rms.value", clean.rms * kMmPerM, "mm", {}, "the same, nothing lost"},
+      {"held.value", static_cast<double>(bad.run.judge.held), "", exactly(0.0), "ticks of hold"}};
+  if (twice)
+    found.numbers.push_back(
+        {"other.value", clean.hash == bad.hash ? 0.0 : 1.0, "", exactly(0.0), "1: another hash"});
+  add_soundness(bad.run, found);
+  found.simulated += clean.run.result.simulated;
+  return found;
+}
+
+// Ticks that pass without the loop, every 0.7 s: the world goes on.
+class Stalling final : public Clock {
+ public:
+  Stalling(std::unique_ptr<Clock> clock, std::int64_t cycles) : clock_(std::move(clock)), cycles_(cycles) {}
+  Tick next() override {
+    constexpr std::int64_t kBetween = 700;
+    missed_ = ++calls_ % kBetween == 0 ? cycles_ : 0;
+    for (std::int64_t i = 0; i < missed_; ++i) clock_->next();
+    return clock_->next();
+  }
+  [[nodiscard]] std::int64_t missed() const noexcept override { return missed_; }
+
+ private:
+  std::unique_ptr<Clock> clock_;
+  std::int64_t cycles_, calls_ = 0, missed_ = 0;
+};
+
+Found stall(const BenchContext& context, bool arm, std::int64_t cycles) {
+  Found found{fmt::format("{}.toml, {} cycles missed, again and again", arm ? "wall" : "tennis_ball", cycles),
+              "a hold on each, none a tick later, no wind-up",
+              {}};
+  std::int64_t stalls = 0, held = 0, late = 0;
+  bool before = false;
+  trial::TrialOptions options{.seed = context.seed, .seconds = 8.0};
+  options.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<Stalling>(std::move(rig.clock), cycles); };
+  const Run run = judged(approach(context, arm), options, [&](const trial::Glance& g) {
+    const bool now = g.in.missed > 0, holds = g.out.mode == Mode::hold;
+    stalls += now ? 1 : 0;
+    held += now && holds && (g.out.why & kClockLate) != 0 ? 1 : 0;
+    late += before && !now && holds ? 1 : 0;
+    before = now;
+  });
+  found.numbers = {{"held.percent", 100.0 * static_cast<double>(held) / static_cast<double>(stalls), "%",
+                    exactly(100.0), "of the stalls, at once"},
+                   {"late.value", static_cast<double>(late), "", exactly(0.0), "holds on the tick after"},
+                   {"stalls.value", static_cast<double>(stalls), "", at_least(5.0)}};
+  add_soundness(run, found);
+  return found;
+}
 
 }  // namespace
 
@@ -123,6 +332,32 @@ void Storm::operator()(Time now, Inputs& in) {
     next_ = tick + static_cast<std::int64_t>(1e3 / rate_);
   }
   if (left_-- > 0) spoil(in);
+}
+
+void add_inputs(Cases& cases, bool quick) {
+  for (const bool arm : {true, false})
+    cases.push_back({arm ? "arm.inputs" : "hexapod.inputs",
+                     [=](const BenchContext& context) { return spoiled(context, arm, quick); }});
+}
+
+void add_links(Cases& cases, bool quick) {
+  for (const bool arm : {true, false}) {
+    const std::string machine = arm ? "arm" : "hexapod";
+    for (const double length :
+         quick ? std::vector<double>{0.1, 0.5} : std::vector<double>{0.05, 0.1, 0.2, 0.5})
+      cases.push_back({fmt::format("{}.dropout.{:.0f}", machine, 1e3 * length),
+                       [=](const BenchContext& context) { return dropout(context, arm, length); }});
+    for (const std::int64_t cycles :
+         quick ? std::vector<std::int64_t>{5} : std::vector<std::int64_t>{5, 50, 500})
+      cases.push_back({fmt::format("{}.stall.{}", machine, cycles),
+                       [=](const BenchContext& context) { return stall(context, arm, cycles); }});
+  }
+  const auto add = [&](const char* id, const char* what, const Network::Faults& faults) {
+    cases.push_back({id, [=](const BenchContext& context) { return network(context, what, faults); }});
+  };
+  add("hexapod.lost", "20 % of the packets lost", {.loss = 0.2});
+  add("hexapod.reordered", "30 % of the packets up to 30 ms late", {.late = 0.3});
+  add("hexapod.twice", "each second packet comes twice", {.twice = 0.5});
 }
 
 }  // namespace enc::bench::extremes

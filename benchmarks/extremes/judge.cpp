@@ -1,11 +1,10 @@
-#include "benchmarks/extremes/judge.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "benchmarks/extremes/case.h"
 #include "core/record/fields.h"
 
 namespace enc::bench::extremes {
@@ -40,7 +39,10 @@ void Judge::see(const trial::Glance& glance) {
   wrong_now_ = false;
   judge_time(glance);
   judge_numbers(glance);
-  glance.scene.impedance() != nullptr ? judge_arm(glance) : judge_machine(glance);
+  if (const Impedance* law = glance.scene.impedance())
+    judge_arm(glance, *law);
+  else
+    judge_machine(glance);
   touch = std::max(touch, glance.truth.contact_force.norm());
   if (glance.out.mode == Mode::hold) {
     ++held;
@@ -96,8 +98,7 @@ void Judge::judge_machine(const trial::Glance& glance) {
 }
 
 // Beside gravity the sheet's peak, and with it what the weight adds: both of the tip.
-void Judge::judge_arm(const trial::Glance& glance) {
-  const Impedance& law = *glance.scene.impedance();
+void Judge::judge_arm(const trial::Glance& glance, const Impedance& law) {
   const Vec<'R'>& told = glance.out.arm_force;
   const Mat3 jacobian = law.arm.jacobian(glance.truth.joints);
   dexterity = std::min(dexterity, law.arm.dexterity(jacobian));

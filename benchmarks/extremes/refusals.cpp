@@ -25,9 +25,7 @@ Said said(const BenchContext& context, const std::string& scene, const std::vect
   try {
     models::Setup setup = load_scene(context, scene, set);
     if (change) change(setup);
-    trial::TrialOptions options;
-    options.seed = context.seed;
-    options.seconds = 1.0;
+    trial::TrialOptions options{.seed = context.seed, .seconds = 1.0};
     const Run run = judged(setup, options);
     return {"", run.judge.broken() == 0 && run.result.diverged_at < 0};
   } catch (const Error& e) {

@@ -27,7 +27,7 @@ struct Nominal {
   void see(const trial::Glance& g) {
     if (g.out.view.tip.finite()) belief = std::max(belief, (g.out.view.tip - g.truth.tool_tip).norm());
     held += g.out.mode == Mode::hold ? 1 : 0;
-    if (g.scene.impedance() != nullptr) return;
+    if (!g.out.tip.valid()) return;  // an arm is told a force
     const Point<'W'> told = (g.scene.X_WR * g.out.tip).origin();
     tip = std::max(tip, (told - g.truth.tip).norm());
   }
@@ -47,10 +47,7 @@ Found storm(const BenchContext& context, bool arm, double length) {
   };
   Storm faults(context.seed + (arm ? 1 : 0), 1.0, length);
   const Storm kept = faults;
-  trial::TrialOptions options;
-  options.seed = context.seed;
-  options.seconds = length + kQuiet;
-  options.fit_out = keep_clean;
+  trial::TrialOptions options{.seed = context.seed, .seconds = length + kQuiet, .fit_out = keep_clean};
   Nominal whole;
   const Run undisturbed = judged(setup, options, [&](const trial::Glance& g) {
     if (time_of(g) > 2.0) whole.see(g);
@@ -101,9 +98,7 @@ Found hours(const BenchContext& context, bool arm, double length) {
   double before = kUnset, most = 0.0, drift = 0.0;
   std::array<double, 2> work{};  // J, tool to tip, of each half
   const auto ticks = static_cast<std::int64_t>(1e3 * length);
-  trial::TrialOptions options;
-  options.seed = context.seed;
-  options.seconds = kInfinite;
+  trial::TrialOptions options{.seed = context.seed, .seconds = kInfinite};
   const double start = thread_seconds();
   trial::Trial* running = nullptr;
   options.watch = [&](const trial::Glance& g) {

@@ -2,23 +2,167 @@
 // whole, without what came before it [VisHap 2.1.2, Fig 3]. Each background has a person of its own, with a
 // finger of 10 to 25 mm whose K is known, as [VisHap] finds it for a configuration; then K is made wrong.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "benchmarks/fingertip/factors.h"
-#include "benchmarks/fingertip/outline.h"
-#include "benchmarks/fingertip/race.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
+#include "benchmarks/peers/peers.h"
 #include "benchmarks/staged/staged.h"
 #include "core/base/units.h"
+#include "core/vision/finger/tangent.h"
 #include "core/vision/finger_tracker.h"
+#include "core/vision/hand/hand_scene.h"
+#include "core/vision/stereo/rectify.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::fingertip {
 namespace {
 
 using namespace staged;
+
+// How large the finger's cap was drawn: the outline of its sphere in the left image, an ellipse, measured in
+// the true mask of skin.
+
+struct Outline {
+  // px, the ellipse's smaller half axis. It lies across the direction from the image's middle, and is
+  // f R / sqrt(z2 - R2) wherever the cap is: the r = K / z of [VisHap]. None where the rim is hidden.
+  double across = kUnset;
+  double area =
+      kUnset;  // px, radius of the circle of the ellipse's area: larger, the farther from the middle
+};
+
+// What a pixel near the rim shows. Of the hand only the finger comes within two diameters of its tip. So skin
+// that is nearer or farther than cap and finger can be there, however large they are drawn, is another part.
+enum class Seen : std::uint8_t { cap, behind, before };
+
+Seen seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTruth& truth, const Pixel& at) {
+  const auto x = static_cast<int>(std::lround(at.column)), y = static_cast<int>(std::lround(at.row));
+  if (!truth.skin.whole().contains(x, y) || !truth.skin.at(x, y)) return Seen::behind;
+  const double z = static_cast<double>(
+      truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.skin.width) +
+                  static_cast<std::size_t>(x)]);
+  const double radius = 0.5 * shot.look.finger_width;
+  const double beyond =  // m, than the cap's middle
+      z * tangent.ray({static_cast<double>(x), static_cast<double>(y)}).dot(tangent.view()) -
+      shot.pose.tip.e().norm();
+  if (beyond < -2.0 * radius) return Seen::before;
+  return beyond > 0.5 * radius ? Seen::behind : Seen::cap;
+}
+
+// As seen straight on the outline is a circle, within 60 degrees of where the finger points: there rays go
+// from its middle to where it ends. Those on which another part of the hand is before the rim are left out.
+Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::PixelTruth& truth) {
+  constexpr double kStep = 0.05;  // px
+  constexpr int kRays = 30;       // on either side, two degrees apart
+  const Tangent tangent(pair, {truth.column, truth.row});
+  const Vec3 along = shot.pose.along.e();
+  const double ahead = std::atan2(along.dot(tangent.down()), along.dot(tangent.right()));
+  const double radius = 0.5 * shot.look.finger_width, z = shot.pose.tip.xyz[2];
+  const double share = radius / shot.pose.tip.e().norm();
+  const double round = tangent.focal() * share / std::sqrt(1.0 - share * share);  // px, as it ought to be
+  double sum = 0.0;
+  int rays = 0;
+  for (int i = -kRays; i <= kRays; ++i) {
+    const double angle = ahead + std::numbers::pi / 90.0 * i;
+    double far = 0.5 * round;  // farther in a finger that points away is before its cap
+    Seen what = Seen::cap;
+    for (; what == Seen::cap && far < 2.0 * round; far += kStep)
+      what = seen(tangent, shot, truth, tangent.image({far * std::cos(angle), far * std::sin(angle)}));
+    if (what == Seen::before) continue;
+    sum += far - 1.5 * kStep;  // between the last step on it and the first beyond
+    ++rays;
+  }
+  if (rays < kRays) return {};
+  const double size = sum / rays / round;
+  return {size * pair.focal * radius / std::sqrt(z * z - radius * radius), size * truth.radius};
+}
+
+constexpr int kWidth = 640;           // px
+constexpr double kPeriod = 1 / 20.0;  // s
+
+// Null where it was not built.
+const OpenCv* opencv_of(const Bench& bench) {
+  const ModuleInfo* module = bench.context.module("peers");
+  const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
+  return peers != nullptr ? peers->opencv : nullptr;
+}
+
+// A finger that goes to and fro before one background, as a camera's buffers have it.
+struct Ring {
+  std::vector<Pair> background, frames;
+  [[nodiscard]] const Pair& at(std::size_t i) const {
+    const std::size_t turn = i % (2 * frames.size());
+    return frames[std::min(turn, 2 * frames.size() - 1 - turn)];
+  }
+};
+Ring ring_of(const Bench& bench, const sim::CameraModule& camera) {
+  sim::StageSpec spec;
+  spec.camera = head(kWidth);
+  spec.seed = test_seed(bench.context) + 500;
+  const auto stage = camera.stage(spec);
+  Shot shot;
+  shot.look.skin = sim::skin_colour(sim::Tone::light);
+  shot.pose.along = Vec<'C'>(-0.3, -1.0, 0.2);
+  Ring ring{std::vector<Pair>(10), std::vector<Pair>(16)};
+  std::uint64_t frame = 0;
+  for (Pair& pair : ring.background) stage->draw(nullptr, shot.look, {}, frame++, pair.left, pair.right);
+  double x = -0.07;  // m
+  for (Pair& pair : ring.frames) {
+    shot.pose.tip = Point<'C'>(x, 0.0, 0.62);
+    stage->draw(&shot.pose, shot.look, {}, frame++, pair.left, pair.right);
+    x += 0.300 * kPeriod;
+  }
+  return ring;
+}
+
+// How long a stereo frame takes from pixels to the fingertip, beside OpenCV.
+
+// A finger that is followed at 300 mm/s. Without OpenCV there is no race.
+void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
+  if (opencv_of(bench) == nullptr) return;
+  const OpenCv& opencv = *opencv_of(bench);
+  constexpr int kHues = 10;  // either way: wide enough for shaded skin
+  const Ring ring = ring_of(bench, camera);
+  SegmentationSpec segmentation;
+  segmentation.model = skin;
+  FingerTracker tracker(head(kWidth), segmentation, FingertipSpec{}, TrackSpec{}, MatchSpec{});
+  const int hue = static_cast<int>(skin.hue / (2.0 * M_PI) * 256.0);
+  const auto mog2 = opencv.mog2({(hue - kHues) & 255, (hue + kHues) & 255});
+  const auto few = opencv.stereo(64, 15), all = opencv.stereo(224, 15);
+  Mask mask(kWidth, kWidth * 3 / 4);
+  std::array<std::size_t, 3> at{};
+  std::size_t frame = 0, seen = 0;
+  const auto see = [&](const Pair& pair) {
+    const Time t(from_seconds(kPeriod * static_cast<double>(frame++)));
+    return tracker.see({pair.left.view(), pair.right.view()}, t).state == FingerState::seen;
+  };
+  for (const Pair& pair : ring.background) {
+    see(pair);
+    mog2->learn(pair.left.view());
+  }
+  const auto theirs = [&](StereoPeer& stereo, const Pair& pair) {
+    mog2->segment(pair.left.view(), mask);
+    stereo.disparity(pair.left.view(), pair.right.view());
+  };
+  const Race raced(bench.context.quick ? 16 : 64,
+                   {[&] { seen += see(ring.at(at[0]++)) ? 1U : 0U; }, [&] { theirs(*few, ring.at(at[1]++)); },
+                    [&] { theirs(*all, ring.at(at[2]++)); }},
+                   4);
+  bench.cost("followed.time.median", raced.seconds(0) * 1e3, "ms", "a stereo frame with the search window");
+  bench.cost("ratio_to_opencv.median", raced.ratio(1, 0), "x", at_least(9.0),
+             fmt::format("MOG2 + inRange + medianBlur + StereoBM of 64 disparities, {:.1f} ms, over a stereo "
+                         "frame of ours; same frames, interleaved",
+                         raced.seconds(1) * 1e3));
+  bench.cost("ratio_to_opencv_whole_range.median", raced.ratio(2, 0), "x",
+             "the same with 224 disparities, which is what 0.25 to 1.5 m takes");
+  bench.figure("race.seen.percent", 100.0 * static_cast<double>(seen) / static_cast<double>(at[0]), "%",
+               at_least(90.0), "frames of the race in which ours saw the finger");
+}
 
 // K is wrong by this factor; the first is what is judged.
 constexpr std::array<double, 3> kScales{1.0, 0.75, 1.25};
@@ -248,6 +392,156 @@ std::vector<Asked> all_widths(const Asked& like, std::size_t stages) {
   }
   return all;
 }
+
+// The factors that the printed pseudo-code has lost, steps 5 and 7, and the size of the square of step 6:
+// what each value of them finds.
+namespace factors {
+
+// A factor and its values; the others stay as shipped.
+struct Factor {
+  const char *key, *title;
+  double FingertipSpec::*member;
+  std::array<double, 7> values;
+};
+constexpr std::array<Factor, 4> kFactors{{
+    {"circle_share",
+     "step 5, least share of skin in the circle",
+     &FingertipSpec::circle_share,
+     {0.30, 0.50, 0.60, 0.70, 0.80, 0.90, 0.97}},
+    {"square_radii",
+     "step 6, half a side of the square, in r",
+     &FingertipSpec::square_radii,
+     {1.2, 1.4, 1.55, 1.7, 1.85, 2.0, 2.5}},
+    {"square_least_radii",
+     "step 7, least skin along the square, in r",
+     &FingertipSpec::square_least,
+     {0.0, 0.7, 1.1, 1.4, 1.7, 2.0, 2.4}},
+    {"square_most_radii",
+     "step 7, most skin along the square, in r",
+     &FingertipSpec::square_most,
+     {2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 9.0}},
+}};
+// What is in a frame.
+enum Kind : std::uint8_t { finger, hidden, nothing, kKinds };
+
+struct Counts {
+  int frames = 0, right = 0, wrong = 0;
+};
+using Cell = std::array<std::array<std::array<Counts, 7>, kFactors.size()>, kKinds>;
+
+struct Place {
+  const sim::CameraModule* camera;
+  SkinModel skin;
+  double width;  // m, of the finger
+  std::uint64_t seed;
+};
+
+// The straight finger points away, so that the fist is before it: folded fingers and a thumb are left.
+Shot fist(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream) {
+  Draw farther = draw;
+  farther.near = 0.35;  // the fist is a finger's length nearer
+  Shot shot = drawn(rig, farther, tone, stream);
+  const Vec3 ray = shot.pose.tip.e().normalized();
+  const double aslant = 0.15 * stream.uniform(), side = 2.0 * std::numbers::pi * stream.uniform();
+  shot.pose.along = Vec<'C'>(Vec3(ray + aslant * Vec3(std::cos(side), std::sin(side), 0.0)));
+  return shot;
+}
+
+Cell look_at(const Place& place) {
+  constexpr int kFrames = 24;  // of each kind
+  sim::StageSpec spec;
+  spec.camera = head(640);
+  spec.seed = place.seed;
+  const auto stage = place.camera->stage(spec);
+  SegmentationSpec segmentation;
+  segmentation.model = place.skin;
+  FingertipSpec shipped;
+  shipped.radius = 0.5 * place.width;
+  HandScene scene(spec.camera, segmentation, shipped, {});
+  const Region all = scene.frame();
+  std::vector<std::vector<FingertipFinder>> finders(kFactors.size());
+  for (std::size_t f = 0; f < kFactors.size(); ++f)
+    for (const double value : kFactors[f].values) {
+      FingertipSpec tip = shipped;
+      tip.*kFactors[f].member = value;
+      finders[f].push_back(scene.finder_with(tip));
+    }
+  Pair pair;
+  std::uint64_t frame = 0;
+  for (; frame < 10; ++frame) {
+    stage->draw(nullptr, {}, {}, frame, pair.left, pair.right);
+    scene.learn({pair.left.view(), pair.right.view()});
+  }
+  Cell cell{};
+  sim::Stream stream(place.seed, "hands");
+  const Draw draw{.thin = place.width, .thick = place.width};
+  for (int i = 0; i < kKinds * kFrames; ++i, ++frame) {
+    const auto kind = static_cast<Kind>(i % kKinds);
+    const auto tone = static_cast<sim::Tone>(stream.bits() % 4);
+    const Shot shot =
+        kind == hidden ? fist(spec.camera, draw, tone, stream) : drawn(spec.camera, draw, tone, stream);
+    stage->draw(kind == nothing ? nullptr : &shot.pose, shot.look, {}, frame, pair.left, pair.right,
+                &pair.truth);
+    scene.look({pair.left.view(), pair.right.view()}, all, {});
+    for (std::size_t f = 0; f < finders.size(); ++f)
+      for (std::size_t v = 0; v < finders[f].size(); ++v) {
+        const Fingertip tip = finders[f][v].find(scene.skin(), scene.disparity(), all);
+        const double off = std::hypot(tip.column - pair.truth.column, tip.row - pair.truth.row);
+        const bool right = kind == finger && tip.found && off <= within_cap(pair.truth);
+        Counts& counts = cell[kind][f][v];
+        ++counts.frames;
+        counts.right += right ? 1 : 0;
+        counts.wrong += tip.found && !right ? 1 : 0;
+      }
+  }
+  return cell;
+}
+
+double percent(int of, int all) { return 100.0 * of / all; }
+
+// On training seeds, so that whoever chooses a value by them has not looked at those that are judged.
+void tell(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
+  const std::size_t places = bench.context.quick ? 2 : 16;
+  std::vector<Place> asked;
+  for (std::size_t i = 0; i < places; ++i)
+    asked.push_back({&camera, skin, finger_width(i, places), kTraining + 500 + i});
+  Cell sum{};
+  for (const Cell& cell : bench.each(asked, look_at))
+    for (std::size_t k = 0; k < kKinds; ++k)
+      for (std::size_t f = 0; f < kFactors.size(); ++f)
+        for (std::size_t v = 0; v < kFactors[f].values.size(); ++v) {
+          sum[k][f][v].frames += cell[k][f][v].frames;
+          sum[k][f][v].right += cell[k][f][v].right;
+          sum[k][f][v].wrong += cell[k][f][v].wrong;
+        }
+  Table table{
+      "factors",
+      "Factors of steps 5 to 7, training seeds (% of frames)",
+      {"factor", "value", "fingertip found", "found beside it", "found in a fist", "found in nothing"}};
+  std::vector<Series> lines;
+  for (std::size_t f = 0; f < kFactors.size(); ++f) {
+    Series line{.name = kFactors[f].title, .mark = Mark::both};
+    for (std::size_t v = 0; v < kFactors[f].values.size(); ++v) {
+      const Counts &with = sum[finger][f][v], &fists = sum[hidden][f][v], &none = sum[nothing][f][v];
+      const double found = percent(with.right, with.frames), wrong = percent(fists.wrong, fists.frames);
+      table.add(kFactors[f].key, fmt::format("{:g}", kFactors[f].values[v]), fixed(found, 1),
+                fixed(percent(with.wrong, with.frames), 1), fixed(wrong, 1),
+                fixed(percent(none.wrong, none.frames), 1));
+      line.add(wrong, found);
+    }
+    lines.push_back(std::move(line));
+  }
+  bench.table(std::move(table));
+  bench.plot({.id = "factors",
+              .title = "Factors of steps 5 to 7",
+              .x_label = "fists in which a fingertip is found (%)",
+              .y_label = "fingertips found (%)",
+              .series = std::move(lines),
+              .caption = "Along a line one factor changes, the others stay as shipped; the lines cross at "
+                         "the shipped ones. The end of a folded finger is a fingertip by all ten steps."});
+}
+
+}  // namespace factors
 
 void run(Bench& bench) {
   const sim::CameraModule& module = camera(bench.context);

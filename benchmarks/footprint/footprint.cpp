@@ -57,8 +57,7 @@ void run(Bench& bench) {
               {"scene", "libraries", "threads", "MuJoCo elements", "MiB", "start, empty process = 1"}};
   for (const fs::path& scene : scenes) {
     const Row row = measured(program, scene, bench.context.quick ? 3 : 9);
-    table.add(row.scene, row.libraries, row.threads, row.elements, fmt::format("{:.1f}", row.memory),
-              fmt::format("{:.1f}", row.start));
+    table.add(row.scene, row.libraries, row.threads, row.elements, fixed(row.memory, 1), fixed(row.start, 1));
     const auto id = [&](const char* what) { return row.scene + "." + what; };
     bench.cost(id("libraries"), static_cast<double>(row.libraries), "");
     bench.figure(id("threads"), row.threads, "", at_most(1.0));

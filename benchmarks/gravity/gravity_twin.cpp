@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/gravity/gravity.h"
-#include "benchmarks/kit/yardstick.h"
+#include "benchmarks/kit/cost.h"
 #include "sim/bodies/arm_model.h"
 
 namespace enc::bench::gravity {
@@ -86,27 +86,19 @@ void add_equations(const Laden& laden, const BenchContext& context, BenchResult&
              1e-9);
   add_figure(result, "mass_apart_from_mujoco.max", kUnset, 100.0 * mass, "%",
              "mass matrix against that of the bodies", kUnset, 1.0);
-  Plot plot{"gravity.torque",
-            "Eq. 5 against the simulated bodies",
-            "joint angle, deg",
-            "torque of the joint, mN m",
-            false,
-            false,
-            {}};
+  Plot plot{"gravity.torque", "Eq. 5 against the simulated bodies", "joint angle, deg",
+            "torque of the joint, mN m"};
   for (const std::size_t joint : {1U, 2U}) {
-    Series eq5{fmt::format("q{}: eq. 5", joint + 1), {}, {}},
-        bodies{fmt::format("q{}: MuJoCo", joint + 1), {}, {}};
+    Series eq5{fmt::format("q{}: eq. 5", joint + 1)}, bodies{fmt::format("q{}: MuJoCo", joint + 1), {}, {}};
     bodies.mark = Mark::points;
     for (int degree = -120; degree <= 210; degree += 3) {
       PerJoint q{};
       q[1] = q[2] = degree * M_PI / 180.0;  // the fold at 0: both within their limits, or nothing is drawn
       if (!laden.arm.within_limits(q)) continue;
-      eq5.x.push_back(degree);
-      eq5.y.push_back(1e3 * laden.arm.gravity(q, laden.payload, Payload::exact)[joint]);
+      eq5.add(degree, 1e3 * laden.arm.gravity(q, laden.payload, Payload::exact)[joint]);
       if (degree % 15 != 0) continue;
       twin.set(q, {});
-      bodies.x.push_back(degree);
-      bodies.y.push_back(1e3 * twin.weight()(static_cast<int>(joint)));
+      bodies.add(degree, 1e3 * twin.weight()(static_cast<int>(joint)));
     }
     plot.series.push_back(std::move(eq5));
     plot.series.push_back(std::move(bodies));
@@ -208,31 +200,27 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
             "CPU time for each second, s",
             "worst error of the tip, mm",
             true,
-            true,
-            {}};
+            true};
   Table table{"gravity.swing",
               "A free swing of the arm",
-              {"integrator", "time step, us", "worst error, mm", "CPU s/s"},
-              {}};
+              {"integrator", "time step, us", "worst error, mm", "CPU s/s"}};
   const std::vector<double> timesteps =
       context.quick ? std::vector<double>{0.002, 0.001}
                     : std::vector<double>{0.004, 0.002, 0.001, 0.0005, 0.00025, 0.000125};
   for (const auto& [name, integrator] : kIntegrators) {
-    Series series{name, {}, {}};
+    Series series{name};
     series.mark = Mark::both;
     for (const double timestep : timesteps) {
       const Worked worked = swing(laden, path, timestep, integrator, context.quick ? 2 : 5);
-      series.x.push_back(worked.cost);
-      series.y.push_back(worked.error * 1e3);
+      series.add(worked.cost, worked.error * 1e3);
       table.rows.push_back({name, fmt::format("{:g}", timestep * 1e6),
-                            fmt::format("{:.3g}", worked.error * 1e3), fmt::format("{:.4f}", worked.cost)});
+                            fmt::format("{:.3g}", worked.error * 1e3), fixed(worked.cost, 4)});
     }
     plot.series.push_back(std::move(series));
   }
   plot.caption = fmt::format(
       "{:.0f} ms without motors and friction, from turning joints, with the scene's prop; the reference is "
-      "solved from "
-      "mass matrix and eq. 5 without MuJoCo. Farther down and left is better.",
+      "solved from mass matrix and eq. 5 without MuJoCo. Farther down and left is better.",
       1e3 * kSample * static_cast<double>(path.size() - 1));
   result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));
@@ -253,7 +241,7 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
            fmt::format("the same with dry and viscous friction, {} at {:g} us; CPU time of the thread",
                        truth.integrator, truth.timestep * 1e6));
   add_cost(result, "twin.step_over_yardstick.min", rubbed.cost * truth.timestep / yardstick, "x",
-           "a step of it over a fixed piece of work of the same run (kit/yardstick.h)", kUnset, kMostStep);
+           "a step of it over a fixed piece of work of the same run (kit/cost.h)", kUnset, kMostStep);
 }
 
 // What the tip does in ten seconds where nothing but gravity compensation drives the motors, a thousand times
@@ -302,7 +290,7 @@ void add_drift(const GravityRig& rig, BenchResult& result) {
        {"drift.bare.max", "bare tip, compensated", 0.0, exact, true},
        {"drift.no_friction.max", "20 g plate, compensated, no dry friction", kPlate, exact, false},
        {"fall.bare.max", "bare tip, not compensated", 0.0, none, true}}};
-  Plot plot{"gravity.drift", "Left alone for ten seconds", "time, s", "way of the tip, mm", false, true, {}};
+  Plot plot{"gravity.drift", "Left alone for ten seconds", "time, s", "way of the tip, mm", false, true};
   for (const Case& c : kCases) {
     const Still still =
         left_alone(rig, c.payload, c.form, c.friction ? rig.setup.twin.arm.friction : PerJoint{});
@@ -317,9 +305,9 @@ void add_drift(const GravityRig& rig, BenchResult& result) {
                kUnset, held && c.friction ? 1.0 : kUnset);
   }
   plot.caption =
-      "Without compensation the arm falls to its limits: the counterweight was made for a gimbal that is "
-      "not there, and lifts the upper arm. With it, dry friction holds what the steps of the encoders leave. "
-      "No control of the position takes part here.";
+      "Without compensation the arm falls to its limits: the counterweight was made for a gimbal that is not "
+      "there, and lifts the upper arm. With it, dry friction holds what the steps of the encoders leave. No "
+      "control of the position takes part here.";
   result.plots.push_back(std::move(plot));
 }
 

@@ -122,11 +122,10 @@ void add_sweep(Bench& bench, const std::string& scene) {
               fmt::format("{:g}", mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); })),
               fmt::format("{:.3g}", cost), failed);
     if (i > 0) continue;
-    bench.figure(
-        scene + ".felt.error.median", median(errors), "%", at_most(10.0),
-        fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the default, "
-                    "against a contact law of its own with a converged step; {} hands",
-                    hands));
+    bench.figure(scene + ".felt.error.median", median(errors), "%", at_most(10.0),
+                 fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the "
+                             "default, against a contact law of its own with a converged step; {} hands",
+                             hands));
     bench.figure(scene + ".felt.error." + tail.word, error, "%", "the same, of 95 % of the hands or of all");
     const Tail newtons = tail_of(
         values(of, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }), 0.95);
@@ -144,9 +143,8 @@ void add_sweep(Bench& bench, const std::string& scene) {
        .title = "First touch of " + scene + ": error against run time",
        .x_label = "CPU time for one second of experiment (s)",
        .y_label = "error of what the hand feels (%)",
-       .caption = "Of the grip's largest force, 95 % of the hands, against a contact law of "
-                  "its own at a converged step. A person tells 7 %, and 0.1 N. Crosses: the "
-                  "engine warned."},
+       .caption = "Of the grip's largest force, 95 % of the hands, against a contact law of its own at a "
+                  "converged step. A person tells 7 %, and 0.1 N. Crosses: the engine warned."},
       curves);
   plot.series.push_back(std::move(chosen));
   bench.plot(std::move(plot));
@@ -176,8 +174,8 @@ void add_law(Bench& bench) {
       breaks.push_back(t.breaks);
       push.push_back(t.push);
     }
-    table.add(stiffness, law.friction, step * 1e6, fmt::format("{:.4f}", median(grip)),
-              fmt::format("{:.3f}", median(peak)), median(breaks), fmt::format("{:.2f}", 1e3 * median(push)));
+    table.add(stiffness, law.friction, step * 1e6, fixed(median(grip), 4), fixed(median(peak), 3),
+              median(breaks), fixed(1e3 * median(push), 2));
     return median(grip);
   };
   const double soft = felt(law_of(setup, 1e4), kFine, "1e4"), middle = felt(law_of(setup, 1e5), kFine, "1e5");
@@ -188,11 +186,10 @@ void add_law(Bench& bench) {
   felt({1e9, 1.5, 1.0, 0.0, setup.twin.world.tip_friction}, kFine, "1e9 d^1.5 (Hertz)");
   bench.figure("law.step.error", 100.0 * std::abs(middle / fine - 1.0), "%", at_most(0.5),
                "what is felt by the law of its own: step of 5 us against 1 us");
-  bench.figure("law.stiffness.spread",
-               100.0 * (std::max({soft, middle, hard}) / std::min({soft, middle, hard}) - 1.0), "%",
-               at_most(7.0),
-               "the same over 10^4 to 10^6 N/m: less than a person tells; the contact's own force "
-               "differs ten times");
+  bench.figure(
+      "law.stiffness.spread", 100.0 * (std::max({soft, middle, hard}) / std::min({soft, middle, hard}) - 1.0),
+      "%", at_most(7.0),
+      "the same over 10^4 to 10^6 N/m: less than a person tells; the contact's own force differs ten times");
   bench.table(std::move(table));
 }
 
@@ -285,9 +282,8 @@ void add_speeds(Bench& bench) {
       at->add(runs[i].speed, t.grip);
       (runs[i].stands ? standing : moving) += found[i].bounces;
       table.add(machine.name, runs[i].speed, runs[i].what, runs[i].stands ? "yes" : "no",
-                fmt::format("{:.1f}", 1e3 * t.moving), fmt::format("{:.0f}", 1e3 * t.closing),
-                fmt::format("{:.2f}", t.peak), fmt::format("{:.2f}", t.grip), t.breaks,
-                fmt::format("{:.1f}", 1e3 * t.lost), t.long_breaks);
+                fixed(1e3 * t.moving, 1), fixed(1e3 * t.closing, 0), fixed(t.peak, 2), fixed(t.grip, 2),
+                t.breaks, fixed(1e3 * t.lost, 1), t.long_breaks);
     }
     bench.plot(std::move(plot));
     bench.figure(fmt::format("{}.bounces.standing", machine.name), standing, "",

@@ -109,9 +109,7 @@ Watched watch_touch(const models::Setup& setup, std::uint64_t seed) {
   const double h = setup.twin.stepping(setup.scene).timestep;
   try {
     Listener listener;
-    trial::TrialOptions options;
-    options.seed = seed;
-    trial::Trial trial(setup, options);
+    trial::Trial trial(setup, {.seed = seed});
     const Ear ear(listener, trial.world().physics(), setup.scene.arm.has_value());
     const double start = thread_seconds();
     double touched = kUnset;

@@ -78,8 +78,6 @@ struct HandSpread {
 // The scene of an indentation: `own` settings, then the user's, so that the user's win.
 [[nodiscard]] models::Setup indent_setup(const std::string& models, const Indentation& which,
                                          const Words& own, const Words& user);
-// The same, felt with another law between the two curves.
-[[nodiscard]] models::Setup with_reversal(models::Setup setup, Reversal reversal);
 // A hand that neither trembles nor drifts: what is left is the machine's.
 [[nodiscard]] const Words& still_hand();
 // Runs with seeds first, first + 1, ..., each with a hand of its own, on all cores.

@@ -25,14 +25,9 @@ struct Cell {
   double rmse = kUnset, mae = kUnset, bias = kUnset, least = kUnset, most = kUnset;  // N
 };
 enum class Reading : std::uint8_t { recorded, sensor, truth };
-[[nodiscard]] const Recording& recording_of(const IndentRun& run, Reading reading);
 using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation i
 [[nodiscard]] Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press);
 [[nodiscard]] std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading);  // all six
-// Mean force of each kBin of deflection; NaN where there is none. `minus`: less that reference curve.
-inline constexpr double kBin = 0.05e-3;  // m
-[[nodiscard]] std::vector<double> binned(const Branch& branch, double limit, const Response* minus,
-                                         bool press);
 
 struct IndentStudy {
   const BenchContext& context;
@@ -49,8 +44,6 @@ struct LagTheory {
   double depth, threshold, lag;  // m, N, s
 };
 [[nodiscard]] double predicted_rmse(const LagTheory& theory, double time);  // N; time: s, of the press
-// s: of the machine's position behind the filtered force, and behind the force before the filter.
-[[nodiscard]] double recorded_lag(const models::Setup& setup);
 [[nodiscard]] double sensor_lag(const models::Setup& setup);
 
 // The press time is what the paper does not say: RMSE over it. And whether halving it does what lag x speed x
@@ -59,14 +52,8 @@ void add_press_time(const IndentStudy& study, BenchResult& result);
 // A set of devices that follows the curves more closely, and what it costs. Gives its six cells.
 [[nodiscard]] std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                              BenchResult& result);
-void add_loops(const IndentRuns& runs, BenchResult& result);           // Fig 8 and what is left of it
-void add_fig10(const std::vector<IndentRun>& a, BenchResult& result);  // with its zooms i to iv
-void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard,
-                     const std::vector<Cell>& accurate, BenchResult& result);
 // Presses in directions that nobody measured, against the rig's own push there.
 void add_directions(const IndentStudy& study, BenchResult& result);
-// RMSE of the true force at the step that ships over that at a converged one.
-void add_converged(const IndentStudy& study, BenchResult& result);
 // Turning at 2 and at 4 mm, against the rig's ball.
 void add_minor_loops(const IndentStudy& study, BenchResult& result);
 

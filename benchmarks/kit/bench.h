@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,11 @@ struct Table {
   }
 };
 
+// A number of a table, with so many digits behind the point.
+[[nodiscard]] inline std::string fixed(double value, int digits) {
+  return fmt::format("{:.{}f}", value, digits);
+}
+
 struct Picture {
   std::string id, title, caption, png;  // id.png is its file; `png` the bytes
 };
@@ -72,7 +78,7 @@ struct BenchContext {
   std::function<void(double)> progress;  // share done; any thread may call it
   // Loads a module of the program by name; null where it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
-  // Over the devices of a rig (over_rig.h); empty: in the twin.
+  // Over the devices of a rig (scenes.h); empty: in the twin.
   std::string rig{};
   bool armed = false, lockstep = false, fakes = false;
   bool not_real_time = false;  // a machine moves although the system refuses that
@@ -85,5 +91,28 @@ struct BenchContext {
     return quick ? if_quick : own;
   }
 };
+
+// The table of benchmarks. Each one puts itself there, by one line in its own file:
+//   const Entry kEntry{"speed", "tennis_ball", "step(), times real time", run};
+
+class Bench;
+
+struct Benchmark {
+  const char* name;   // of its folder, too; first token of its figures' ids
+  const char* scene;  // in models/scenes or models/rigs, without ".toml"; else what is measured: no --set
+  const char* what;   // one line
+  void (*run)(Bench&);
+  void (*over_rig)(Bench&) = nullptr;  // the same over the devices of a rig; null: the twin alone
+};
+
+class Entry {
+ public:
+  Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&),
+        void (*over_rig)(Bench&) = nullptr);
+};
+
+[[nodiscard]] std::span<const Benchmark> benchmarks();  // by name
+// In the twin, or over the devices of the context's rig.
+[[nodiscard]] BenchResult result_of(const Benchmark& benchmark, const BenchContext& context);
 
 }  // namespace enc::bench

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/benchmark.h"
-#include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "benchmarks/kit/statistics.h"
 
 namespace enc::bench {
@@ -42,7 +41,7 @@ class Bench {
   const BenchContext& context;
   BenchResult result;
 
-  // The benchmark's own scene: load_scene.h.
+  // The benchmark's own scene: scenes.h.
   [[nodiscard]] models::Setup setup(std::vector<std::string> own = {},
                                     const std::vector<std::string>& held = {}) const {
     return load_scene(context, result.scene, std::move(own), held);

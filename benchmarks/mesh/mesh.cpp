@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/yardstick.h"
 #include "core/base/error.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
@@ -83,9 +83,7 @@ void run(Bench& bench) {
   const double cpu = thread_seconds() - cpu_start;
   const std::size_t triangles = solid.mesh.triangles.size();
 
-  trial::TrialOptions options;
-  options.seed = bench.context.seed;
-  options.seconds = bench.context.quick ? 10.0 : 40.0;
+  trial::TrialOptions options{.seed = bench.context.seed, .seconds = bench.context.quick ? 10.0 : 40.0};
   Yardstick yardstick;
   options.watch = yardstick.watch();
   const models::Setup setup = with_mesh(bench, std::move(solid.mesh));
@@ -113,7 +111,7 @@ void run(Bench& bench) {
   bench.cost("step.one_run.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us",
              "of one run, with the interrupts of the machine");
   bench.cost("step_over_yardstick.median", percentile(run.step_ns, 0.5) * 1e-9 / yardstick.seconds(), "x",
-             at_most(4.0), "step() over a fixed piece of work of the same run (kit/yardstick.h)");
+             at_most(4.0), "step() over a fixed piece of work of the same run (kit/cost.h)");
   bench.cost("load_over_yardstick.total", cpu / yardstick.seconds(), "x", at_most(8e5),
              "mesh.load.cpu, likewise");
   bench.figure("contacts", run.contacts, "", at_least(1.0), "it was pressed");

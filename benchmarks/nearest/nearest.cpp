@@ -10,7 +10,6 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/yardstick.h"
 #include "benchmarks/peers/peers.h"
 #include "core/base/units.h"
 #include "core/devices/module.h"
@@ -169,7 +168,7 @@ void growth(Bench& bench, const std::vector<Point<'O'>>& path, std::size_t laps)
   bench.cost("growth_1k_to_1M.median", many.ratio(0, few, 0), "x", at_most(5.0), "the same hand");
   bench.cost("ball_1M.build", built, "s", "the tree, normals included; CPU time");
   bench.cost("ball_1M.build_over_yardstick.total", built / yardstick.seconds(), "x", at_most(kBuild),
-             "the same over a fixed piece of work of the same run (kit/yardstick.h)");
+             "the same over a fixed piece of work of the same run (kit/cost.h)");
   bench.figure("ball_1M.memory",
                static_cast<double>(large.memory_bytes()) / static_cast<double>(ball.triangles.size()),
                "B/tri", at_most(150.0), "the mesh included");

@@ -1,19 +1,117 @@
-// The button of Fig 5: pressed slowly by a stiff finger, live by a hand that vision sees, and without the
-// gradual change that keeps the device stable.
+// A press on the button, and what is read off it: lines, curves and lags.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/plane_button/plane_button.h"
+#include "trial/measure/finger_measure.h"
 
 namespace enc::bench::plane_button {
 namespace {
 
+// Three straight lines; between two of them the force goes over smoothly (3 s^2 - 2 s^3) within `gradual`.
+// Where, how steep and how gradual: all nine are found from the curve alone.
+struct ThreeLines {
+  double d1 = kUnset, d2 = kUnset, gradual = kUnset;  // m
+  double slope[3] = {kUnset, kUnset, kUnset};         // N/m
+  double rms = kUnset;                                // N, of what is left
+};
+
+double at_depth(const Curve& curve, double depth) {
+  const auto next = std::lower_bound(curve.depth.begin(), curve.depth.end(), depth);
+  if (next == curve.depth.begin() || next == curve.depth.end()) return kUnset;
+  const auto i = static_cast<std::size_t>(next - curve.depth.begin());
+  const double share = (depth - curve.depth[i - 1]) / (curve.depth[i] - curve.depth[i - 1]);
+  return curve.force[i - 1] + share * (curve.force[i] - curve.force[i - 1]);
+}
+
+using Coefficients = Eigen::Matrix<double, 6, 1>;  // offset and slope of each line
+using Breaks = std::array<double, 3>;              // d1, d2, gradual, m
+
+// The fit of a button's curve: three lines, two breaks, one width.
+
+double gone_over(double depth, double from, double width) {
+  const double s = std::clamp((depth - from) / width, 0.0, 1.0);
+  return s * s * (3.0 - 2.0 * s);
+}
+
+// Least squares for given breaks: what is left, N^2.
+double rest_of(const Curve& curve, const Breaks& breaks, Coefficients& best) {
+  constexpr double kNarrowest = 0.02e-3, kRefused = 1e12;
+  const auto [d1, d2, gradual] = breaks;
+  if (gradual < kNarrowest || d2 < d1 + gradual || d1 < curve.depth.front() ||
+      d2 + gradual > curve.depth.back())
+    return kRefused;
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Coefficients right = Coefficients::Zero();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < curve.depth.size(); ++i) {
+    const double x = 1e3 * curve.depth[i];  // mm: offsets and slopes of one size
+    const double past1 = gone_over(curve.depth[i], d1, gradual);
+    const double past2 = gone_over(curve.depth[i], d2, gradual);
+    const double share[3] = {1.0 - past1, past1 * (1.0 - past2), past1 * past2};
+    Coefficients row;
+    for (int k = 0; k < 3; ++k) row.segment<2>(2 * k) << share[k], share[k] * x;
+    normal += row * row.transpose();
+    right += curve.force[i] * row;
+    squares += curve.force[i] * curve.force[i];
+  }
+  best = normal.ldlt().solve(right);
+  return best.allFinite() ? squares - best.dot(right) : kRefused;
+}
+
+// The best of a coarse grid over the whole curve.
+Breaks coarse(const Curve& curve) {
+  constexpr double kStep = 0.2e-3;
+  Breaks best{};
+  double least = 1e300;
+  Coefficients unused;
+  const double first = curve.depth.front();
+  const int steps = static_cast<int>((curve.depth.back() - first) / kStep);
+  for (int i = 0; i < steps; ++i)
+    for (int k = i + 1; k <= steps; ++k)
+      for (const double gradual : {0.1e-3, 0.3e-3, 0.6e-3, 1.0e-3}) {
+        const Breaks breaks{first + i * kStep, first + k * kStep, gradual};
+        const double rest = rest_of(curve, breaks, unused);
+        if (rest >= least) continue;
+        least = rest;
+        best = breaks;
+      }
+  return best;
+}
+
+// From there, each of the three in turn, by steps that become smaller.
+Breaks refined(const Curve& curve, Breaks at) {
+  Coefficients unused;
+  double least = rest_of(curve, at, unused);
+  for (double step = 0.1e-3; step > 0.2e-6;) {
+    bool better = false;
+    for (std::size_t which = 0; which < at.size(); ++which)
+      for (const double way : {-step, step}) {
+        Breaks next = at;
+        next[which] += way;
+        const double rest = rest_of(curve, next, unused);
+        if (rest >= least) continue;
+        least = rest;
+        at = next;
+        better = true;
+      }
+    if (!better) step *= 0.5;
+  }
+  return at;
+}
+
 using sim::Phase;
 using Settings = std::vector<std::string>;
+
+// The button of Fig 5: pressed slowly by a stiff finger, live by a hand that vision sees, and without the
+// gradual change that keeps the device stable.
 
 // A finger like a testing machine: it goes where it is told, so that the dip is passed slowly, too.
 const Settings kStiffFinger{"truth.hand.stiffness_N_per_mm=20", "truth.hand.grip_stiffness_N_per_mm=20",
@@ -51,6 +149,32 @@ ButtonRuns button_runs(const BenchContext& context) {
       [&] { runs.sudden = press_trace(context, "button", joined(high, kSudden)); }};
   in_parallel(context.quick ? 2 : all.size(), [&](std::size_t i) { all[i](); });
   return runs;
+}
+
+Curve mean_curve(const PressTrace& trace, double low, double high, double width) {
+  const Curve down = curve_of(trace, sim::Phase::press, low, high, width);
+  const Curve up = curve_of(trace, sim::Phase::release, low, high, width);
+  Curve mean;
+  for (int i = 0; low + i * width < high; ++i) {
+    const double depth = low + i * width;
+    const double force = 0.5 * (at_depth(down, depth) + at_depth(up, depth));
+    if (std::isnan(force)) continue;
+    mean.depth.push_back(depth);
+    mean.force.push_back(force);
+  }
+  return mean;
+}
+
+ThreeLines fit_three_lines(const Curve& curve) {
+  constexpr std::size_t kLeast = 20;
+  if (curve.depth.size() < kLeast) return {};
+  const Breaks breaks = refined(curve, coarse(curve));
+  Coefficients lines = Coefficients::Zero();
+  const double rest = rest_of(curve, breaks, lines);
+  ThreeLines fit{breaks[0], breaks[1], breaks[2]};
+  for (int k = 0; k < 3; ++k) fit.slope[k] = 1e3 * lines[2 * k + 1];
+  fit.rms = std::sqrt(std::max(0.0, rest) / static_cast<double>(curve.depth.size()));
+  return fit;
 }
 
 void slow_figures(const PressTrace& trace, const InteractionSpec& law, double resistance,
@@ -147,8 +271,7 @@ Series over_distance(const std::string& name, const PressTrace& trace, Phase pha
   constexpr std::size_t kEvery = 8;
   for (std::size_t i = 0; i < trace.size(); i += kEvery) {
     if (trace.phase[i] != phase || trace.depth[i] < -2e-3) continue;
-    series.x.push_back(-1e3 * trace.depth[i]);
-    series.y.push_back(trace.force[i]);
+    series.add(-1e3 * trace.depth[i], trace.force[i]);
   }
   return series;
 }
@@ -157,10 +280,8 @@ Series over_time(const std::string& name, const PressTrace& trace) {
   Series series{name};
   std::size_t begin = 0;
   while (begin < trace.size() && !(trace.phase[begin] == Phase::press && trace.depth[begin] > 1e-3)) ++begin;
-  for (std::size_t i = begin; i < trace.size() && trace.phase[i] != Phase::release; ++i) {
-    series.x.push_back(trace.t[i] - trace.t[begin]);
-    series.y.push_back(trace.force[i]);
-  }
+  for (std::size_t i = begin; i < trace.size() && trace.phase[i] != Phase::release; ++i)
+    series.add(trace.t[i] - trace.t[begin], trace.force[i]);
   return series;
 }
 
@@ -174,12 +295,9 @@ void button_plots(const ButtonRuns& runs, const Law& law, const Law& wall, const
   for (int i = 0; i < 300; ++i) {
     const double depth = i * 0.02e-3;
     const Felt felt = felt_at(law.does, law.stiffness, law.free, depth);
-    force.x.push_back(-1e3 * depth);
-    force.y.push_back(felt.stiffness * (depth - felt.sunk));
-    click.x.push_back(1e3 * depth);
-    click.y.push_back(felt.stiffness / law.does.floor);
-    slide.x.push_back(1e3 * depth);
-    slide.y.push_back(felt_at(wall.does, wall.stiffness, wall.free, depth).stiffness / wall.stiffness);
+    force.add(-1e3 * depth, felt.stiffness * (depth - felt.sunk));
+    click.add(1e3 * depth, felt.stiffness / law.does.floor);
+    slide.add(1e3 * depth, felt_at(wall.does, wall.stiffness, wall.free, depth).stiffness / wall.stiffness);
   }
   button.series = {force, over_distance("slow, pressed", runs.slow, Phase::press),
                    over_distance("slow, let go", runs.slow, Phase::release),
@@ -199,6 +317,127 @@ void button_plots(const ButtonRuns& runs, const Law& law, const Law& wall, const
 }
 
 }  // namespace
+
+std::vector<std::string> live(std::vector<std::string> more) {
+  std::vector<std::string> all{"truth.tracker.rate_hz=1000",
+                               "truth.tracker.latency_ms=0",
+                               "truth.tracker.noise_mm=[0,0,0]",
+                               "truth.tracker.marker_noise_mm=0",
+                               "rig.tracker.prediction=\"hold\"",
+                               "rig.tracker.usual_age_ms=2",
+                               "rig.arm.settle_ms=5"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+Law law_of(const BenchContext& context, const std::string& scene) {
+  const models::Setup setup = load_scene(context, scene);
+  const Scene prepared = trial::prepare_setup(setup);
+  const Object& object = prepared.objects.front();
+  return {object.interaction, object.stiffness, setup.rig.arm.stiffness};
+}
+
+PressTrace press_trace(const BenchContext& context, const std::string& scene, std::vector<std::string> own,
+                       double seconds) {
+  PressTrace trace;
+  trial::TrialOptions options{.seed = context.seed, .seconds = seconds};
+  options.watch = [&trace](const trial::Glance& glance) {
+    const trial::TrueDepth at = trial::true_depth(glance);
+    const bool known = at.normal.finite();
+    const Vec<'W'>& pushed = glance.truth.contact_force;
+    const double force = known ? -dot(pushed, at.normal) : 0.0;
+    trace.t.push_back(::enc::seconds(glance.truth.t.time_since_epoch()));
+    trace.depth.push_back(known ? at.depth : -1.0);
+    trace.believed.push_back(-glance.out.gap);
+    trace.force.push_back(force);
+    trace.side.push_back(known ? (pushed + force * at.normal).norm() : 0.0);
+    trace.gain.push_back(glance.out.gain);
+    trace.speed.push_back(glance.truth.tip_velocity.norm());
+    trace.phase.push_back(glance.truth.phase);
+    trace.contact.push_back(glance.out.mode == Mode::contact ? 1 : 0);
+  };
+  trial::Trial trial(load_scene(context, scene, std::move(own)), std::move(options));
+  const double start = thread_seconds();
+  trace.run = trial.run();
+  trace.cpu = thread_seconds() - start;
+  return trace;
+}
+
+Line line_of(const PressTrace& trace, sim::Phase phase, Depth of, double low, double high) {
+  trial::LineFit fit;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    if (trace.phase[i] != phase || trace.contact[i] == 0) continue;
+    if (trace.depth[i] < low || trace.depth[i] > high) continue;
+    fit.add(of == Depth::truth ? trace.depth[i] : trace.believed[i], trace.force[i]);
+  }
+  return {fit.slope(), fit.r2(), fit.n};
+}
+
+double greatest_step(const PressTrace& trace, double low, double beyond) {
+  double most = 0.0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    if (trace.contact[i] == 0 || trace.contact[i - 1] == 0) continue;
+    if (!(std::min(trace.depth[i], trace.depth[i - 1]) >= low)) continue;
+    const double motion = beyond * std::abs(trace.depth[i] - trace.depth[i - 1]);
+    most = std::max(most, std::abs(trace.force[i] - trace.force[i - 1]) - motion);
+  }
+  return most;
+}
+
+double lag_of(const PressTrace& trace) {
+  constexpr std::size_t kMost = 200;  // ticks
+  constexpr double kFrom = 1e-3;      // m
+  double least = kUnset, lag = kUnset;
+  for (std::size_t shift = 0; shift <= kMost; ++shift) {
+    double sum = 0.0;
+    std::size_t n = 0;
+    for (std::size_t i = kMost; i < trace.size(); ++i) {
+      const bool pressing = trace.phase[i] == sim::Phase::press || trace.phase[i] == sim::Phase::release;
+      if (!pressing || trace.depth[i - shift] < kFrom || !std::isfinite(trace.believed[i])) continue;
+      const double apart = trace.believed[i] - trace.depth[i - shift];
+      sum += apart * apart;
+      ++n;
+    }
+    const double mean = n > 0 ? sum / static_cast<double>(n) : kUnset;
+    if (!(mean >= least) && n > 0) {
+      least = mean;
+      lag = trace.t[shift] - trace.t[0];
+    }
+  }
+  return lag;
+}
+
+Curve curve_of(const PressTrace& trace, sim::Phase phase, double low, double high, double width) {
+  const auto bins = static_cast<std::size_t>(std::ceil((high - low) / width));
+  std::vector<double> depth(bins, 0.0), force(bins, 0.0), count(bins, 0.0);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    if (trace.phase[i] != phase || trace.contact[i] == 0) continue;
+    const double at = (trace.depth[i] - low) / width;
+    if (!(at >= 0.0) || at >= static_cast<double>(bins)) continue;
+    const auto bin = static_cast<std::size_t>(at);
+    depth[bin] += trace.depth[i];
+    force[bin] += trace.force[i];
+    count[bin] += 1.0;
+  }
+  Curve curve;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    if (count[bin] == 0.0) continue;
+    curve.depth.push_back(depth[bin] / count[bin]);
+    curve.force.push_back(force[bin] / count[bin]);
+  }
+  return curve;
+}
+
+Line line_of(const Curve& curve) {
+  trial::LineFit fit;
+  for (std::size_t i = 0; i < curve.depth.size(); ++i) fit.add(curve.depth[i], curve.force[i]);
+  return {fit.slope(), fit.r2(), fit.n};
+}
+
+void Report::figure(const std::string& id, double value, const char* unit, const std::string& note,
+                    double low, double high) const {
+  result_.figures.push_back({"plane_button." + id, kUnset, value, unit, Role::ours, low, high, note});
+}
 
 void measure_button(const BenchContext& context, const Report& report) {
   const ButtonRuns runs = button_runs(context);

@@ -61,20 +61,10 @@ enum class Depth : std::uint8_t { truth, believed };
 struct Curve {
   std::vector<double> depth, force;  // m, N
 };
-[[nodiscard]] Curve mean_curve(const PressTrace& trace, double low, double high, double width);
 [[nodiscard]] Curve curve_of(const PressTrace& trace, sim::Phase phase, double low, double high,
                              double width);
 
 [[nodiscard]] Line line_of(const Curve& curve);
-
-// Three straight lines; between two of them the force goes over smoothly (3 s^2 - 2 s^3) within `gradual`.
-// Where, how steep and how gradual: all nine are found from the curve alone.
-struct ThreeLines {
-  double d1 = kUnset, d2 = kUnset, gradual = kUnset;  // m
-  double slope[3] = {kUnset, kUnset, kUnset};         // N/m
-  double rms = kUnset;                                // N, of what is left
-};
-[[nodiscard]] ThreeLines fit_three_lines(const Curve& curve);
 
 // Parts of the result.
 class Report {
@@ -92,9 +82,6 @@ class Report {
  private:
   BenchResult& result_;
 };
-void measure_wall(const BenchContext& context, const Report& report);
 void measure_button(const BenchContext& context, const Report& report);
-void measure_step(const BenchContext& context, const Report& report);       // 20 mm, in free space
-void measure_precision(const BenchContext& context, const Report& report);  // error over run time
 
 }  // namespace enc::bench::plane_button

@@ -5,18 +5,271 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
-#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/precision/parts.h"
+#include "benchmarks/kit/precision.h"
+#include "trial/trial.h"
 
 namespace enc::bench::precision {
 namespace {
+
+constexpr double kGlance = 8e-3;  // s, between two places of a fall
+constexpr int kGlances = 25;
+
+// A hand on its way to an object, and the machine that goes to meet it. Encoders that count finely and
+// friction without a jump leave nothing in it that is not smooth.
+struct Smooth {
+  const char* name;
+  const char* scene;
+  const char* table;  // where its step stands
+  bool steps;         // the machine, by microns: only the hand moves smoothly
+  std::vector<std::string> set;
+};
+const std::array<Smooth, 2>& smooth() {
+  static const std::array<Smooth, 2> kSmooth{
+      Smooth{"hand", "tennis_ball", "truth.world", true, {}},
+      Smooth{"arm",
+             "wall",
+             "truth.arm",
+             false,
+             {"truth.arm.friction_form=smooth", "truth.arm.counts=[1e9, 1e9, 1e9]"}}};
+  return kSmooth;
+}
+
+struct Way {
+  std::vector<Vec3> at;  // of the tool's tip and, unless the machine steps, of the machine's in turn
+  bool touched = false;
+};
+
+// The arm falls by itself, its motors and friction left out: nothing but MuJoCo's own step.
+Way falling(const BenchContext& context, const std::string& integrator, double step) {
+  trial::Trial trial(
+      load_scene(context, "wall", {"truth.arm.friction_form=smooth", "truth.arm.integrator=" + integrator}),
+      {.seconds = 1.0});
+  sim::Physics& physics = trial.world().physics();
+  physics.model()->opt.timestep = step;
+  const int tip = physics.id(mjOBJ_BODY, "prop");
+  const auto steps = std::lround(kGlance / step);
+  Way way;
+  for (int glance = 0; glance < kGlances; ++glance) {
+    for (int i = 0; i < steps; ++i) mj_step(physics.model(), physics.data());
+    mj_kinematics(physics.model(), physics.data());
+    way.at.emplace_back(physics.data()->xpos + 3 * tip);
+  }
+  return way;
+}
+
+Way way_of(const BenchContext& context, const Smooth& smooth, const std::string& integrator, double step) {
+  Way way;
+  std::vector<std::string> set = smooth.set;
+  set.push_back(fmt::format("{}.timestep_us={:g}", smooth.table, step * 1e6));
+  set.push_back(fmt::format("{}.integrator={}", smooth.table, integrator));
+  trial::TrialOptions options{.seed = context.seed};
+  options.seconds = 1.0;  // nothing touches before
+  options.watch = [&](const trial::Glance& glance) {
+    way.at.push_back(glance.truth.tool_tip.e());
+    if (!smooth.steps) way.at.push_back(glance.truth.tip.e());
+    way.touched = way.touched || glance.truth.touching;
+  };
+  trial::Trial trial(load_scene(context, smooth.scene, set), options);
+  trial.run();
+  return way;
+}
+
+// The path that a step of nothing would give. Where the twin takes a hand and a servo once a step, RK4 has an
+// error of the first order too: two steps tell how large it is, and what is left is of the second.
+template <class WayWith>
+Way converged(const WayWith& way_with, double coarse, bool alone) {
+  Way fine = way_with("rk4", coarse / 40.0);
+  if (alone) return fine;
+  const Way finer = way_with("rk4", coarse / 80.0);
+  fine.touched = fine.touched || finer.touched;
+  for (std::size_t i = 0; i < fine.at.size(); ++i) fine.at[i] = 2.0 * finer.at.at(i) - fine.at[i];
+  return fine;
+}
+
+double apart(const Way& a, const Way& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.at.size(); ++i) sum += (a.at[i] - b.at.at(i)).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.at.size()));
+}
+
+// With which power of the step the error falls, where nothing touches, sticks or is counted: theory has one
+// for each integrator.
+void add_orders(Bench& bench) {
+  constexpr double kRounding = 1e-15;  // m
+  Table table{"orders", "Error of a path without contact", {"path", "integrator", "timestep_us", "error_um"}};
+  const auto fit = [&](const std::string& path, const std::string& integrator, const auto& way_with,
+                       bool alone) {
+    const double coarse = alone ? kGlance : 1e-3;
+    const Way truth = converged(way_with, coarse, alone);
+    std::vector<double> steps, errors;
+    for (const double parts : {1.0, 2.0, 4.0, 8.0}) {
+      steps.push_back(coarse / parts);
+      const Way way = way_with(integrator, steps.back());
+      errors.push_back(way.touched || truth.touched ? kUnset : apart(way, truth));
+      table.add(path, integrator, fmt::format("{:g}", steps.back() * 1e6),
+                fmt::format("{:.3g}", errors.back() * 1e6));
+    }
+    const bool fourth = integrator == "rk4" && alone;
+    bench.figure(fmt::format("order.{}.{}", path, integrator), fitted_order(steps, errors, kRounding), "",
+                 fourth ? at_least(3.5) : between(0.9, 1.1),
+                 alone ? "power of the step with which the error falls: an arm that falls, by itself"
+                       : "a hand on its way and the machine that goes to meet it: what the twin adds to the "
+                         "physics is taken once a step");
+  };
+  for (const std::string& integrator : trial::Grid{}.integrators) {
+    fit(
+        "fall", integrator,
+        [&](const std::string& with, double step) { return falling(bench.context, with, step); }, true);
+    for (const Smooth& one : smooth())
+      fit(
+          one.name, integrator,
+          [&](const std::string& with, double step) { return way_of(bench.context, one, with, step); },
+          false);
+  }
+  bench.table(std::move(table));
+}
+
+using trial::PrecisionPoint;
+
+// What is asked about: the force that is felt, or the way of the tip.
+struct Norm {
+  const char* name;
+  double PrecisionPoint::*error;
+  double trial::Accuracy::*most;
+  double unit;  // as it is printed: N, um
+};
+constexpr std::array kNorms{Norm{"force, N", &PrecisionPoint::error, &trial::Accuracy::force, 1.0},
+                            Norm{"path, um", &PrecisionPoint::way, &trial::Accuracy::way, 1e-6}};
+
+struct Carried {
+  std::string scene;
+  const Norm* norm = nullptr;
+  const PrecisionPoint *advised = nullptr, *next = nullptr;  // of the study; null: none
+  double asked = kUnset, error = kUnset, next_error = kUnset;
+  std::string failure{};  // of a run that judges
+  [[nodiscard]] bool meets() const { return error <= asked; }
+  [[nodiscard]] bool has_next() const { return !std::isnan(next_error); }
+  [[nodiscard]] bool next_fails() const { return next_error > asked; }
+};
+
+// An error that somebody could ask for, and that tells settings apart: in the middle of the widest gap, by
+// ratio, between what a setting gives and what all that are cheaper do. Where no gap is wide, half more than
+// what costs least errs.
+double asked_of(const std::vector<PrecisionPoint>& points, double PrecisionPoint::*error) {
+  constexpr double kWide = 1.3;
+  const PrecisionPoint* least = nullptr;
+  double asked = kUnset, widest = kWide;
+  for (const PrecisionPoint& point : points) {
+    if (!point.failure.empty()) continue;
+    if (least == nullptr || point.cost() < least->cost()) least = &point;
+    double best = kUnset;  // of what is cheaper
+    for (const PrecisionPoint& other : points)
+      if (other.failure.empty() && other.cost() * trial::kAsDear < point.cost() && !(best <= other.*error))
+        best = other.*error;
+    if (!(best > widest * point.*error)) continue;
+    widest = best / point.*error;
+    asked = std::sqrt(best * point.*error);
+  }
+  return std::isnan(asked) && least != nullptr ? 1.5 * least->*error : asked;
+}
+
+std::string words(const PrecisionPoint* point) {
+  return point != nullptr ? fmt::format("{} at {:g} us", point->integrator, point->step * 1e6) : "-";
+}
+
+bool same(const PrecisionPoint& a, const PrecisionPoint& b) {
+  return a.integrator == b.integrator && std::abs(a.step - b.step) < 1e-9;
+}
+
+// These points again, judged by RK4 at an eightieth of a period.
+std::vector<PrecisionPoint> again(const BenchContext& context, const ForceStudy& study,
+                                  const std::vector<const PrecisionPoint*>& points) {
+  trial::PrecisionOptions options;
+  options.rounds = 1;
+  options.converged = 80;
+  std::set<std::string> integrators;
+  std::set<int> parts;
+  for (const PrecisionPoint* point : points) {
+    integrators.insert(point->integrator);
+    parts.insert(static_cast<int>(std::lround(study.all.tick / point->step)));
+  }
+  options.grid = {{integrators.begin(), integrators.end()}, {parts.begin(), parts.end()}};
+  options.shipped_too = false;
+  options.twice = false;
+  return force_study(context, study.scene, {}, options).all.points;
+}
+
+std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& study) {
+  std::vector<Carried> all;
+  std::vector<const PrecisionPoint*> points;
+  for (const Norm& norm : kNorms) {
+    Carried one{study.scene, &norm};
+    one.asked = asked_of(study.all.points, norm.error);
+    trial::Accuracy most;
+    most.*norm.most = one.asked;
+    one.advised = trial::cheapest(study.all.points, most);
+    if (one.advised != nullptr) one.next = trial::next_cheaper(study.all.points, *one.advised);
+    for (const PrecisionPoint* point : {one.advised, one.next})
+      if (point != nullptr) points.push_back(point);
+    all.push_back(std::move(one));
+  }
+  const std::vector<PrecisionPoint> judged = again(context, study, points);
+  const auto error_of = [&](Carried& one, const PrecisionPoint* point) {
+    if (point == nullptr) return kUnset;
+    const auto at =
+        std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return same(j, *point); });
+    if (!at->failure.empty()) one.failure = at->failure;
+    return at->failure.empty() ? *at.*one.norm->error : kUnset;
+  };
+  for (Carried& one : all) {
+    one.error = error_of(one, one.advised);
+    one.next_error = error_of(one, one.next);
+  }
+  return all;
+}
+
+// Advice as `check --advise` gives it, carried out: judged by a converged run of another step.
+void add_advice(Bench& bench, const std::vector<ForceStudy>& studies) {
+  const std::vector<std::vector<Carried>> all =
+      bench.each(studies, [&](const ForceStudy& study) { return carried_out(bench.context, study); });
+  Table table{"advice",
+              "Advice carried out: errors by another converged run",
+              {"scene", "error of", "asked", "advised", "errs by", "next cheaper", "errs by", "judged"}};
+  table.printed = true;
+  std::size_t asked = 0, meets = 0, with_next = 0, next_fails = 0;
+  for (const std::vector<Carried>& scene : all)
+    for (const Carried& one : scene) {
+      ++asked;
+      meets += one.meets() ? 1 : 0;
+      with_next += one.has_next() ? 1 : 0;
+      next_fails += one.next_fails() ? 1 : 0;
+      const auto printed = [&](double error) {
+        return std::isnan(error) ? "-" : fmt::format("{:.4g}", error / one.norm->unit);
+      };
+      const bool holds = one.meets() && (!one.has_next() || one.next_fails());
+      table.add(one.scene, one.norm->name, printed(one.asked), words(one.advised), printed(one.error),
+                words(one.next), printed(one.next_error),
+                !one.failure.empty() ? one.failure
+                : holds              ? "holds"
+                                     : "does not");
+    }
+  bench.figure("advice.meets", static_cast<double>(meets) / static_cast<double>(asked), "", at_least(0.9),
+               fmt::format("share of {} pieces of advice in which the advised setting errs by no more than "
+                           "was asked, by another converged run",
+                           asked));
+  bench.figure(
+      "advice.next_fails", static_cast<double>(next_fails), "", at_least(10.0),
+      fmt::format("of {} that have a next cheaper setting: it errs by more than was asked", with_next));
+  bench.table(std::move(table));
+}
 
 struct Machine {
   const char* name;
@@ -63,11 +316,11 @@ void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::Pre
            fmt::format("Error against run time: {} scenes of the {}", machine.scenes.size(), machine.name),
        .x_label = "CPU time over that of what ships",
        .y_label = "force error over what a scene shall hold",
-       .caption = fmt::format("True force while something touches, against a converged run of the same hand; "
-                              "steps of a whole haptic period (left) to an eighth (right). A scene shall "
-                              "hold {:g} N, or twice what two converged runs differ by. What failed "
-                              "stands at the upper edge.",
-                              kForceAccuracy)},
+       .caption =
+           fmt::format("True force while something touches, against a converged run of the same hand; steps "
+                       "of a whole haptic period (left) to an eighth (right). A scene shall hold {:g} N, or "
+                       "twice what two converged runs differ by. What failed stands at the upper edge.",
+                       kForceAccuracy)},
       all, &trial::PrecisionPoint::cpu));
 }
 
@@ -76,9 +329,9 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
     const auto& points = study.all.points;
     for (const trial::PrecisionPoint& point : points)
       table.add(study.scene, point.integrator, fmt::format("{:g}", point.step * 1e6),
-                point.failure.empty() ? fmt::format("{:.4f}", point.error) : "",
-                point.failure.empty() ? fmt::format("{:.2f}", point.way * 1e6) : "",
-                fmt::format("{:.0f}", 1.0 / point.cpu), point.shipped ? "ships" : "", point.failure);
+                point.failure.empty() ? fixed(point.error, 4) : "",
+                point.failure.empty() ? fixed(point.way * 1e6, 2) : "", fixed(1.0 / point.cpu, 0),
+                point.shipped ? "ships" : "", point.failure);
     const trial::PrecisionPoint* shipped = trial::shipped(points);
     if (shipped == nullptr) continue;  // --set has put another step in its place
     bench.figure(study.scene + ".error.rms", shipped->error, "N", at_most(accuracy_of(study.all)),
@@ -104,8 +357,7 @@ void run(Bench& bench) {
   Table table{
       "points",
       "Error against run time",
-      {"scene", "integrator", "timestep_us", "force_N", "path_um", "times_real_time", "ships", "failure"},
-      {}};
+      {"scene", "integrator", "timestep_us", "force_N", "path_um", "times_real_time", "ships", "failure"}};
   std::vector<std::string> scenes;
   for (const Machine& machine : machines())
     for (const std::string& scene : machine.scenes)

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/precision.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::press {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
+
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench::questionnaire {
 namespace {
@@ -11,6 +15,39 @@ namespace {
 std::string tenth(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : ""; }
 
 }  // namespace
+
+std::vector<ItemReference> items_of(const Form& form, const std::string& models) {
+  std::vector<ItemReference> items;
+  std::optional<Reference> means;
+  if (!form.reference.empty()) means = Reference::load(models, form.reference);
+  for (const Item& item : form.items) {
+    ItemReference one{item.name, item.text, kUnset, {}};
+    if (means) one.paper = means->number(means->row({{"item", item.name}}), "mean");
+    std::istringstream ids(item.figures);
+    for (std::string id; ids >> id;) one.figures.push_back(id);
+    items.push_back(std::move(one));
+  }
+  return items;
+}
+
+Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all) {
+  Table table{
+      "questionnaire",
+      "Beside the questionnaire (Fig 14)",
+      {"item", "asked", "paper's mean (1 .. 7)", "figure", "twin", "unit", "verdict"},
+      {},
+      "The questionnaire is not simulated: these figures measure what an item asks about, they do not answer "
+      "it. `encounter questionnaire` asks people. Items that nothing here measures are left out."};
+  for (const ItemReference& item : items)
+    for (const std::string& id : item.figures) {
+      const auto j =
+          std::find_if(all.begin(), all.end(), [&](const Judged& one) { return one.figure.id == id; });
+      if (j == all.end()) continue;
+      table.rows.push_back({item.name, item.text, fmt::format("{:.1f}", item.paper), id,
+                            fmt::format("{:.3g}", j->figure.twin), j->figure.unit, felt_name(j->felt)});
+    }
+  return table;
+}
 
 Opinion opinion_of(const Form& form, const std::vector<Answer>& rows, std::size_t item) {
   Opinion o;
@@ -67,7 +104,7 @@ Table opinion_table(const Form& form, const std::vector<ItemReference>& items,
 }
 
 Table experience_table(const Form& form, const std::vector<Answer>& rows) {
-  Table table{"answers_experience", "Means with and without experience", {"item"}, {}, {}};
+  Table table{"answers_experience", "Means with and without experience", {"item"}};
   std::vector<std::vector<Answer>> groups;
   for (std::size_t e = 0; e < form.experience.size(); ++e)
     for (const bool yes : {true, false}) {
@@ -96,8 +133,8 @@ Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
                         rows.size())};
   // The axis shows the whole scale, whatever was answered.
   Series range{"range", {1.0, static_cast<double>(form.highest())}, {kUnset, kUnset}};
-  Series mean{fmt::format("mean of {}", rows.size()), {}, {}, {}, {}, Mark::points};
-  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
+  Series mean{.name = fmt::format("mean of {}", rows.size()), .mark = Mark::points};
+  Series paper{.name = "paper", .mark = Mark::points, .paper = true};
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Opinion o = opinion_of(form, rows, i);
     const auto y = static_cast<double>(i);

@@ -1,14 +1,27 @@
 // What answers say: mean, range and counts of each item, as [VHMR Fig 14] shows them, with the published
-// means beside.
+// means beside; and what the twin measures of what people were asked. No answer is simulated: a figure stands
+// beside an item, never in its place.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/questionnaire/answers.h"
-#include "benchmarks/questionnaire/proxies.h"
+#include "benchmarks/questionnaire/questionnaire.h"
+#include "benchmarks/verdict/verdict.h"
 
 namespace enc::bench::questionnaire {
+
+struct ItemReference {
+  std::string name, text;
+  double paper = kUnset;             // mean of the paper's participants, on its scale
+  std::vector<std::string> figures;  // ids
+};
+// With the means of the study that the form names, if it names one.
+[[nodiscard]] std::vector<ItemReference> items_of(const Form& form, const std::string& models);
+
+// Without rows where none of the figures was judged.
+[[nodiscard]] Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all);
 
 struct Opinion {
   double mean = kUnset;

@@ -1,16 +1,27 @@
+#include "benchmarks/reaching/reach_runs.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "benchmarks/kit/statistics.h"
-#include "benchmarks/reaching/reaching.h"
 #include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/control/stages/walk.h"
 
 namespace enc::bench::reaching {
 namespace {
+
+constexpr double kImpact = 0.050;  // s
+
+double along_surface(const trial::Wanted& at, const Point<'W'>& tip) {
+  const Vec3 apart = (at.point - tip).e();
+  const Vec3 n = at.normal.e();
+  return (apart - n.dot(apart) * n).norm();
+}
 
 ReachRan run_one(const BenchContext& context, const ReachRun& run) {
   ReachMeasure measure;
@@ -47,6 +58,90 @@ std::vector<double> of_each(const std::vector<ReachOutcome>& reaches, Value valu
 }
 
 }  // namespace
+
+std::vector<ReachOutcome> ReachMeasure::reaches() const {
+  std::vector<ReachOutcome> all = over_;
+  if (begun_) all.push_back(now_);
+  return all;
+}
+
+void ReachMeasure::begin(const trial::Glance& glance) {
+  if (begun_) over_.push_back(now_);
+  begun_ = true;
+  now_ = ReachOutcome{};
+  now_.aim = glance.truth.aim;
+  now_.aborted = glance.truth.aborted;
+  contacts_before_ = glance.out.contacts;
+}
+
+void ReachMeasure::see(const trial::Glance& glance) {
+  const double now = seconds(glance.truth.t.time_since_epoch());
+  const sim::Phase phase = glance.truth.phase;
+  // The core sees a finger go late: what it counts until the next reach begins is of this one.
+  if (phase == sim::Phase::approach && phase_ != phase) begin(glance);
+  phase_ = phase;
+  const bool prepares = far_.see(glance);
+  if (!begun_) return;
+  now_.contacts = glance.out.contacts - contacts_before_;
+  if (prepares) ++now_.prepares;
+  take_picture(glance, now);
+  if (std::isnan(now_.met)) {
+    if (prepares) {
+      now_.prepared = now;
+      way_.clear();
+    }
+    way_.add(glance.truth.tip);
+    meet(glance, now);
+  } else {
+    watch_contact(glance, now);
+  }
+}
+
+// Pictures stay in W until it is known where they meet.
+void ReachMeasure::take_picture(const trial::Glance& glance, double now) {
+  const Stamped<TrackedTool>& told = glance.in.tool;
+  if (!std::isnan(now_.met) || told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
+  newest_ = told.t;
+  const Point<'T'>& tip = glance.scene.tools[static_cast<std::size_t>(told.value.tool)].tip.centre;
+  const Point<'W'> at = glance.scene.X_WC * (told.value.X_CT * tip);
+  now_.seen.pictures.push_back({at.e(), seconds(told.t.time_since_epoch()), now});
+}
+
+void ReachMeasure::meet(const trial::Glance& glance, double now) {
+  const sim::Truth& truth = glance.truth;
+  const trial::Wanted at =
+      trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
+  if (!truth.touching && at.distance > truth.tool_radius) return;
+  now_.met = now;
+  const Pose<'W', 'N'> X_WN(rotation_z_to(at.normal.e()), at.point + truth.tool_radius * at.normal);
+  const Pose<'N', 'W'> X_NW = X_WN.inverse();
+  for (SeenReach::Picture& picture : now_.seen.pictures) picture.at = (X_NW * Point<'W'>(picture.at)).e();
+  now_.seen.met = now;
+  now_.seen.where = (X_NW * truth.tool_tip).e().head<2>();
+  now_.chosen = glance.out.object;
+  now_.speed = truth.tool_velocity.norm();
+  now_.miss = along_surface(at, truth.tip);
+  const std::size_t there = way_.there(at.point, kThere);
+  if (there > 0 && !std::isnan(now_.prepared))
+    now_.arrived = now - glance.scene.dt * static_cast<double>(there - 1);
+  watch_contact(glance, now);
+}
+
+void ReachMeasure::watch_contact(const trial::Glance& glance, double now) {
+  const sim::Truth& truth = glance.truth;
+  if (!truth.touching) return;
+  now_.touched = true;
+  const trial::Wanted at =
+      trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
+  if (now_.felt < 0 && glance.out.mode == Mode::contact) {
+    now_.felt = glance.out.object;
+    now_.felt_after = now - now_.met;
+    now_.felt_depth = truth.tool_radius - at.distance;
+  }
+  if (now - now_.met <= kImpact) now_.impact = std::max(now_.impact, -dot(truth.contact_force, at.normal));
+  if (truth.phase == sim::Phase::hold)
+    now_.slide_error = std::max(now_.slide_error, along_surface(at, truth.tip));
+}
 
 void reach_at_random(models::Setup& setup, std::int64_t count) {
   UserSpec& user = *setup.scene.user;
@@ -119,18 +214,6 @@ double in_time(const std::vector<ReachOutcome>& reaches) {
   const auto there = std::count_if(reaches.begin(), reaches.end(),
                                    [](const ReachOutcome& r) { return r.lead() >= r.travel(); });
   return static_cast<double>(there) / static_cast<double>(reaches.size());
-}
-
-Series distribution(const std::string& name, std::vector<double> seconds) {
-  const double count = static_cast<double>(seconds.size());
-  std::erase_if(seconds, [](double s) { return std::isnan(s); });
-  std::sort(seconds.begin(), seconds.end());
-  Series series{name, {}, {}};
-  for (std::size_t i = 0; i < seconds.size(); ++i) {
-    series.x.push_back(1e3 * seconds[i]);
-    series.y.push_back(100.0 * static_cast<double>(i + 1) / count);
-  }
-  return series;
 }
 
 }  // namespace enc::bench::reaching

@@ -1,19 +1,161 @@
 // Registration of camera and arm [VisHap 2.2]: pairs of places, each an average of frames; what is left over
 // at them, what the registration is wrong by elsewhere, and how both fall with pairs and frames.
-#include "benchmarks/registration/registration.h"
-
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/registration/accuracy.h"
 #include "benchmarks/verdict/reference.h"
+#include "core/base/counted.h"
 #include "core/base/units.h"
+#include "models/setup/scene_file.h"
 #include "trial/identify/camera/driven_arm.h"
 
 namespace enc::bench::registration {
 namespace {
+
+constexpr const char* kAxisNames = "xyz";
+
+// CPU time of averaging and registering, s: least of several, on one core.
+struct RegistrationCost {
+  std::size_t pairs = 0, frames = 0;
+  double cpu = kUnset;
+};
+
+// One number for each seed: the axis on which mean |error| is largest.
+std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
+  std::vector<double> worst;
+  worst.reserve(errors.size());
+  for (const Vec3& e : errors) worst.push_back(e.maxCoeff());
+  return worst;
+}
+
+// Of the list in which pairs and frames are each of the given ones.
+const Accuracy& accuracy_of(const std::vector<Accuracy>& all, std::size_t pairs, std::size_t frames) {
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Accuracy& one) { return one.pairs == pairs && one.frames == frames; });
+}
+
+void add_point(Series& to, double x, const std::vector<double>& values) {
+  // Of too few seeds for a band of 95 % the least and the most.
+  const double out = models::has_percentile(values.size(), 0.975) ? 0.025 : 0.0;
+  to.add(x, Value(median(values), percentile(values, out), percentile(values, 1.0 - out)) * kMmPerM);
+}
+
+Series bound(double paper, double from, double to) {
+  Series series{"paper: less than", {from, to}, {paper, paper}};
+  series.paper = true;
+  return series;
+}
+
+Plot axes_plot(const std::vector<Accuracy>& all, double paper) {
+  Plot plot{"registration_axes", "Registration: 8 pairs", "axis of W", "mean |error| (mm)"};
+  struct Kind {
+    const char* name;
+    std::size_t frames;
+    std::vector<Vec3> Accuracy::*what;
+    double shift;  // so that they stand side by side
+  };
+  for (const Kind& kind : {Kind{"20 frames, left over at the pairs", 20, &Accuracy::residual, -0.15},
+                           Kind{"20 frames, elsewhere", 20, &Accuracy::held_out, -0.05},
+                           Kind{"one frame, left over", 1, &Accuracy::residual, 0.05},
+                           Kind{"one frame, elsewhere", 1, &Accuracy::held_out, 0.15}}) {
+    Series series{kind.name};
+    series.mark = Mark::points;
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::vector<double> axis;
+      for (const Vec3& e : accuracy_of(all, 8, kind.frames).*kind.what)
+        axis.push_back(e(static_cast<Eigen::Index>(a)));
+      add_point(series, static_cast<double>(a) + kind.shift, axis);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.series.push_back(bound(paper, -0.4, 2.4));
+  plot.x_names = {"x", "y", "z"};
+  plot.caption =
+      "Median and 95 % band over seeds. With 20 frames averaged all axes are below the paper's bound, at the "
+      "pairs and elsewhere; with single frames they are not, or hardly.";
+  return plot;
+}
+
+// Of the registration all over the volume. With bands, lines stand a little aside of each other.
+Plot frames_plot(const char* id, const char* title, const char* x_label, const std::vector<Accuracy>& all,
+                 double paper, bool bands, const std::function<double(const Accuracy&)>& x) {
+  Plot plot{id, title, x_label, "mean |error| elsewhere, worst axis (mm)", false, true};
+  double from = 1e300, to = 0.0, aside = bands ? -0.15 : 0.0;
+  for (const std::size_t frames : {1UL, 5UL, 20UL, 100UL}) {
+    Series series{counted(frames, "frame") + " of each"};
+    series.mark = Mark::both;
+    for (const Accuracy& one : all) {
+      if (one.frames != frames) continue;
+      add_point(series, x(one) + aside, worst_axis(one.held_out));
+      from = std::min(from, series.x.back());
+      to = std::max(to, series.x.back());
+    }
+    if (bands)
+      aside += 0.1;
+    else
+      series.low.clear(), series.high.clear();
+    plot.series.push_back(std::move(series));
+  }
+  plot.series.push_back(bound(paper, from, to));
+  return plot;
+}
+
+Plot distance_plot(const std::vector<Accuracy>& all, const trial::RegistrationPlaces& places) {
+  Plot plot{"registration_distance", "Registration: 8 pairs, over the volume in view",
+            "distance from its middle (mm)", "rms length of the error (mm)"};
+  constexpr std::size_t kBins = 8;
+  for (const std::size_t frames : {1UL, 20UL, 100UL}) {
+    const Accuracy& one = accuracy_of(all, 8, frames);
+    Series series{counted(frames, "frame") + " of each"};
+    series.mark = Mark::both;
+    for (std::size_t b = 0; b < kBins; ++b) {
+      const std::size_t from = b * one.square.size() / kBins, to = (b + 1) * one.square.size() / kBins;
+      if (from == to) continue;
+      series.add(places.distance[(from + to) / 2] * kMmPerM, one.rms_at(from, to) * kMmPerM);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.caption =
+      "Each point an eighth of the places. In the middle only the shift is wrong, outwards the turn adds to "
+      "it.";
+  return plot;
+}
+
+void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<RegistrationCost>& costs,
+                            const trial::RegistrationPlaces& places, double paper, BenchResult& result) {
+  result.plots.push_back(axes_plot(all, paper));
+  Plot pairs =
+      frames_plot("registration_pairs", "Registration: how many pairs, how many frames", "pairs", all, paper,
+                  true, [](const Accuracy& one) { return static_cast<double>(one.pairs); });
+  pairs.caption =
+      "Median and 95 % band over seeds. Averaging helps until what stays while nothing moves is all that is "
+      "left; then only more places do.";
+  result.plots.push_back(std::move(pairs));
+  result.plots.push_back(distance_plot(all, places));
+  Plot time = frames_plot("registration_time", "Registration: error against time of the experiment",
+                          "time of the experiment (s)", all, paper, false,
+                          [](const Accuracy& one) { return one.seconds; });
+  time.log_x = true;
+  time.caption =
+      "Points of a line: 4, 5, 6, 8, 12, 16, 20 pairs. Within the same time, 20 frames at many places beat "
+      "100 at few.";
+  result.plots.push_back(std::move(time));
+  Plot cpu = frames_plot("registration_cpu", "Registration: error against run time", "CPU time (us)", all,
+                         paper, false, [&](const Accuracy& one) {
+                           for (const RegistrationCost& cost : costs)
+                             if (cost.pairs == one.pairs && cost.frames == one.frames) return cost.cpu * 1e6;
+                           return kUnset;
+                         });
+  cpu.caption = "Averaging the frames and one closed form: run time is never what limits it.";
+  result.plots.push_back(std::move(cpu));
+}
 
 constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (sources/tracking 9)
 
@@ -109,11 +251,10 @@ void add_driven(const models::Setup& setup, const trial::RegistrationRig& rig, c
       trial::visit_places(arm, places.visited, rig.camera.rate, kFrames);
   const std::vector<Accuracy> driven =
       run_accuracy(rig, places, visits, {{kPairs}, {kFrames}, base.seeds, base.first_seed});
-  add_axes(
-      "twin.", driven.front().held_out, {kUnset, paper, Role::ours},
-      "error of the found X_WC against the truth, mean all over the volume in view: the arm driven by the "
-      "core's law in the twin to 8 places, 20 frames each",
-      result);
+  add_axes("twin.", driven.front().held_out, {kUnset, paper, Role::ours},
+           "error of the found X_WC against the truth, mean all over the volume in view: the arm driven by "
+           "the core's law in the twin to 8 places, 20 frames each",
+           result);
   add_axes("twin.camera.", driven.front().position, {},
            "the same error where the camera itself stands, where no tip gets", result);
   result.figures.push_back({"registration.twin.time_s", kUnset, driven.front().seconds, "s", Role::ours,
@@ -176,8 +317,7 @@ Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& ba
   Table table{"registration_doubts",
               "Registration of 8 pairs: what it depends on, median over seeds",
               {"rig", "left over x (mm)", "y (mm)", "z (mm)", "elsewhere x (mm)", "y (mm)", "z (mm)",
-               "one frame: left over, worst axis (mm)", "size of camera's over device's set"},
-              {}};
+               "one frame: left over, worst axis (mm)", "size of camera's over device's set"}};
   for (const Variant& variant : variants) {
     trial::RegistrationRig other = rig;
     variant.change(other);
@@ -187,10 +327,9 @@ Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& ba
     const Accuracy& averaged = accuracy_of(both, kPairs, kFrames);
     std::vector<std::string> row{variant.name};
     for (const auto* errors : {&averaged.residual, &averaged.held_out})
-      for (std::size_t a = 0; a < 3; ++a)
-        row.push_back(fmt::format("{:.3f}", median(along(*errors, a)) * kMmPerM));
-    row.push_back(fmt::format("{:.3f}", median(worst_axis(accuracy_of(both, kPairs, 1).residual)) * kMmPerM));
-    row.push_back(fmt::format("{:.4f}", median(averaged.scale)));
+      for (std::size_t a = 0; a < 3; ++a) row.push_back(fixed(median(along(*errors, a)) * kMmPerM, 3));
+    row.push_back(fixed(median(worst_axis(accuracy_of(both, kPairs, 1).residual)) * kMmPerM, 3));
+    row.push_back(fixed(median(averaged.scale), 4));
     table.rows.push_back(std::move(row));
   }
   table.note = "Left over: mean |error| at the 8 pairs themselves; elsewhere: all over the volume in view.";
@@ -198,41 +337,26 @@ Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& ba
 }
 
 Table table_of_pairs(const std::vector<Accuracy>& all) {
-  Table table{
-      "registration_pairs",
-      "Mean |error| by pairs and frames, worst axis: median and 95 % band over seeds",
-      {"pairs", "frames", "left over (mm)", "low", "high", "elsewhere (mm)", "low", "high", "experiment (s)"},
-      {}};
+  Table table{"registration_pairs",
+              "Mean |error| by pairs and frames, worst axis: median and 95 % band over seeds",
+              {"pairs", "frames", "left over (mm)", "low", "high", "elsewhere (mm)", "low", "high",
+               "experiment (s)"}};
   for (const Accuracy& one : all) {
     std::vector<std::string> row{fmt::format("{}", one.pairs), fmt::format("{}", one.frames)};
     for (const auto* errors : {&one.residual, &one.held_out}) {
       const std::vector<double> worst = worst_axis(*errors);
-      row.push_back(fmt::format("{:.3f}", median(worst) * kMmPerM));
+      row.push_back(fixed(median(worst) * kMmPerM, 3));
       for (const double share : {0.025, 0.975}) {
         const bool known = models::has_percentile(worst.size(), share);
-        row.push_back(known ? fmt::format("{:.3f}", percentile(worst, share) * kMmPerM) : "-");
+        row.push_back(known ? fixed(percentile(worst, share) * kMmPerM, 3) : "-");
       }
     }
-    row.push_back(fmt::format("{:.1f}", one.seconds));
+    row.push_back(fixed(one.seconds, 1));
     table.rows.push_back(std::move(row));
   }
   table.note =
       "Few pairs leave little over because six numbers are fitted to them; elsewhere they are the worst.";
   return table;
-}
-
-}  // namespace
-
-const Accuracy& accuracy_of(const std::vector<Accuracy>& all, std::size_t pairs, std::size_t frames) {
-  return *std::find_if(all.begin(), all.end(),
-                       [&](const Accuracy& one) { return one.pairs == pairs && one.frames == frames; });
-}
-
-std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
-  std::vector<double> worst;
-  worst.reserve(errors.size());
-  for (const Vec3& e : errors) worst.push_back(e.maxCoeff());
-  return worst;
 }
 
 void run(Bench& bench) {
@@ -282,4 +406,5 @@ const Entry kEntry{"registration", "vishap",
                    "camera and arm from pairs of places: error per axis, pairs and frames, time (VisHap 2.2)",
                    run};
 
+}  // namespace
 }  // namespace enc::bench::registration

@@ -2,18 +2,174 @@
 // its tip is found in twenty noisy stereo pairs of each, and both are laid over each other.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "benchmarks/registration_images/images.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/staged/staged.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
+#include "core/control/scene/scene.h"
+#include "sim/camera/stage.h"
+#include "trial/assemble/vision.h"
 #include "trial/identify/camera/driven_arm.h"
 #include "trial/identify/camera/registration_rig.h"
+#include "trial/identify/camera/tip_eyes.h"
 
 namespace enc::bench::registration_images {
 namespace {
+
+// One registration.
+struct Asked {
+  const sim::CameraModule* camera = nullptr;
+  const models::Setup* setup = nullptr;
+  const std::vector<trial::TipVisit>* visits = nullptr;
+  const std::vector<Point<'W'>>* targets = nullptr;  // all over the volume in view
+  std::uint64_t seed = 1;                            // of scenery and noise
+  int samples = 0;                                   // of a pixel
+  double rod = 0.0;  // m, radius of one from the tip to the arm's base, in the twin's picture; 0: none
+};
+
+// The frames of a place: off the truth as the believed head would see it; px of column, row and disparity,
+// and m along C.
+struct PlaceSeen {
+  double depth = kUnset;  // m
+  Vec3 bias_px{kUnset, kUnset, kUnset}, scatter_px{kUnset, kUnset, kUnset};
+  Vec3 bias{kUnset, kUnset, kUnset}, scatter{kUnset, kUnset, kUnset};
+};
+
+struct Seen {
+  Vec3 left_over{kUnset, kUnset, kUnset};  // mean |error| at the pairs, m; NaN: too few places were seen
+  Vec3 elsewhere{kUnset, kUnset, kUnset};  // all over the volume in view
+  std::vector<PlaceSeen> places;
+  std::size_t frames = 0, found = 0, other = 0;  // other: more than 5 mm from where it is
+  std::vector<double> seconds;                   // CPU time of finding it in a pair
+};
+
+Pose<'W', 'C'> camera_pose(const models::Setup& setup) { return pose_of<'W', 'C'>(setup.twin.frames.W_C); }
+
+// Nothing moves at a place: it is drawn once, and each frame of it is exposed with noise of its own.
+class StillEyes final : public trial::TipEyes {
+ public:
+  explicit StillEyes(const Asked& asked)
+      : things_(trial::ball_at_tip(camera_pose(*asked.setup), asked.setup->twin.camera)),
+        X_CW_(camera_pose(*asked.setup).inverse()),
+        pair_(Rectifier(asked.setup->rig.camera).pair()),
+        finder_(asked.setup->rig.camera, asked.setup->rig.vision.ball) {
+    sim::StageSpec spec = trial::stage_of(asked.setup->twin.camera, asked.seed);
+    spec.finish.samples = asked.samples;
+    stage_ = asked.camera->stage(spec);
+    if (asked.rod > 0.0) add_rod(trial::base_of(Arm(asked.setup->rig.arm.machine)).p(), asked.rod);
+  }
+  void move() override {
+    finish();
+    drawn_ = false;
+  }
+  std::optional<Point<'C'>> see(const trial::TipStand& tip) override {
+    expose(tip);
+    const double start = thread_seconds();
+    last = finder_.find({pair.left.view(), pair.right.view()});
+    seen.seconds.push_back(thread_seconds() - start);
+    ++seen.frames;
+    if (!last.found()) return {};
+    ++seen.found;
+    const Point<'C'> truth = X_CW_ * tip.truth;
+    seen.other += (last.centre - truth).norm() > 5e-3 ? 1U : 0U;
+    depth_ = truth.e().z();
+    px_.push_back(last.at.e() - seen_at(pair_, truth).e());
+    off_.push_back(last.centre.e() - truth.e());
+    return last.centre;
+  }
+  // What was seen at the place.
+  void finish() {
+    if (px_.size() > 1) {
+      PlaceSeen place{depth_};
+      spread(px_, place.bias_px, place.scatter_px);
+      spread(off_, place.bias, place.scatter);
+      seen.places.push_back(place);
+    }
+    px_.clear();
+    off_.clear();
+  }
+  Seen seen;
+  staged::Pair pair;
+  FoundBall last;
+
+ private:
+  void expose(const trial::TipStand& tip) {
+    if (drawn_) {
+      stage_->again(frame_++, pair.left, pair.right);
+      return;
+    }
+    sim::Shown shown;
+    shown.things = things_(tip);
+    stage_->draw(shown, frame_++, pair.left, pair.right);
+    drawn_ = true;
+  }
+  void add_rod(const Vec3& base, double radius) {
+    things_ = [ball = things_, base, radius, X_CW = X_CW_](const trial::TipStand& tip) {
+      std::vector<sim::Thing> things = ball(tip);
+      const Vec3 to = base - tip.truth.e();
+      sim::Thing rod;
+      rod.shape = sim::ThingShape::capsule;
+      rod.at = X_CW * Point<'W'>(Vec3(tip.truth.e() + 0.5 * to));
+      rod.axes = (X_CW.q() * Quat::FromTwoVectors(Vec3::UnitZ(), to)).toRotationMatrix();
+      rod.half = {radius, radius, 0.5 * to.norm()};
+      things.push_back(rod);
+      return things;
+    };
+  }
+  static void spread(const std::vector<Vec3>& values, Vec3& mean, Vec3& rms) {
+    const auto count = static_cast<double>(values.size());
+    mean = rms = Vec3::Zero();
+    for (const Vec3& v : values) mean += v / count;
+    for (const Vec3& v : values) rms += (v - mean).cwiseAbs2() / (count - 1.0);
+    rms = rms.cwiseSqrt();
+  }
+
+  std::unique_ptr<sim::Stage> stage_;
+  trial::TipThings things_;
+  Pose<'C', 'W'> X_CW_;
+  RectifiedPair pair_;
+  BallFinder finder_;
+  std::uint64_t frame_ = 0;
+  bool drawn_ = false;
+  double depth_ = kUnset;
+  std::vector<Vec3> px_, off_;
+};
+
+Seen registered(const Asked& asked) {
+  StillEyes eyes(asked);
+  const trial::GuidedRun run = trial::see_visits(*asked.visits, eyes, 0.5);
+  eyes.finish();
+  Seen seen = std::move(eyes.seen);
+  if (run.points.size() < models::kFewestPairs) return seen;
+  const models::Registration found = models::register_points(models::averages(run.points));
+  seen.left_over = found.mean_error;
+  seen.elsewhere = Vec3::Zero();
+  for (const Point<'W'>& place : *asked.targets)
+    seen.elsewhere += trial::target_error(found.X_WC, camera_pose(*asked.setup), place).cwiseAbs() /
+                      static_cast<double>(asked.targets->size());
+  return seen;
+}
+
+// A pair with the outline that was found, as a PNG.
+std::string marked_pair(const Asked& asked) {
+  StillEyes eyes(asked);
+  eyes.see(asked.visits->front().frames.front());
+  for (std::size_t side = 0; side < 2; ++side) {
+    Image& image = side == 0 ? eyes.pair.left : eyes.pair.right;
+    for (const Pixel& edge : eyes.last.edges[side])
+      if (!std::isnan(edge.column)) staged::mark(image, edge.column, edge.row, {255, 40, 200}, 0);
+    const Pixel& centre = eyes.last.outline[side].centre;
+    if (!std::isnan(centre.column)) staged::mark(image, centre.column, centre.row, {255, 255, 255}, 3);
+  }
+  return staged::png({eyes.pair.left, eyes.pair.right});
+}
 
 constexpr std::size_t kPairs = 8, kFrames = 20, kFewFrames = 5;
 constexpr const char* kAxisNames = "xyz";
@@ -161,14 +317,14 @@ Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, 
       other += one.other;
       for (const PlaceSeen& place : one.places) bias.push_back(place.bias_px.z());
     }
-    std::vector<std::string> row{variants()[i].name, fmt::format("{:.1f}", 100.0 * found / frames),
+    std::vector<std::string> row{variants()[i].name, fixed(100.0 * found / frames, 1),
                                  fmt::format("{}", other)};
     for (Vec3 Seen::*what : {&Seen::left_over, &Seen::elsewhere})
       for (Eigen::Index a = 0; a < 3; ++a) {
         const double value = median(along(some, what, a));
-        row.push_back(std::isnan(value) ? "none" : fmt::format("{:.3f}", value));
+        row.push_back(std::isnan(value) ? "none" : fixed(value, 3));
       }
-    row.push_back(bias.empty() ? "none" : fmt::format("{:.3f}", rms(bias)));
+    row.push_back(bias.empty() ? "none" : fixed(rms(bias), 3));
     table.rows.push_back(std::move(row));
   }
   table.note =

@@ -34,8 +34,8 @@ void run(Bench& bench) {
       {[&] { raw->draw_only(hand, {}); }, [&] { draw(*plain); }, [&] { draw(*noisy); }, [&] { draw(*bent); }},
       3);
   bench.cost("ratio_to_raw.median", race.ratio(1, 0), "x",
-             fmt::format("a pair of 640 x 480 without the sensor's noise, {:.1f} ms of CPU, over "
-                         "MuJoCo's own calls for the same picture, {:.1f} ms; interleaved",
+             fmt::format("a pair of 640 x 480 without the sensor's noise, {:.1f} ms of CPU, over MuJoCo's "
+                         "own calls for the same picture, {:.1f} ms; interleaved",
                          race.seconds(1) * 1e3, race.seconds(0) * 1e3));
   bench.cost("noise.ratio_to_raw.median", race.ratio(2, 0), "x",
              "with the sensor's noise; where MuJoCo's own calls take 19 ms, the pair is to take 25");

@@ -88,10 +88,9 @@ std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std:
   for (const Choice& choice : choices)
     if (!scene(choice)) left.emplace_back(choice.benchmark->name);
   if (named && !left.empty())
-    throw Error(
-        fmt::format("--set: {} read{} no scene that it could change; expected it with others; leave out "
-                    "--set or {}",
-                    fmt::join(left, ", "), left.size() == 1 ? "s" : "", left.size() == 1 ? "it" : "them"));
+    throw Error(fmt::format(
+        "--set: {} read{} no scene that it could change; expected it with others; leave out --set or {}",
+        fmt::join(left, ", "), left.size() == 1 ? "s" : "", left.size() == 1 ? "it" : "them"));
   std::erase_if(choices, [&](const Choice& choice) { return !scene(choice); });
   return choices;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/kit/benchmark.h"
+#include "benchmarks/kit/bench.h"
 
 namespace enc::bench {
 

@@ -1,15 +1,32 @@
+#include "benchmarks/report/plot.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/plot_panels.h"
+#include "benchmarks/kit/child.h"
 
 namespace enc::bench {
 namespace {
+
+// The child process that draws.
+
+std::string first_complaint(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find('\n', i), text.size());
+    const std::string line = text.substr(i, end - i);
+    if (line.find_first_not_of(" \t^") != std::string::npos && line.find("gnuplot>") == std::string::npos)
+      return line;
+    i = end + 1;
+  }
+  return "it said nothing";
+}
 
 // Told apart also by the colour-blind [Okabe and Ito 2008]; the paper is black.
 constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5195"};
@@ -303,14 +320,14 @@ std::string axes(const Plot& plot, const Bars& bars) {
   return text;
 }
 
-}  // namespace
-
+// How many columns of the legend fit, px.
 std::size_t legend_columns(const Plot& plot, std::size_t width) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
   return std::max<std::size_t>(1, width / (62 + 8 * longest));
 }
 
+// Sizes in px.
 std::string plot_head(std::size_t width, std::size_t height) {
   return fmt::format(
              "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
@@ -320,6 +337,7 @@ std::string plot_head(std::size_t width, std::size_t height) {
          "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
 }
 
+// Axes of `whole` and the data of `plot`. `steady`: what has no data has its colour all the same.
 std::string plot_body(const Plot& plot, const Plot& whole, bool steady) {
   const Limits y = limits_of(plot, true);
   const Bars bars(plot);
@@ -337,7 +355,93 @@ std::string plot_body(const Plot& plot, const Plot& whole, bool steady) {
   return text + (parts.text().empty() ? "plot NaN notitle\n" : "plot " + parts.text() + "\n");
 }
 
-std::string plot_quoted(const std::string& text) { return quoted(text); }
+// Several panels with the same axes and one legend under them.
+
+constexpr double kLeft = 78.0, kGap = 16.0, kRight = 14.0, kTitle = 28.0, kAbove = 34.0, kUnder = 92.0;  // px
+constexpr double kHigh = 225.0, kWide = 930.0;  // px: of a panel; of all
+
+// With every series that any panel has, so that a name has its look in each.
+Plot panel_of(const Plot& plot, std::size_t panel) {
+  Plot one = plot;
+  one.series.clear();
+  for (const Series& s : plot.series) {
+    const auto same = [&](const Series& other) { return other.name == s.name && other.mark == s.mark; };
+    auto at = std::find_if(one.series.begin(), one.series.end(), same);
+    if (at == one.series.end()) {
+      one.series.push_back(Series{.name = s.name, .mark = s.mark, .paper = s.paper});
+      at = one.series.end() - 1;
+    }
+    if (s.panel == panel) *at = s;
+  }
+  return one;
+}
+
+// Outside of what is drawn: only the legend is seen of it.
+Plot legend_of(const Plot& plot) {
+  Plot legend = panel_of(plot, plot.panels.size());
+  for (Series& s : legend.series) {
+    s.x = s.y = {plot.log_x || plot.log_y ? 1e-9 : -1e9};
+    if (s.mark == Mark::crosses) s.name.clear();
+  }
+  return legend;
+}
+
+std::string margins(double left, double right, double top, double bottom, double width, double height) {
+  return fmt::format(
+      "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
+      "set bmargin at screen {:.5f}\n",
+      left / width, right / width, 1.0 - top / height, 1.0 - bottom / height);
+}
+
+std::string panels_script(const Plot& plot) {
+  const std::size_t columns = std::max<std::size_t>(1, std::min(plot.columns, plot.panels.size()));
+  const std::size_t rows = (plot.panels.size() + columns - 1) / columns;
+  const Plot legend = legend_of(plot);
+  const std::size_t keys = legend_columns(legend, static_cast<std::size_t>(kWide) - 40);
+  const std::size_t lines = (legend.series.size() + keys - 1) / keys;
+  const auto of = [](std::size_t count) { return static_cast<double>(count); };
+  const double above = kAbove + of(rows) * (kTitle + kHigh) + kUnder,
+               height = above + 22.0 * of(lines) + 10.0;
+  const double wide = (kWide - kLeft - kRight - of(columns - 1) * kGap) / of(columns);
+  std::string text = plot_head(static_cast<std::size_t>(kWide), static_cast<std::size_t>(height));
+  text += "set multiplot title " + quoted(plot.title) + "\nunset key\n";
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    const std::size_t row = i / columns, column = i % columns;
+    const bool last = i + columns >= plot.panels.size();
+    const double left = kLeft + of(column) * (wide + kGap);
+    const double top = kAbove + kTitle + of(row) * (kTitle + kHigh);
+    text += margins(left, left + wide, top, top + kHigh - 6.0, kWide, height);
+    text += "set format '%g'\nset xtics autofreq\nset ytics autofreq\n";
+    text += "set title " + quoted(plot.panels[i]) + " offset 0,-0.6 font ',14'\n";
+    text += "set xlabel " + quoted(last ? plot.x_label : std::string()) + "\nset ylabel " +
+            quoted(column == 0 ? plot.y_label : std::string()) + "\n";
+    std::string body = plot_body(panel_of(plot, i), plot, true);
+    const std::size_t at = body.rfind("\nplot ") + 1;
+    const std::string quiet = fmt::format("{}{}", last ? "" : "set format x ''\nset xtics (\"\" 0)\n",
+                                          column == 0 ? "" : "set format y ''\n");
+    body.insert(at, quiet);
+    text += body;
+  }
+  text += "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n";
+  text += margins(20.0, kWide - 20.0, above, height - 4.0, kWide, height);
+  text +=
+      fmt::format("set key at screen 0.5,{:.5f} center top horizontal Left reverse samplen 2.5 maxcols {}\n",
+                  1.0 - (above - 8.0) / height, keys);
+  std::string body = plot_body(legend, legend, true);
+  body.insert(body.rfind("\nplot ") + 1, "unset tics\nunset logscale\nset xrange [1:2]\nset yrange [1:2]\n");
+  return text + body + "unset multiplot\n";
+}
+
+}  // namespace
+
+Drawing draw(const Plot& plot) {
+  // -d: without what the user's own start-up file says.
+  Child child = run_child({"gnuplot", "-d", "-"}, plot_script(plot));
+  if (!child.started) return {"", "gnuplot is missing (Debian: gnuplot-nox)"};
+  if (child.code != 0 || child.out.find("</svg>") == std::string::npos)
+    return {"", plot.id + ": gnuplot failed: " + first_complaint(child.err)};
+  return {std::move(child.out), ""};
+}
 
 std::string plot_script(const Plot& plot) {
   if (!plot.panels.empty()) return panels_script(plot);

@@ -2,17 +2,158 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/benchmark.h"
-#include "benchmarks/questionnaire/form.h"
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/questionnaire/questionnaire.h"
 #include "benchmarks/report/plot.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/provenance/provenance.h"
 
 namespace enc::bench {
 namespace {
+
+// One line each: what it is, its value.
+struct Fact {
+  std::string name, value;
+};
+
+// Text that Markdown shall not take for anything else.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      out += ' ';
+      continue;
+    }
+    if (c == '<') {
+      out += "&lt;";
+      continue;
+    }
+    if (c == '|' || c == '*' || c == '`' || c == '\\' || c == '[' || c == ']') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string line(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += " " + plain(cell) + " |";
+  return text + "\n";
+}
+
+std::string markdown_table(const Table& t) {
+  std::string text = line(t.columns) + "|";
+  for (std::size_t i = 0; i < t.columns.size(); ++i) text += "---|";
+  text += "\n";
+  for (const auto& row : t.rows) text += line(row);
+  return text + (t.note.empty() ? "" : "\n" + plain(t.note) + "\n");
+}
+
+std::string markdown_picture(const Report& report, const Plot& plot) {
+  std::string text;
+  if (report.drawings.contains(plot.id)) text = fmt::format("![{}]({}.svg)\n\n", plain(plot.title), plot.id);
+  return text + fmt::format("{} ([data]({}.plot.csv))\n", plain(plot.caption), plot.id);
+}
+
+// One page that needs nothing but itself: no script, no link out, pictures in it.
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Encounter: benchmark report</title>
+<style>
+:root { color-scheme: light }
+body { margin: 0 auto; padding: 1rem; max-width: 84rem; background: #fff; color: #1a1a1a;
+  font: 16px/1.5 system-ui, sans-serif }
+h1, h2, h3 { line-height: 1.2; margin: 1.8em 0 .5em }
+h1 { margin-top: .5em }
+h2 { border-bottom: 1px solid #ccc; padding-bottom: .2em }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: 0 }
+dt { color: #555 }
+dd { margin: 0; overflow-wrap: anywhere }
+nav a { margin-right: 1rem }
+.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 34rem), 1fr)); gap: 1.5rem }
+.one { max-width: 60rem; margin-bottom: 1rem }
+figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: .5rem }
+figure svg, figure img { display: block; width: 100%; height: auto }
+figcaption { padding: .5rem; font-size: .9rem }
+.wide { overflow-x: auto }
+table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums }
+th, td { padding: .25rem .6rem; text-align: left; vertical-align: top; border-bottom: 1px solid #e5e5e5 }
+th { background: #f4f4f4; white-space: nowrap }
+td.n { text-align: right; white-space: nowrap }
+td:first-child { overflow-wrap: anywhere; min-width: 9rem }
+tr.no td { background: #fdecea }
+.missing { border-left: 4px solid #c00; padding: .5rem 1rem; background: #fdecea }
+.note { font-size: .9rem; color: #444; max-width: 60rem }
+@media screen and (max-width: 48rem) { .wide table, .wide tbody, .wide tr { display: block } .wide thead { display: none }
+  .wide tr { border: 1px solid #ddd; border-radius: 6px; margin-bottom: .6rem; padding: .3rem .6rem }
+  .wide td, .wide td.n { display: grid; grid-template-columns: 7rem 1fr; gap: .6rem; border: 0; padding: .1rem 0; text-align: left;
+    white-space: normal; overflow-wrap: anywhere; min-width: 0 }
+  .wide td::before { content: attr(data-column); color: #555 }
+  .wide td:empty { display: none } }
+@media (max-width: 40rem) { dl { grid-template-columns: 1fr } dd { margin-bottom: .4rem } body { padding: .6rem } }
+@media print { html { font-size: 10pt } body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
+  table { font-size: 7pt } th { white-space: normal } tr, figure { break-inside: avoid } h2, h3 { break-after: avoid }
+  .plots { grid-template-columns: 1fr 1fr } }
+</style>
+</head>
+<body>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+// Also of a range.
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("+-0123456789.e ") == std::string::npos &&
+         text.find_first_of("0123456789") != std::string::npos;
+}
+
+std::string html_table(const Table& t) {
+  std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
+  for (const std::string& column : t.columns) text += "<th>" + escaped(column) + "</th>";
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : t.rows) {
+    const bool no = std::find(row.begin(), row.end(), "NO") != row.end();
+    text += no ? "<tr class=\"no\">" : "<tr>";
+    for (std::size_t i = 0; i < row.size();
+         ++i)  // on a narrow screen each cell stands in a line, with its column's name
+      text += fmt::format("<td{} data-column=\"{}\">{}</td>", is_number(row[i]) ? " class=\"n\"" : "",
+                          i < t.columns.size() ? escaped(t.columns[i]) : "", escaped(row[i]));
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n";
+  return text + (t.note.empty() ? "" : "<p class=\"note\">" + escaped(t.note) + "</p>\n");
+}
 
 std::string cell(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : ""; }
 
@@ -67,50 +208,12 @@ std::string figures_line(const Report& report) {
                                               : "none out of bounds so far, but not all were measured");
 }
 
-}  // namespace
-
-const char* role_name(Role role) {
-  switch (role) {
-    case Role::calibrated:
-      return "calibrated";
-    case Role::predicted:
-      return "predicted";
-    case Role::ours:
-      break;
-  }
-  return "ours";
-}
-
-std::vector<Fact> facts(const Report& report) {
-  std::vector<Fact> list{
-      {"Made by", trial::program_words()},   {"Started", trial::time_text(report.started)},
-      {"MuJoCo", sim::mujoco_version()},     {"Machine", trial::words_of(trial::this_machine())},
-      {"Seed", std::to_string(report.seed)}, {"Command", report.command},
-      {"Figures", figures_line(report)}};
-  const std::string felt = verdict_line(judged(report.results, report.background.thresholds));
-  if (!felt.empty()) list.push_back({"Felt or not", felt});
-  if (!report.set.empty()) list.push_back({"With --set", joined(report.set)});
-  if (!report.not_drawn.empty()) list.push_back({"Not drawn", report.not_drawn});
-  if (!report.missing.empty()) list.push_back({"Missing", joined(report.missing)});
-  return list;
-}
-
-std::vector<const Plot*> ordered_plots(const Report& report) {
-  std::vector<const Plot*> plots;
-  for (const BenchResult& result : report.results)
-    for (const Plot& plot : result.plots) plots.push_back(&plot);
-  std::stable_partition(plots.begin(), plots.end(), [](const Plot* plot) {
-    return std::any_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.paper; });
-  });
-  return plots;
-}
-
+// What the two forms of the report have in common. Columns with nothing in them are left out.
 Table overview_table(const Report& report) {
   Table table{
       "overview",
       "What was run",
-      {"benchmark", "what", "scene", "figures", "bounded", "out of bounds", "simulated (s)", "run time (s)"},
-      {}};
+      {"benchmark", "what", "scene", "figures", "bounded", "out of bounds", "simulated (s)", "run time (s)"}};
   double run_time = 0.0;
   for (const BenchResult& r : report.results) {
     const auto all = benchmarks();
@@ -128,12 +231,167 @@ Table overview_table(const Report& report) {
   return table;
 }
 
+Table contradiction_table(const std::vector<Contradiction>& contradictions) {
+  Table table{"contradictions", "Where the paper contradicts itself", {"where", "printed", "found"}};
+  for (const Contradiction& c : contradictions) table.rows.push_back({c.where, c.printed, c.found});
+  table.note = "Computed from the printed numbers. None of these values is a target of any figure.";
+  return table;
+}
+
+std::vector<Fact> facts(const Report& report) {
+  std::vector<Fact> list{
+      {"Made by", trial::program_words()},   {"Started", trial::time_text(report.started)},
+      {"MuJoCo", sim::mujoco_version()},     {"Machine", trial::words_of(trial::this_machine())},
+      {"Seed", std::to_string(report.seed)}, {"Command", report.command},
+      {"Figures", figures_line(report)}};
+  const std::string felt = verdict_line(judged(report.results, report.background.thresholds));
+  if (!felt.empty()) list.push_back({"Felt or not", felt});
+  if (!report.set.empty()) list.push_back({"With --set", joined(report.set)});
+  if (!report.not_drawn.empty()) list.push_back({"Not drawn", report.not_drawn});
+  if (!report.missing.empty()) list.push_back({"Missing", joined(report.missing)});
+  return list;
+}
+
+// What stands after the benchmarks, in order. Tables with nothing in them are left out.
+std::vector<Table> closing_tables(const Report& report) {
+  const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+  std::vector<Table> tables{verdict_table(all), threshold_table(all),
+                            questionnaire::proxy_table(report.background.items, all), role_table(report),
+                            contradiction_table(report.background.contradictions)};
+  std::erase_if(tables, [](const Table& t) { return t.rows.empty(); });
+  for (Table& t : tables) drop_empty_columns(t);
+  return tables;
+}
+
+std::string head(const Report& report) {
+  std::string text = std::string(kHead) + "<h1>Encounter: benchmark report</h1>\n";
+  if (!report.missing.empty()) {
+    text += "<p class=\"missing\"><strong>Not complete.</strong> Missing:";
+    for (const std::string& name : report.missing) text += " " + escaped(name);
+    text += "</p>\n";
+  }
+  text += "<dl>\n";
+  for (const Fact& fact : facts(report))
+    text += "<dt>" + escaped(fact.name) + "</dt><dd>" + escaped(fact.value) + "</dd>\n";
+  text += "</dl>\n<nav><p>";
+  for (const BenchResult& r : report.results)
+    text += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(r.name));
+  for (const Table& t : closing_tables(report))
+    text += fmt::format("<a href=\"#{}\">{}</a>", escaped(t.id), escaped(t.title));
+  return text + "</p></nav>\n";
+}
+
+std::string html_picture(const Report& report, const Plot& plot) {
+  const auto svg = report.drawings.find(plot.id);
+  if (svg == report.drawings.end()) return {};
+  return fmt::format(
+      "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+      escaped(plot.id), svg_for_page(svg->second, plot.id), escaped(plot.title), escaped(plot.caption));
+}
+
+// RFC 4648: the page is one file.
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kLetters[three >> (18 - 6 * k) & 63U];
+  }
+  return text;
+}
+
+std::string html_image(const Picture& picture) {
+  return fmt::format(
+      "<figure id=\"picture.{}\">\n<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n"
+      "<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+      escaped(picture.id), escaped(picture.title), base64(picture.png), escaped(picture.title),
+      escaped(picture.caption));
+}
+
+std::string plots(const Report& report) {
+  std::string text;
+  for (const Plot* plot : ordered_plots(report)) text += html_picture(report, *plot);
+  if (text.empty()) return {};
+  return "<h2>Plots</h2>\n<p class=\"note\">Black, open circles or dashed: the paper. Colours: the twin. "
+         "Crosses at the "
+         "upper edge: failed.</p>\n<div class=\"plots\">\n" +
+         text + "</div>\n";
+}
+
+}  // namespace
+
+std::string report_markdown(const Report& report) {
+  std::string text = "# Encounter: benchmark report\n\n";
+  for (const Fact& fact : facts(report)) text += fmt::format("- **{}**: {}\n", fact.name, plain(fact.value));
+  text += "\n" + markdown_table(overview_table(report));
+  for (const Plot* plot : ordered_plots(report)) {
+    text += fmt::format("\n## {}\n\n{}", plain(plot->title), markdown_picture(report, *plot));
+  }
+  for (const BenchResult& result : report.results) {
+    text += fmt::format("\n## {}\n\n{}", plain(result.name), markdown_table(figure_table(result)));
+    for (const Table& t : result.tables)
+      if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), markdown_table(t));
+    for (const Picture& p : result.pictures)
+      text += fmt::format("\n![{0}]({1}.png)\n\n**{0}.** {2}\n", plain(p.title), p.id, plain(p.caption));
+  }
+  for (const Table& t : closing_tables(report)) {
+    text += fmt::format("\n## {}\n\n", plain(t.title));
+    if (t.id == report.verdict.id) text += markdown_picture(report, report.verdict) + "\n";
+    text += markdown_table(t);
+  }
+  return text;
+}
+
+std::string report_html(const Report& report) {
+  std::string text = head(report) + plots(report);
+  text += "<h2>What was run</h2>\n" + html_table(overview_table(report));
+  for (const BenchResult& result : report.results) {
+    text +=
+        fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), html_table(figure_table(result)));
+    for (const Table& t : result.tables)
+      if (t.source.empty()) text += "<h3>" + escaped(t.title) + "</h3>\n" + html_table(t);
+    for (const Picture& picture : result.pictures) text += html_image(picture);
+  }
+  for (const Table& t : closing_tables(report)) {
+    text += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(t.id), escaped(t.title));
+    if (t.id == report.verdict.id)
+      text += "<div class=\"one\">" + html_picture(report, report.verdict) + "</div>\n";
+    text += html_table(t);
+  }
+  return text + "</body>\n</html>\n";
+}
+
+const char* role_name(Role role) {
+  switch (role) {
+    case Role::calibrated:
+      return "calibrated";
+    case Role::predicted:
+      return "predicted";
+    case Role::ours:
+      break;
+  }
+  return "ours";
+}
+
+std::vector<const Plot*> ordered_plots(const Report& report) {
+  std::vector<const Plot*> plots;
+  for (const BenchResult& result : report.results)
+    for (const Plot& plot : result.plots) plots.push_back(&plot);
+  std::stable_partition(plots.begin(), plots.end(), [](const Plot* plot) {
+    return std::any_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.paper; });
+  });
+  return plots;
+}
+
 Table figure_table(const BenchResult& result) {
   Table table{result.name,
               "Figures of " + result.name,
               {"figure", "holds", "paper", "twin", "unit", "bounds", "difference", "difference (%)",
-               "least .. most", "role", "note"},
-              {}};
+               "least .. most", "role", "note"}};
   for (const Figure& f : result.figures) {
     const double difference = f.twin - f.paper;
     const double percent = f.paper != 0.0 ? 100.0 * difference / std::abs(f.paper) : kUnset;
@@ -152,7 +410,7 @@ Table figure_table(const BenchResult& result) {
 }
 
 Table role_table(const Report& report) {
-  Table table{"roles", "Calibrated and predicted", {"role", "figures", "hold", "which"}, {}};
+  Table table{"roles", "Calibrated and predicted", {"role", "figures", "hold", "which"}};
   for (const Role role : {Role::calibrated, Role::predicted, Role::ours}) {
     std::size_t figures = 0;
     std::size_t hold = 0;
@@ -174,26 +432,9 @@ Table role_table(const Report& report) {
   return table;
 }
 
-Table contradiction_table(const std::vector<Contradiction>& contradictions) {
-  Table table{"contradictions", "Where the paper contradicts itself", {"where", "printed", "found"}, {}};
-  for (const Contradiction& c : contradictions) table.rows.push_back({c.where, c.printed, c.found});
-  table.note = "Computed from the printed numbers. None of these values is a target of any figure.";
-  return table;
-}
-
 Background load_background(const std::string& models) {
   return {contradictions(models), load_thresholds(models),
           questionnaire::items_of(questionnaire::load_form(models, "vhmr_2020"), models)};
-}
-
-std::vector<Table> closing_tables(const Report& report) {
-  const std::vector<Judged> all = judged(report.results, report.background.thresholds);
-  std::vector<Table> tables{verdict_table(all), threshold_table(all),
-                            questionnaire::proxy_table(report.background.items, all), role_table(report),
-                            contradiction_table(report.background.contradictions)};
-  std::erase_if(tables, [](const Table& t) { return t.rows.empty(); });
-  for (Table& t : tables) drop_empty_columns(t);
-  return tables;
 }
 
 void add_result(Report& report, BenchResult result) {

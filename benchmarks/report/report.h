@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/questionnaire/proxies.h"
-#include "benchmarks/verdict/contradictions.h"
+#include "benchmarks/questionnaire/opinion.h"
 #include "benchmarks/verdict/verdict.h"
 #include "trial/provenance/provenance.h"
 
@@ -38,20 +37,10 @@ struct Report {
 };
 
 [[nodiscard]] const char* role_name(Role role);
-// One line each: what it is, its value.
-struct Fact {
-  std::string name, value;
-};
-[[nodiscard]] std::vector<Fact> facts(const Report& report);
 // Those first that have a value of the paper in them.
 [[nodiscard]] std::vector<const Plot*> ordered_plots(const Report& report);
-// What the two forms of the report have in common. Columns with nothing in them are left out.
-[[nodiscard]] Table overview_table(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);
 [[nodiscard]] Table role_table(const Report& report);
-[[nodiscard]] Table contradiction_table(const std::vector<Contradiction>& contradictions);
-// What stands after the benchmarks, in order. Tables with nothing in them are left out.
-[[nodiscard]] std::vector<Table> closing_tables(const Report& report);
 
 [[nodiscard]] std::string results_json(const Report& report);
 [[nodiscard]] std::string report_markdown(const Report& report);

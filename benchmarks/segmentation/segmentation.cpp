@@ -1,17 +1,263 @@
 // Which pixels are a bare hand? The published method beside the paper's figures, on pairs of its kind; where
 // it fails, and what ours and OpenCV's do there [VisHap 2.1.1, 3, Fig 2].
 #include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
 
-#include "benchmarks/segmentation/score.h"
-#include "benchmarks/segmentation/speed.h"
-#include "benchmarks/segmentation/thresholds.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
+#include "benchmarks/segmentation/pairs.h"
 #include "core/base/units.h"
+#include "core/vision/segmentation/kernels/arc.h"
+#include "core/vision/segmentation/kernels/majority.h"
+#include "core/vision/segmentation/tiles.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::segmentation {
 namespace {
+
+constexpr std::array<double, 8> kMatch{0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.96};
+constexpr std::array<double, 8> kChange{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0};
+constexpr std::array<double, 6> kSkin{1.5, 2.0, 2.5, 3.0, 3.5, 4.0};
+const std::array<sim::Light, 4> kLights{{{}, {.gain = 0.8}, {.side = 0.3}, {.colour = {1.2F, 1.0F, 0.8F}}}};
+constexpr double kLeastRate = 1e-6;  // for a logarithmic axis
+
+std::vector<RocPoint> points_of(const Place& like, SegmentationMethod method,
+                                std::span<const SegmentationPair> pairs) {
+  return method == SegmentationMethod::ours ? roc(spec_of(like.skin, method), pairs, kChange, kSkin)
+                                            : roc(spec_of(like.skin, method), pairs, kMatch, kSkin);
+}
+
+double wrong(const RocPoint& point) { return 1.0 - point.found.correct(); }
+
+void plot(Bench& bench, const char* name, SegmentationMethod method, const std::vector<RocPoint>& points,
+          const RocPoint& shipped) {
+  std::vector<Series> lines;
+  for (const double skin : kSkin) {
+    Series line{.name = fmt::format("skin {:g}", skin), .mark = Mark::both};
+    for (const RocPoint& point : points)
+      if (point.skin == skin)
+        line.add(std::max(kLeastRate, point.found.false_positive_rate()), point.found.true_positive_rate());
+    lines.push_back(std::move(line));
+  }
+  Series mark{.name = fmt::format("shipped: {:g}, {:g}", shipped.foreground, shipped.skin),
+              .mark = Mark::points};
+  mark.add(std::max(kLeastRate, shipped.found.false_positive_rate()), shipped.found.true_positive_rate());
+  lines.push_back(std::move(mark));
+  bench.plot(
+      {.id = fmt::format("roc_{}", name),
+       .title = fmt::format("Thresholds of {}, training seeds",
+                            method == SegmentationMethod::ours ? kMethods[ours] : kMethods[published]),
+       .x_label = "false positives, share of what is no skin",
+       .y_label = "true positives, share of skin",
+       .log_x = true,
+       .series = std::move(lines),
+       .caption = "Three sceneries in four lights. Along a line the threshold of the foreground changes."});
+}
+
+// ROC over the two thresholds, on training seeds: where SegmentationSpec's defaults come from.
+
+// Of the three sceneries in turn, in four lights; `like` has camera and skin.
+void judge_thresholds(Bench& bench, const Place& like) {
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < 12; ++i) {
+    places.push_back(like);
+    places.back().scenery = static_cast<sim::Scenery>(i % 3);
+    places.back().seed = staged::kTraining + 300 + i;
+    places.back().takes = {{.row = "", .tone = static_cast<sim::Tone>(i % 4), .light = kLights[i / 3]}};
+  }
+  const auto materials =
+      bench.each(places, [](const Place& place) { return material(place, place.takes.front()); });
+  std::vector<SegmentationPair> pairs;
+  pairs.reserve(materials.size());
+  for (const Material& each : materials) pairs.push_back(each.pair());
+  Table table{"thresholds", "Wrong pixels over the thresholds, training seeds (%)", {"method", "foreground"}};
+  for (const double skin : kSkin) table.columns.push_back(fmt::format("skin {:g}", skin));
+  const SegmentationSpec spec;
+  for (const auto& [method, name, foreground] :
+       {std::tuple{SegmentationMethod::published, "published", spec.match},
+        std::tuple{SegmentationMethod::ours, "ours", spec.change}}) {
+    const auto points = points_of(like, method, pairs);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % kSkin.size() == 0) table.rows.push_back({name, fmt::format("{:g}", points[i].foreground)});
+      table.rows.back().push_back(fixed(1e2 * wrong(points[i]), 3));
+    }
+    const RocPoint shipped =
+        roc(spec_of(like.skin, method), pairs, std::array{foreground}, std::array{spec.skin})[0];
+    const RocPoint best = *std::min_element(points.begin(), points.end(),
+                                            [](const auto& a, const auto& b) { return wrong(a) < wrong(b); });
+    bench.figure(fmt::format("thresholds.{}.wrong.mean", name), 1e2 * wrong(shipped), "%",
+                 fmt::format("of all pixels with the shipped thresholds, training seeds; the least of the "
+                             "ROC is {:.3f} % at {:g}, {:g}",
+                             1e2 * wrong(best), best.foreground, best.skin));
+    plot(bench, name, method, points, shipped);
+  }
+  bench.table(std::move(table));
+}
+
+namespace s = enc::segmentation;
+
+constexpr std::size_t kRing = 16;  // frames of a camera's buffers: 15 MB, more than a core's caches keep
+
+// Work on one frame after the other of the ring.
+template <class Work>
+std::function<void()> on_ring(const Sequence& frames, Work work) {
+  return [&frames, work, i = std::size_t{0}]() mutable { work(i++ % frames.left.size()); };
+}
+
+// Everything that a frame may go through.
+struct Course {
+  const Place& place;
+  std::size_t rounds;
+  Sequence frames = sequence(place, {.row = "", .tone = sim::Tone::light}, kRing);
+  SegmentationSpec spec = spec_of(place.skin, SegmentationMethod::published);
+  Segmenter published{spec, kWidth, kHeight};
+  Mask found{kWidth, kHeight};
+
+  Course(const Place& where, std::size_t times) : place(where), rounds(times) {
+    for (const Image& image : frames.background) published.learn(image.view());
+  }
+  [[nodiscard]] ImageView view(std::size_t i) const { return frames.left[i].view(); }
+};
+
+void beside_copy(Bench& bench, Course& course) {
+  Image copy(kWidth, kHeight);
+  const auto copy_of = [&](std::size_t i) {
+    std::memcpy(copy.rgb.data(), course.view(i).rgb, copy.rgb.size());
+  };
+  const auto segment = [&](std::size_t i) {
+    course.published.segment(course.view(i), course.found.whole(), course.found);
+  };
+  const Race raced(course.rounds, {on_ring(course.frames, segment), on_ring(course.frames, copy_of),
+                                   [&] { segment(0); }, [&] { copy_of(0); }});
+  bench.cost("time.median", raced.seconds(0) * 1e3, "ms",
+             "the published method, a 640x480 frame of a ring of 16");
+  bench.cost("copies.median", raced.ratio(0, 1), "x",
+             fmt::format("the time of a frame over that of copying it, {:.3f} ms; both of a ring of 16, as a "
+                         "camera gives them",
+                         raced.seconds(1) * 1e3));
+  bench.cost("copies_in_cache.median", raced.ratio(2, 3), "x",
+             "the same with one frame again and again, which no camera gives: its copy stays in the caches");
+}
+
+// The same frames, the peer's mask judged by the same truth.
+void beside_pipeline(Bench& bench, Course& course) {
+  const auto peer = course.place.opencv->mog2(range_of(course.place.skin));
+  for (const Image& image : course.frames.background) peer->learn(image.view());
+  Mask theirs(kWidth, kHeight);
+  Confusion own, other;
+  for (std::size_t i = 0; i < kRing; ++i) {
+    course.published.segment(course.view(i), theirs.whole(), theirs);
+    own += compare(theirs, course.frames.truth[i]);
+    peer->segment(course.view(i), theirs);
+    other += compare(theirs, course.frames.truth[i]);
+  }
+  const Race raced(course.rounds,
+                   {on_ring(course.frames,
+                            [&](std::size_t i) {
+                              course.published.segment(course.view(i), course.found.whole(), course.found);
+                            }),
+                    on_ring(course.frames, [&](std::size_t i) { peer->segment(course.view(i), theirs); })});
+  bench.cost(
+      "ratio_to_mog2.median", raced.ratio(1, 0), "x", at_least(8.0),
+      fmt::format(
+          "MOG2 + inRange + medianBlur, {:.2f} ms, over the published method; same frames, interleaved",
+          raced.seconds(1) * 1e3));
+  bench.figure("race.wrong.mean", 100.0 * (1.0 - own.correct()), "%", at_most(0.2),
+               fmt::format("of the pixels of the race's frames; MOG2 + inRange + medianBlur {:.3f} %",
+                           100.0 * (1.0 - other.correct())));
+}
+
+// Ours keeps the pixels of foreground tiles that have a hue, were every hue skin. Theirs tells the tiles.
+double unlike_tiles(Course& course, s::Tiles& tiles, TilePeer& peer) {
+  const int side = course.spec.tile;
+  const s::Grid grid{kWidth, kHeight, side};
+  const s::Cut any = s::cut_of({0, s::kHues}, course.spec.hue);
+  std::vector<std::uint8_t> theirs;
+  std::size_t unlike = 0, all = 0;
+  for (std::size_t i = 0; i < kRing; ++i) {
+    const ImageView image = course.view(i);
+    tiles.candidates(image, grid.whole(), course.spec.match, any, course.found);
+    peer.match(image, course.spec.match, theirs);
+    std::size_t tile = 0;
+    for (int y = 0; y + side <= kHeight; y += side)
+      for (int x = 0; x + side <= kWidth; x += side, ++tile) {
+        bool hued = true, found = false;
+        for (int j = 0; j < side * side; ++j) {
+          const std::uint8_t* p = image.at(x + j % side, y + j / side);
+          hued = hued && s::hue_of(p[0], p[1], p[2], course.spec.hue) != s::kNoHue;
+          found = found || course.found.at(x + j % side, y + j / side);
+        }
+        if (!hued) continue;
+        ++all;
+        unlike += found == (theirs[tile] != 0) ? 0U : 1U;
+      }
+  }
+  return static_cast<double>(unlike) / static_cast<double>(all);
+}
+
+void beside_parts(Bench& bench, Course& course) {
+  const OpenCv& opencv = *course.place.opencv;
+  const SegmentationSpec& spec = course.spec;
+  const s::Grid grid{kWidth, kHeight, spec.tile};
+  const s::Cut cut = s::cut_of(s::skin_arc(spec.model, spec.skin), spec.hue);
+  Image mean(kWidth, kHeight);
+  mean.rgb = course.frames.background.front().rgb;
+  s::Tiles tiles(s::kernels(), grid, spec.bins);
+  tiles.learn(mean, cut);
+  const auto histograms = opencv.tiles(spec.tile, spec.bins);
+  histograms->learn(mean.view());
+  std::vector<std::uint8_t> changed;
+  bench.figure(
+      "tiles.unlike.mean", 100.0 * unlike_tiles(course, tiles, *histograms), "%", at_most(1.0),
+      "of the tiles whose pixels all have a hue: those that calcHist and compareHist call otherwise");
+  const Race tiled(course.rounds,
+                   {on_ring(course.frames,
+                            [&](std::size_t i) {
+                              tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
+                            }),
+                    on_ring(course.frames,
+                            [&](std::size_t i) { histograms->match(course.view(i), spec.match, changed); })});
+  bench.cost("tiles.ratio_to_calc_hist.median", tiled.ratio(1, 0), "x", at_least(40.0),
+             fmt::format("calcHist and compareHist of each tile, {:.1f} ms, over ours, {:.3f} ms, in which "
+                         "skin is judged, too; from RGB both",
+                         tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
+
+  std::vector<Mask> rough;  // what the filter is for: skin before it
+  for (std::size_t i = 0; i < kRing; ++i) {
+    tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
+    rough.push_back(course.found);
+  }
+  s::Majority majority(s::kernels(), spec.median, kWidth);
+  Mask own(kWidth, kHeight), theirs(kWidth, kHeight);
+  std::size_t unlike = 0;
+  for (const Mask& mask : rough) {
+    majority.filter(mask, mask.whole(), own);
+    opencv.median(mask, spec.median, theirs);
+    unlike += own.on == theirs.on ? 0U : 1U;
+  }
+  const Race filtered(
+      course.rounds,
+      {on_ring(course.frames, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); }),
+       on_ring(course.frames, [&](std::size_t i) { opencv.median(rough[i], spec.median, theirs); })});
+  bench.cost("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
+             fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
+                         filtered.seconds(1) * 1e3, filtered.seconds(0) * 1e3, spec.median));
+  bench.figure("median.unlike.count", static_cast<double>(unlike), "masks", exactly(0.0),
+               fmt::format("of {} that medianBlur filters to other bits", kRing));
+}
+
+// How long a frame takes, beside OpenCV and beside a copy of the frame.
+
+// A hand that moves in the light of the background, in `place`.
+void race(Bench& bench, const Place& place) {
+  Course course(place, bench.context.quick ? 16 : 64);
+  beside_copy(bench, course);
+  if (place.opencv == nullptr) return;
+  beside_pipeline(bench, course);
+  beside_parts(bench, course);
+}
 
 using namespace staged;
 
@@ -181,11 +427,10 @@ void judge_never_seen(Bench& bench, Table& table, const std::vector<Judged>& see
          {Line{"correct", &Score::correct}, Line{"false_positives", &Score::false_positives},
           Line{"false_negatives", &Score::false_negatives}}) {
       const Mean a = score(seen, method).*line.mean, b = score(fresh, method).*line.mean;
-      bench.figure(
-          fmt::format("never_seen.{}.{}.apart", id, line.id), apart(a, b), "", at_most(1.0),
-          fmt::format("{:.3f} ({}) % on seeds never looked at, {:.3f} ({}) % on the others: the difference "
-                      "over its 95 % interval",
-                      1e2 * b.value, interval_text(b, 3), 1e2 * a.value, interval_text(a, 3)));
+      bench.figure(fmt::format("never_seen.{}.{}.apart", id, line.id), apart(a, b), "", at_most(1.0),
+                   fmt::format("{:.3f} ({}) % on seeds never looked at, {:.3f} ({}) % on the others: the "
+                               "difference over its 95 % interval",
+                               1e2 * b.value, interval_text(b, 3), 1e2 * a.value, interval_text(a, 3)));
     }
   }
 }
@@ -222,10 +467,9 @@ void show(Bench& bench, const std::vector<Judged>& paper, const std::vector<Judg
 void tell_skin(Bench& bench, const SkinModel& all, const std::vector<SkinModel>& by_tone) {
   Table table{"skin", "Hue of skin, learned from training seeds", {"skin", "mean (deg)", "spread (deg)"}};
   for (std::size_t i = 0; i < by_tone.size(); ++i)
-    table.add(word_of(sim::kSkinTones[i].tone), fmt::format("{:.2f}", by_tone[i].hue * kDegPerRad),
-              fmt::format("{:.2f}", by_tone[i].spread * kDegPerRad));
-  table.add("all", fmt::format("{:.2f}", all.hue * kDegPerRad),
-            fmt::format("{:.2f}", all.spread * kDegPerRad));
+    table.add(word_of(sim::kSkinTones[i].tone), fixed(by_tone[i].hue * kDegPerRad, 2),
+              fixed(by_tone[i].spread * kDegPerRad, 2));
+  table.add("all", fixed(all.hue * kDegPerRad, 2), fixed(all.spread * kDegPerRad, 2));
   bench.table(std::move(table));
 }
 

@@ -4,7 +4,6 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/yardstick.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/trial.h"
 
@@ -26,8 +25,7 @@ Race wrapper_and_raw(sim::Physics& physics, std::size_t rounds) {
 
 void run(Bench& bench) {
   const models::Setup setup = bench.setup();
-  trial::TrialOptions options;
-  options.seed = bench.context.seed;
+  trial::TrialOptions options{.seed = bench.context.seed};
   if (bench.context.quick) options.seconds = 20.0;
   Yardstick yardstick;
   options.watch = yardstick.watch();
@@ -40,7 +38,7 @@ void run(Bench& bench) {
   bench.cost("step.p50", step * 1e6, "us", "step() of the core, wall clock, one call at a time");
   bench.cost("step.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us", "the same");
   bench.cost("step_over_yardstick.median", step / yardstick.seconds(), "x", at_most(0.6),
-             "step() over a fixed piece of work of the same run (kit/yardstick.h)");
+             "step() over a fixed piece of work of the same run (kit/cost.h)");
   bench.cost("times_real_time.cpu", run.simulated / cpu, "x",
              "whole loop on one core, CPU time of its thread");
   bench.cost("loop_over_yardstick.mean", cpu / static_cast<double>(run.ticks) / yardstick.seconds(), "x",

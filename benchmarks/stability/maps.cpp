@@ -1,10 +1,10 @@
-#include "benchmarks/stability/maps.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <fmt/format.h>
+
+#include "benchmarks/stability/stability.h"
 
 namespace enc::bench::stability {
 

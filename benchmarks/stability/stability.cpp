@@ -4,16 +4,128 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/yardstick.h"
-#include "benchmarks/stability/maps.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
+#include "models/setup/scene_file.h"
+#include "trial/assemble/prepare.h"
+#include "trial/certificates.h"
 
 namespace enc::bench::stability {
 namespace {
+
+// What MuJoCo's integrators do to the boundary of a wall that is sampled [sources/twin 1].
+
+struct Stepped {
+  Scheme scheme;
+  int steps;
+  double delay;  // s
+};
+struct Moved {
+  double factor = kUnset, expected = kUnset;  // of the critical stiffness
+};
+
+// (T/2 + t_d)/(T/2 + t_d - h/2) of the first-order ones: their place is that of half a step later.
+Moved moved_by(const Stepped& s) {
+  const Device device{0.1, 0.2, 1e-3, s.delay};
+  const double exact = certificate::critical_stiffness(loop_of(device)), lag = 0.5e-3 + s.delay;
+  const double gained = s.scheme == Scheme::rk4 ? 0.0 : 0.5e-3 / s.steps;
+  const double simulated = critical(device, 0.0, {s.scheme, s.steps}, kUnset, 50.0 * exact);
+  return {simulated / exact, lag / std::max(0.0, lag - gained)};
+}
+
+// The certificate of every scene that ships, and what it costs (trial/certificates.h).
+
+std::string in_mm(double per_metre) {
+  return std::isfinite(per_metre) ? fmt::format("{:.4g}", 1e-3 * per_metre) : std::string();
+}
+
+// N/mm; nothing where the certificate has no such row.
+std::string told(const trial::Certified& one, const char* name, double certificate::Row::*of) {
+  for (const certificate::Row& row : one.certificate.rows)
+    if (row.name == name) return sign_of(row.side) + in_mm(row.*of);
+  return {};
+}
+
+// Error against run time: what time step and integrator do to the critical stiffness, and what they cost.
+
+constexpr std::array kStepCounts{1, 2, 5, 10, 20};  // of a period
+constexpr double kTimedPeriod = 1e-3;               // s
+constexpr int kTimedPeriods = 1000;                 // of a run that is timed
+
+struct Setting {
+  Scheme scheme;
+  int steps;
+  double delay;                          // s
+  double error = kUnset, cost = kUnset;  // %; s of CPU for each second
+  bool none = false;                     // stable for every stiffness: it failed
+};
+
+Device timed_device(double delay) { return {0.1, 0.2, kTimedPeriod, delay}; }
+
+Setting timed(Setting s) {
+  const Device device = timed_device(s.delay);
+  const double exact = certificate::critical_stiffness(loop_of(device));
+  const double found = critical(device, 0.0, {s.scheme, s.steps}, kUnset, 50.0 * exact);
+  s.none = std::isinf(found);
+  s.error = s.none ? kUnset : std::max(100.0 * std::abs(found / exact - 1.0), 1e-3);
+  return s;
+}
+
+using certificate::Rest;
+
+// A button that is pressed to its bottom, in MuJoCo, over stiffness, delay, period and grip: its force falls
+// at the trigger, so what is unstable hops between its branches.
+
+constexpr double kTrigger = 2e-3, kFall = 0.5e-3, kBottom = 4e-3, kBelow = 2e-3;  // m, deep
+constexpr double kKeyAside = 1e-3;                                                // m, beside where it rests
+constexpr double kKeyStep = 1e-3;                                                 // s, RK4
+
+// N: resistance up to the trigger, half of it behind, a floor [VisHap Fig 4]; `floor`, N/m, is the stiffest.
+double key_pushes(double depth, double floor) {
+  const double resist = floor * 2.0 / 3.0, after = floor / 3.0;
+  if (depth <= 0.0) return 0.0;
+  if (depth < kTrigger) return resist * depth;
+  const double fallen = std::min(1.0, (depth - kTrigger) / kFall);
+  const double soft = (1.0 - fallen) * resist * kTrigger + fallen * after * depth;
+  return depth < kBottom ? soft : after * kBottom + floor * (depth - kBottom);
+}
+
+struct KeyCell {
+  std::size_t panel, delay;
+  double stiffness;
+  Device device;
+};
+
+// A finger key_pushes with what holds it 2 mm below the bottom: that is x = 0.
+Rest key_outcome(const KeyCell& cell) {
+  const int steps = static_cast<int>(std::lround(cell.device.period / kKeyStep));
+  Slide slide(cell.device, {}, {Scheme::rk4, steps}, kKeyAside);
+  const double hand = key_pushes(kBottom + kBelow, cell.stiffness);
+  const double swing = 6.3 * std::sqrt((cell.device.mass + cell.device.hand_mass) /
+                                       (cell.stiffness + cell.device.hand_spring));
+  const double seconds = std::clamp(60.0 * swing, 2.0 + 40.0 * cell.device.delay, 16.0);
+  const auto quarter = static_cast<std::size_t>(seconds / cell.device.period / 4.0);
+  double before = 0.0, last = 0.0;
+  for (int part = 0; part < 4; ++part) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < quarter; ++i) {
+      slide.period(key_pushes(kBottom + kBelow - slide.x(), cell.stiffness) - hand);
+      low = std::min(low, slide.x());
+      high = std::max(high, slide.x());
+      if (std::abs(slide.x()) > 20.0 * kKeyAside) return Rest::away;
+    }
+    before = last;
+    last = high - low;
+  }
+  return last < 0.01 * kKeyAside || last < 0.9 * before ? Rest::still : Rest::cycle;
+}
 
 constexpr double kMost = 1e6;  // N/m, from which down is looked
 
@@ -98,7 +210,7 @@ void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<Fou
     const Found& f = found[i];
     table.add(d.mass, d.damping, all[i].damper, d.period * 1e3, d.delay * 1e3,
               d.hand_spring > 0.0 ? "yes" : "no", number(f.predicted), number(f.at[0]), number(f.at[1]),
-              number(f.at[2]), number(f.formula), fmt::format("{:.3f}", f.error));
+              number(f.at[2]), number(f.formula), fixed(f.error, 3));
   }
   table.note = "Hand: 0.1 kg, 4 N s/m, 300 N/m. Step: MuJoCo's, RK4. Formula: (b + B)/(T/2 + delay).";
   bench.table(std::move(table));
@@ -120,8 +232,8 @@ void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<F
   }
   bench.figure("gil_hulin.cases.value", applied, "", at_least(40.0), "of the cases, that it applies to");
   bench.figure("gil_hulin.within.max", within, "%", at_most(5.0),
-               "by how much (b + B)/(T/2 + delay) is above what MuJoCo does, where it applies: B up to b, "
-               "b (2 T + delay) up to 0.1 m");
+               "by how much (b + B)/(T/2 + delay) is above what MuJoCo does, where it applies: B up to b, b "
+               "(2 T + delay) up to 0.1 m");
   bench.figure("gil_hulin.late.max", late, "%", "the same, B up to b, longer delays: there it is no bound");
   bench.figure("gil_hulin.beyond.max", beyond, "%", "the same, B above b: neither");
 }
@@ -169,9 +281,199 @@ void add_cost(Bench& bench) {
   bench.cost("certificate.late.time.median", 1e3 * late, "ms",
              "the same, 5.3 ms: later than any shipped arm");
   bench.cost("certificate.late.over_yardstick.median", late / yardstick.seconds(), "x",
-             "the same over a fixed piece of work of the same run (kit/yardstick.h)");
+             "the same over a fixed piece of work of the same run (kit/cost.h)");
   bench.cost("certificate.fine.time.median", 1e3 * fine, "ms",
              "the same, 10 kHz and 10 ms: 100 periods late");
+}
+
+// A map of a button that is pressed to its bottom.
+void add_button_map(Bench& bench) {
+  std::vector<std::string> titles;
+  std::vector<Device> devices;
+  for (const double period : {1e-3, 10e-3})
+    for (const Grip& grip : kGrips) {
+      titles.push_back(fmt::format("{}, every {:g} ms", grip.name, period * 1e3));
+      devices.push_back(held_by({0.1, 0.2, period, 0.0}, grip));
+    }
+  std::vector<KeyCell> all;
+  for (std::size_t panel = 0; panel < devices.size(); ++panel)
+    for (std::size_t delay = 0; delay < kDelays.size(); ++delay) {
+      if (std::abs(std::remainder(kDelays[delay], kKeyStep)) > 1e-9) continue;  // no whole number of steps
+      for (const double stiffness : stiffnesses(bench.context)) {
+        all.push_back({panel, delay, stiffness, devices[panel]});
+        all.back().device.delay = kDelays[delay];
+      }
+    }
+  const auto found = bench.each(all, key_outcome);
+  Map map("map_button", "A button that is pressed to its bottom and moved 1 mm aside", titles, 3);
+  double same = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const KeyCell& cell = all[i];
+    const certificate::SampledLoop loop = loop_of(cell.device);
+    map.cell(cell.panel, cell.delay, cell.stiffness, found[i]);
+    const double exact = certificate::critical_stiffness(loop);
+    same += (cell.stiffness <= exact) == (found[i] == Rest::still) ? 1.0 : 0.0;
+    if (cell.stiffness != kSoftest) continue;
+    map.line("eigenvalues, its floor", cell.panel, cell.delay, exact);
+    map.line("passive (Colgate, Schenkel)", cell.panel, cell.delay,
+             certificate::passive_stiffness(loop.alone(), {}));
+    map.line("b/(T/2 + delay) (Gil, Hulin)", cell.panel, cell.delay,
+             certificate::delayed_stiffness(loop.alone(), {}));
+  }
+  map.add_to(bench,
+             "All by MuJoCo: no friction, no counts. 2/3 of the stiffness up to 2 mm, 1/3 behind, all of it "
+             "from 4 mm on: what its floor makes unstable is caught by the softer branches, or by the air "
+             "above it, and goes on as a limit cycle.");
+  bench.figure(
+      "button.agree", 100.0 * same / static_cast<double>(all.size()), "%", at_least(95.0),
+      fmt::format("of {} places of the button's map: rests in MuJoCo if the eigenvalues of its floor say so",
+                  all.size()));
+}
+
+// The critical stiffness of linear walls, its error, and that of Gil and Hulin.
+void add_linear_cases(Bench& bench) {
+  const bool quick = bench.context.quick;
+  std::vector<Case> all = cases();
+  if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // no step of T/10 then
+  const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
+  double worst = 0.0, judged = 0.0;
+  for (const Found& f : found) {
+    worst = worse(worst, f.error);
+    judged += f.judged > 0 && std::isfinite(f.error) ? 1.0 : 0.0;
+  }
+  bench.figure("critical.cases.value", judged, "", at_least(60.0),
+               "that have a critical stiffness on both sides, over b, B, delay, mass, period, hand, each at "
+               "time step T, T/2 and T/10 where the delay allows");
+  bench.figure("critical.error.max", worst, "%", at_most(3.0),
+               "critical stiffness: exact eigenvalues against MuJoCo");
+  add_formula(bench, all, found);
+  add_no_stiffness(bench);
+  add_table(bench, all, found);
+}
+
+// What each integrator does to the boundary.
+void add_integrators(Bench& bench) {
+  std::vector<Stepped> all;
+  for (const Scheme scheme : kSchemes)
+    for (const int steps : {1, 2, 10})
+      for (const double delay : {0.0, 1e-3, 2e-3, 5e-3}) all.push_back({scheme, steps, delay});
+  const auto found = bench.each(all, moved_by);
+  Table table{"integrators",
+              "Critical stiffness in MuJoCo over the exact one",
+              {"integrator", "time step", "delay (ms)", "factor", "expected"},
+              {},
+              "b 0.2 N s/m, 0.1 kg, T 1 ms. inf: stable up to 50 times the exact one."};
+  for (const Scheme scheme : kSchemes) {
+    double worst = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].scheme != scheme) continue;
+      table.add(name_of(scheme), all[i].steps == 1 ? "T" : fmt::format("T/{}", all[i].steps),
+                all[i].delay * 1e3, fixed(found[i].factor, 4), fixed(found[i].expected, 4));
+      const bool none = std::isinf(found[i].factor) && std::isinf(found[i].expected);
+      const double off = none ? 0.0 : 100.0 * std::abs(found[i].factor / found[i].expected - 1.0);
+      worst = worse(worst, off);
+      if (all[i].steps == 10) largest = worse(largest, found[i].factor);
+    }
+    bench.figure(fmt::format("{}.factor.tenth", name_of(scheme)), largest, "x",
+                 "critical stiffness over the exact one, time step T/10, no delay");
+    bench.figure(fmt::format("{}.factor_error.max", name_of(scheme)), worst, "%", at_most(3.0),
+                 scheme == Scheme::rk4 ? "against 1, time steps T to T/10, delays 0 to 5 ms"
+                                       : "against (T/2 + t_d)/(T/2 + t_d - h/2), the same");
+  }
+  bench.table(std::move(table));
+}
+
+// The certificates of the scenes that ship.
+void add_scenes(Bench& bench) {
+  Table table{"stability_scenes",
+              "What the shipped scenes render, as `check` certifies it",
+              {"scene", "object", "class", "asks for (N/mm)", "passive to", "stable alone to",
+               "with the hand to", "admittance from", "large signal from"}};
+  double beyond = 0.0, unknown = 0.0, objects = 0.0, most = 0.0;
+  const std::string& models = bench.context.models;
+  for (const std::string& name : models::files_in(models, "scenes")) {
+    const models::Setup setup = models::load(models + "/scenes/" + name + ".toml", {});
+    const Scene scene = trial::prepare_setup(setup);
+    const double start = thread_seconds();
+    const std::vector<trial::Certified> found = trial::certificates_of(setup, scene, true);
+    most = std::max(most, thread_seconds() - start);
+    for (const trial::Certified& one : found) {
+      using certificate::Row;
+      ++objects;
+      beyond += one.beyond() ? 1.0 : 0.0;
+      unknown += one.unknown() ? 1.0 : 0.0;
+      table.add(name, one.object.empty() ? "(none)" : one.object, word_of(one.certificate.verdict),
+                in_mm(one.asked), told(one, "colgate_schenkel", &Row::bound),
+                told(one, "exact_alone", &Row::bound), told(one, "exact_with_hand", &Row::bound),
+                told(one, "admittance", &Row::low), told(one, "large_signal", &Row::low));
+    }
+  }
+  table.note =
+      "Of an arm: (none) is the tip that nobody touches. Of a machine that measures force the object asks "
+      "for its softest slope.";
+  bench.result.tables.push_back(std::move(table));
+  bench.figure("scenes.objects.value", objects, "", "objects of shipped scenes that have a certificate");
+  bench.figure("scenes.beyond.value", beyond, "", at_most(0.0),
+               "of them, that are not stable under the hand that the rig expects");
+  bench.figure("scenes.unknown.value", unknown, "", at_most(0.0), "of them, of which it is not known");
+  bench.cost("scenes.time.max", 1e3 * most, "ms", "CPU time of all certificates of a scene, at most");
+}
+
+// Error against run time: time step x integrator.
+void add_error_over_time(Bench& bench) {
+  std::vector<Setting> all;
+  for (const double delay : {0.0, 2e-3})
+    for (const Scheme scheme : kSchemes)
+      for (const int steps : kStepCounts) all.push_back({scheme, steps, delay});
+  all = bench.each(all, timed);
+  std::vector<std::function<void()>> ways;
+  ways.reserve(all.size());
+  for (const Setting& s : all)
+    ways.emplace_back([&s] {
+      Slide slide(timed_device(s.delay), {30.0, 0.0}, {s.scheme, s.steps}, 1e-3);
+      for (int i = 0; i < kTimedPeriods; ++i) slide.period();
+    });
+  const Race race(bench.context.quick ? 3 : 5, ways);
+  Table table{"work_precision",
+              "Error of the critical stiffness against run time",
+              {"integrator", "time step", "delay (ms)", "error (%)", "CPU s per s"}};
+  std::vector<CostCurve> curves;
+  Series chosen{.name = "default: rk4, a step a period", .mark = Mark::points, .paper = true};
+  double error = 0.0, cost = kUnset, cheapest = kUnset;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Setting& s = all[i];
+    s.cost = race.seconds(i) / (kTimedPeriods * kTimedPeriod);
+    const bool first = s.steps == kStepCounts.front();
+    if (first)
+      curves.push_back({fmt::format("{}, {}", name_of(s.scheme), s.delay > 0.0 ? "2 ms late" : "in time")});
+    curves.back().cost.push_back(s.cost);
+    curves.back().error.push_back(s.error);
+    table.add(name_of(s.scheme), first ? "T" : fmt::format("T/{}", s.steps), s.delay * 1e3,
+              s.none ? "failed: stable for every stiffness" : fmt::format("{:.3g}", s.error),
+              fmt::format("{:.3g}", s.cost));
+    if (s.scheme == Scheme::rk4 && first) {
+      chosen.add(s.cost, s.error);
+      error = worse(error, s.error);
+      if (s.delay == 0.0) cost = s.cost;
+    } else if (s.error <= 3.0 && s.delay == 0.0 && !(cheapest < s.cost)) {
+      cheapest = s.cost;
+    }
+  }
+  Plot plot = cost_beside_error(
+      {.id = "work_precision",
+       .title = "Error of the critical stiffness against run time",
+       .x_label = "CPU time for one second of experiment (s)",
+       .y_label = "error of the critical stiffness (%)",
+       .caption = "Time steps from a period (left) to a twentieth of it. Crosses: every stiffness seems "
+                  "stable. 3 % is what is asked; below 0.05 % the search for the boundary decides."},
+      curves);
+  plot.series.push_back(std::move(chosen));
+  bench.plot(std::move(plot));
+  bench.table(std::move(table));
+  bench.figure("work_precision.error.max", error, "%", at_most(3.0),
+               "critical stiffness at the default, rk4, a step a period");
+  bench.cost("work_precision.default_over_cheapest.cpu", cost / cheapest, "x",
+             "CPU time of the default over the cheapest other setting that is within 3 % without a delay");
 }
 
 void run(Bench& bench) {
@@ -214,25 +516,5 @@ void Agreement::see(certificate::Rest told, certificate::Rest seen) {
 
 double worse(double a, double b) { return std::isnan(a) ? a : std::isnan(b) ? b : std::max(a, b); }
 certificate::Steps steps_of(const Device& device) { return {device.friction, device.count}; }
-
-void add_linear_cases(Bench& bench) {
-  const bool quick = bench.context.quick;
-  std::vector<Case> all = cases();
-  if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // no step of T/10 then
-  const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
-  double worst = 0.0, judged = 0.0;
-  for (const Found& f : found) {
-    worst = worse(worst, f.error);
-    judged += f.judged > 0 && std::isfinite(f.error) ? 1.0 : 0.0;
-  }
-  bench.figure("critical.cases.value", judged, "", at_least(60.0),
-               "that have a critical stiffness on both sides, over b, B, delay, mass, period, hand, each at "
-               "time step T, T/2 and T/10 where the delay allows");
-  bench.figure("critical.error.max", worst, "%", at_most(3.0),
-               "critical stiffness: exact eigenvalues against MuJoCo");
-  add_formula(bench, all, found);
-  add_no_stiffness(bench);
-  add_table(bench, all, found);
-}
 
 }  // namespace enc::bench::stability

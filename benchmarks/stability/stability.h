@@ -1,5 +1,11 @@
-// Parts of the benchmark `stability`: the certificate's predictions beside what MuJoCo does.
+// Parts of the benchmark `stability`: the certificate's predictions beside what MuJoCo does; and its maps:
+// what becomes of a disturbance over stiffness and delay, in small multiples, with the bounds drawn into
+// them.
 #pragma once
+
+#include <array>
+#include <string>
+#include <vector>
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/stability/slide.h"
@@ -22,12 +28,57 @@ struct Agreement {
 
 // The larger of two; NaN where one is.
 [[nodiscard]] double worse(double a, double b);
+void add_passivity(Bench& bench);  // what a wall gives out, with the core's controller in its loop
+void add_spare(Bench& bench);      // the same of the hexapod, in the twin
+void add_regions(Bench& bench);    // with friction and counts: damping x delay, and a map
 
-void add_linear_cases(Bench& bench);  // critical stiffness, its error, Gil and Hulin's
-void add_integrators(Bench& bench);   // what each does to the boundary
-void add_passivity(Bench& bench);     // what a wall gives out, with the core's controller in its loop
-void add_spare(Bench& bench);         // the same of the hexapod, in the twin
-void add_regions(Bench& bench);       // with friction and counts: damping x delay, and a map
-void add_scenes(Bench& bench);        // the certificates of what ships
+inline constexpr std::array kDelays{0.0, 0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3};  // s
+inline constexpr double kSoftest = 1e-2, kHardest = 1e6;                                          // N/m
+
+// Who holds it. A finger and a pen's grip [sources/hand 1]; `firm` is one that is clenched.
+struct Grip {
+  const char* name;
+  certificate::Hand hand;
+};
+inline const std::array<Grip, 3> kGrips{Grip{"nobody", {}}, Grip{"a fingertip", {6e-3, 2.0, 300.0}},
+                                        Grip{"a firm grip", {0.15, 10.0, 2000.0}}};
+[[nodiscard]] Device held_by(Device device, const Grip& grip);
+
+// Of certificate::Rest, in its order.
+inline constexpr std::array kRestWords{"rests", "limit cycle", "runs away", "not known"};
+[[nodiscard]] inline const char* words_of(certificate::Rest rest) {
+  return kRestWords[static_cast<std::size_t>(rest)];
+}
+
+// Even steps of a logarithm: half decades, decades where it has to be quick, quarters of them in full.
+[[nodiscard]] std::vector<double> stiffnesses(const BenchContext& context);
+
+// A plot of panels over the delays; what is outside of it is a gap.
+class Map {
+ public:
+  Map(std::string id, std::string title, std::vector<std::string> panels, std::size_t columns);
+  void cell(std::size_t panel, std::size_t delay, double stiffness, certificate::Rest rest);
+  void line(const std::string& name, std::size_t panel, std::size_t delay, double stiffness);
+
+  void add_to(Bench& bench, std::string caption);
+
+ private:
+  Series& series(const std::string& name, std::size_t panel, Mark mark);
+  Plot plot_;
+};
+
+// Random places of some panels, drawn by the user's seed. `share`, 0 to 1, is for the stiffness.
+struct Place {
+  std::size_t panel, delay;
+  double share;
+};
+[[nodiscard]] std::vector<Place> random_places(const BenchContext& context, std::size_t panels,
+                                               std::size_t count, std::uint64_t stream);
+// N/m: about the boundary, up to 30 times softer and stiffer, where a wrong boundary shows; within the map.
+[[nodiscard]] double about(double boundary, double share);
+
+void add_wall_maps(Bench& bench);       // stiffness x delay x period x grip, and x damping of both
+void add_admittance_map(Bench& bench);  // of a machine that measures force
+void add_widths(Bench& bench);          // softest to stiffest, beside published devices
 
 }  // namespace enc::bench::stability

@@ -25,8 +25,8 @@ const sim::CameraModule& camera(const BenchContext& context) {
   const ModuleInfo* module = context.module ? context.module("camera") : nullptr;
   if (module == nullptr || module->camera == nullptr)
     throw Error(
-        "the benchmark draws what a camera sees, and the module 'camera' was not built; './encounter "
-        "bench' builds it",
+        "the benchmark draws what a camera sees, and the module 'camera' was not built; './encounter bench' "
+        "builds it",
         {}, ErrorKind::device);
   return *static_cast<const sim::CameraModule*>(module->camera);
 }

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/kit/over_rig.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "core/control/stages/walk.h"
 
 namespace enc::bench::stiffness {

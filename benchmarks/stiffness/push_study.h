@@ -53,7 +53,7 @@ struct PushTrace {
                                        const std::vector<std::string>& variant = {});
 // The same with another stiffness of the pushed object, N/m.
 [[nodiscard]] models::Setup with_stiffness(models::Setup setup, double stiffness);
-// `base` as over_rig.h has it; the trace needs the truth.
+// `base` as scenes.h has it; the trace needs the truth.
 [[nodiscard]] Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace = nullptr,
                              const trial::TrialOptions& base = {});
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/benchmark.h"
 #include "benchmarks/stiffness/push_study.h"
 
 namespace enc::bench::stiffness {
@@ -23,27 +22,23 @@ struct Spread {
   [[nodiscard]] double worst() const;  // the larger of the two, without its sign
 };
 [[nodiscard]] Spread spread(const Level& level, double Push::*felt);
-// On all cores; push i of level j has the seed that belongs to the two alone.
-[[nodiscard]] std::vector<Level> levels_of(const models::Setup& setup, const std::vector<double>& stiffnesses,
-                                           std::size_t pushes, std::uint64_t seed,
-                                           const Progress& progress = {});
 // Slope of log |mean error| over log stiffness, least squares.
 [[nodiscard]] double error_slope(const std::vector<Level>& levels, double Push::*felt, double from,
                                  double to);
 
 // Nothing limits speed-up, in the core's commands nor in the machine.
 [[nodiscard]] const std::vector<std::string>& unlimited_acceleration();
-[[nodiscard]] const std::vector<std::string>& no_threshold_no_drift();
-[[nodiscard]] const std::vector<std::string>& uncompensated_gripper();
 
 // Fig 3 over the devices of the user's rig.
 void over_rig(Bench& bench);
-
-// Both explanations of the knee at 0.3 N/mm beside each other, as figures and a table.
-void add_knee(const BenchContext& context, BenchResult& result);
 // What `check` says of the softest spring, against the twin over a grid of hands and machines.
 void add_softest(const BenchContext& context, BenchResult& result);
-// Each effect switched off alone: what it does to the boundary and to the error.
-void add_switches(const BenchContext& context, const Progress& progress, BenchResult& result);
+
+// Beyond the paper: how soft a wall the machine renders with the damper of
+// core/control/task/render/damping.h, and what it costs.
+
+// Adds figures `stiffness.beyond.*`, plots and tables to the benchmark `stiffness`.
+void add_beyond(const BenchContext& context, const std::function<void(double)>& progress,
+                BenchResult& result);
 
 }  // namespace enc::bench::stiffness

@@ -1,19 +1,88 @@
-#include "benchmarks/stiffness/stiffness_beyond.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/stiffness/push_study.h"
+#include "benchmarks/stiffness/stiffness.h"
+#include "core/control/scene/steadiness.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::stiffness {
 namespace {
+
+// How soft an object this machine holds still: what `check` says beforehand (core/control/scene/steadiness.h)
+// against the twin, over hands, filters and machines.
+
+constexpr double kDepth = 0.015, kForce = 30.0;  // m, N: what `check` prints is for this push
+constexpr double kWithin = 1.25;
+
+struct Hand {
+  double stiffness, damping;  // N/m, N s/m
+};
+struct Cell {
+  Hand hand;
+  double filter, servo;              // Hz
+  bool limited;                      // in its acceleration
+  double ramp;                       // s
+  double said = kUnset;              // N/m
+  bool least = false;                // what is softer is not felt, so nothing is said of it
+  double there = 0.0, softer = 0.0;  // m, peak to peak, most: at what was said, and 25 % softer
+  double still = kUnset;             // m
+};
+
+std::vector<Cell> cells_of(const BenchContext& context) {
+  constexpr std::array<Hand, 5> kHands{{{40, 1}, {200, 2}, {700, 4}, {2000, 8}, {5000, 15}}};
+  std::vector<Cell> cells;
+  for (const double ramp : {Steadiness::kSlow, Steadiness::kQuick})
+    for (const bool limited : {true, false})
+      for (const Hand& hand : kHands)
+        for (const double filter : {2.0, 5.0, 30.0})
+          for (const double servo : {15.0, 60.0}) cells.push_back({hand, filter, servo, limited, ramp});
+  if (context.quick) cells = {cells[12], cells[42], cells[72]};
+  return cells;
+}
+
+models::Setup setup_of(const BenchContext& context, const Cell& cell) {
+  const double k = cell.hand.stiffness * 1e-3, b = cell.hand.damping;
+  std::vector<std::string> set{fmt::format("truth.pusher.stiffness_N_per_mm={}", k),
+                               fmt::format("truth.pusher.damping_Ns_per_m={}", b),
+                               fmt::format("rig.contact.hand_stiffness_N_per_mm={}", k),
+                               fmt::format("rig.contact.hand_damping_Ns_per_m={}", b),
+                               fmt::format("rig.force.filter_hz={}", cell.filter),
+                               fmt::format("truth.hexapod.servo_hz={}", cell.servo),
+                               fmt::format("rig.manipulator.servo_hz={}", cell.servo),
+                               fmt::format("pusher.ramp_s={}", cell.ramp)};
+  if (!cell.limited) set.insert(set.end(), unlimited_acceleration().begin(), unlimited_acceleration().end());
+  return push_setup(context.models, set);
+}
+
+// The widest swing over pushes of several depths, none of which check asks for but the deepest.
+double widest(const BenchContext& context, models::Setup setup) {
+  double way = 0.0;
+  std::uint64_t seed = context.seed;
+  for (const double share : {1.0, 0.85, 0.6, 0.38}) {
+    setup.scene.pusher->depth = share * kDepth;
+    setup.scene.pusher->force = share * kForce;
+    const double here = push_once(setup, seed++).peak_to_peak;
+    way = std::isnan(here) ? here : std::max(way, here);
+  }
+  return way;
+}
+
+void judge(const BenchContext& context, Cell& cell) {
+  const models::Setup setup = setup_of(context, cell);
+  const Steadiness loop(setup.rig);
+  cell.still = loop.still();
+  cell.said = loop.softest(kDepth, kForce, cell.ramp);
+  cell.least = cell.said < kWithin * loop.least_felt(kDepth);
+  cell.there = widest(context, with_stiffness(setup, cell.said));
+  cell.softer = widest(context, with_stiffness(setup, cell.said / kWithin));
+}
 
 using Words = std::vector<std::string>;
 
@@ -116,7 +185,7 @@ std::vector<BeyondLevel> beyond_levels(const std::vector<Run>& runs, const std::
 }
 
 Series series_of(const std::vector<BeyondLevel>& levels, const std::string& name, bool settling, bool log) {
-  Series s{name, {}, {}, {}, {}, Mark::both};
+  Series s{.name = name, .mark = Mark::both};
   for (const BeyondLevel& level : levels) {
     s.x.push_back(level.stiffness * 1e-3);
     const double y = settling ? level.settling.most : level.load_error.worst();
@@ -197,15 +266,9 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
              "commanded stiffness, N/mm",
              "worst error of true load, %",
              true,
-             true,
-             {}};
-  Plot settling{"stiffness_beyond_settling",
-                "Beyond the paper: what it costs",
-                "commanded stiffness, N/mm",
-                "settling time, s",
-                true,
-                false,
-                {}};
+             true};
+  Plot settling{"stiffness_beyond_settling", "Beyond the paper: what it costs", "commanded stiffness, N/mm",
+                "settling time, s", true};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const std::string pusher = fmt::format(", {} pusher", kPushers[i].name);
     std::vector<BeyondLevel> all = studies[i].soft_end;
@@ -215,15 +278,14 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
     settling.series.push_back(series_of(all, "damped, re-tared" + pusher, true, false));
     settling.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, true, false));
   }
-  error.series.push_back({"paper: within 2 % from 0.3 N/mm", {0.3, 200}, {2, 2}, {}, {}, Mark::line, true});
+  error.series.push_back(
+      {.name = "paper: within 2 % from 0.3 N/mm", .x = {0.3, 200}, .y = {2, 2}, .paper = true});
   error.caption =
       "Worst of the pushes, where they come to rest. With the damper: no threshold, a fresh zero, a sensor "
-      "that "
-      "averages eight readings.";
+      "that averages eight readings.";
   settling.caption =
       "Time after the push until the tip stays within 2 % of where it ends; as long as the hold where it "
-      "never "
-      "does.";
+      "never does.";
   result.plots.push_back(std::move(error));
   result.plots.push_back(std::move(settling));
 }
@@ -234,10 +296,7 @@ struct Course {
 
 // One push, every 10 ms: where the tip truly is, and the stiffness of the pusher that the core has seen.
 Course course_of(const models::Setup& setup, std::uint64_t seed) {
-  trial::TrialOptions options;
-  options.seed = seed;
-  options.seconds = push_time(setup);
-  trial::Trial trial(setup, options);
+  trial::Trial trial(setup, {.seed = seed, .seconds = push_time(setup)});
   const PressPoint at = pushed_point(setup.scene, trial.scene()).at;
   Course course;
   for (int i = 0; trial.tick(); ++i) {
@@ -252,20 +311,9 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
 
 // Both pushers on a very soft wall, with and without the damper; and what drives the damper.
 void add_courses(const BenchContext& context, const BeyondExtent& extent, BenchResult& result) {
-  Plot motion{"stiffness_beyond_motion",
-              "A push into a wall of 0.01 N/mm",
-              "time, s",
-              "deflection, mm",
-              false,
-              false,
-              {}};
-  Plot seen{"stiffness_beyond_seen",
-            "What drives the damper: the pusher's stiffness, as seen in the swing",
-            "time, s",
-            "stiffness, N/mm",
-            false,
-            false,
-            {}};
+  Plot motion{"stiffness_beyond_motion", "A push into a wall of 0.01 N/mm", "time, s", "deflection, mm"};
+  Plot seen{"stiffness_beyond_seen", "What drives the damper: the pusher's stiffness, as seen in the swing",
+            "time, s", "stiffness, N/mm"};
   std::array<Course, 4> courses;
   in_parallel(courses.size(), [&](std::size_t i) {
     const Words damper = i < 2 ? Words{} : Words{"rig.admittance.damping=none"};
@@ -303,9 +351,8 @@ void add_price(const BenchContext& context, BenchResult& result) {
     setup.scene.user->approach = {0.02};
     const trial::PressMeasure m = trial::measured_run(setup, context.seed, simulated[i]);
     release[i] = m.rmse_release();
-    rows[i] = {i == 0 ? "none" : "observed", fmt::format("{:.4f}", m.rmse_press()),
-               fmt::format("{:.4f}", m.rmse_release()),
-               fmt::format("{:.2f}", 1e3 * (m.energy_in() - m.energy_out()))};
+    rows[i] = {i == 0 ? "none" : "observed", fixed(m.rmse_press(), 4), fixed(m.rmse_release(), 4),
+               fixed(1e3 * (m.energy_in() - m.energy_out()), 2)};
   });
   table.rows = {rows[0], rows[1]};
   result.tables.push_back(std::move(table));
@@ -345,16 +392,46 @@ void add_parts(const BenchContext& context, const BeyondExtent& extent, BenchRes
       const std::vector<BeyondLevel> l =
           beyond_levels(runs_of(setup, stiffnesses, extent.pushes, context.seed + 3000), stiffnesses);
       result.simulated += 3.0 * static_cast<double>(extent.pushes) * push_time(setup);
-      table.rows.push_back(
-          {part.name, pusher.name, fmt::format("{:.2f}", l[0].load_error.worst()),
-           fmt::format("{:.2f}", l[1].load_error.worst()), fmt::format("{:.2f}", l[2].load_error.worst()),
-           fmt::format("{:.3f}", l[0].way.most * 1e3), fmt::format("{:.3f}", l[1].way.most * 1e3),
-           fmt::format("{:.2f}", l[1].settling.most)});
+      table.rows.push_back({part.name, pusher.name, fixed(l[0].load_error.worst(), 2),
+                            fixed(l[1].load_error.worst(), 2), fixed(l[2].load_error.worst(), 2),
+                            fixed(l[0].way.most * 1e3, 3), fixed(l[1].way.most * 1e3, 3),
+                            fixed(l[1].settling.most, 2)});
     }
   result.tables.push_back(std::move(table));
 }
 
 }  // namespace
+
+void add_softest(const BenchContext& context, BenchResult& result) {
+  std::vector<Cell> cells = cells_of(context);
+  in_parallel(cells.size(), [&](std::size_t i) { judge(context, cells[i]); });
+  Table table{"stiffness_softest",
+              "The softest spring that stands still, as `check` says it, and the twin",
+              {"hand (N/m)", "its damping (N s/m)", "filter (Hz)", "servo (Hz)", "acceleration limited",
+               "ramp (s)", "said (N/m)", "the twin there (mm)", "25 % softer (mm)", "still (mm)"}};
+  double moving = 0.0, careful = 0.0;
+  for (const Cell& cell : cells) {
+    moving += cell.there <= cell.still ? 0.0 : 1.0;
+    careful += cell.least || cell.softer > cell.still ? 0.0 : 1.0;
+    table.rows.push_back({fmt::format("{:g}", cell.hand.stiffness), fmt::format("{:g}", cell.hand.damping),
+                          fmt::format("{:g}", cell.filter), fmt::format("{:g}", cell.servo),
+                          cell.limited ? "yes" : "no", fmt::format("{:g}", cell.ramp), fixed(cell.said, 1),
+                          fixed(1e3 * cell.there, 3), fixed(1e3 * cell.softer, 3),
+                          fixed(1e3 * cell.still, 3)});
+  }
+  table.note =
+      "The way of the true tip in the second half of a hold, peak to peak: the most of four pushes, 15, "
+      "12.8, 9 and 5.7 mm deep.";
+  result.tables.push_back(std::move(table));
+  const auto count = static_cast<double>(cells.size());
+  result.figures.push_back({"stiffness.softest.cells", kUnset, count, "", Role::ours, kUnset, kUnset,
+                            "hands of 40 to 5000 N/m that push in 2 s and in 0.5 s, filters of 2 to 30 Hz, "
+                            "servos of 15 and 60 Hz, with the limit of acceleration and without"});
+  result.figures.push_back({"stiffness.softest.moving", kUnset, moving, "", Role::ours, kUnset, 0.0,
+                            "of them, in which the twin does not hold still what check says it does"});
+  result.figures.push_back({"stiffness.softest.careful", kUnset, careful, "", Role::ours, kUnset, kUnset,
+                            "of them, in which the twin holds still what is 25 % softer, too"});
+}
 
 void add_beyond(const BenchContext& context, const std::function<void(double)>& progress,
                 BenchResult& result) {

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/over_rig.h"
 #include "benchmarks/stiffness/stiffness.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
@@ -197,9 +196,8 @@ void add_row(const RigLevel& level, Table& table) {
   };
   if (!level.refused.empty()) return table.add(level.name(), "", "", "", "", "refused: " + level.refused);
   const double way = longest_of(level.rig, &Push::way);
-  table.add(level.name(), fmt::format("{:.2f}", level.rig.pushes.front().force), range(level.rig),
-            range(level.twin), fmt::format("{:.3f}", kMmPerM * way),
-            way <= kWander ? "" : "did not come to rest");
+  table.add(level.name(), fixed(level.rig.pushes.front().force, 2), range(level.rig), range(level.twin),
+            fixed(kMmPerM * way, 3), way <= kWander ? "" : "did not come to rest");
 }
 
 }  // namespace
@@ -220,8 +218,7 @@ void over_rig(Bench& bench) {
   Table table{
       "rig",
       "Error of the rendered stiffness over the devices of a rig (VHMR Fig 3b)",
-      {"stiffness (N/mm)", "force (N)", "error (%), rig", "error (%), twin", "still within (mm)", "remarks"},
-      {}};
+      {"stiffness (N/mm)", "force (N)", "error (%), rig", "error (%), twin", "still within (mm)", "remarks"}};
   table.printed = true;
   table.note = fmt::format(
       "Least to greatest of {} pushes. Still: the machine's own position, peak to peak, in the second half "

@@ -1,20 +1,203 @@
 // The structural hexapod: does it sag, vibrate and converge as theory says, what does it cost, and what would
 // a closed loop of bodies and constraints cost instead?
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/yardstick.h"
-#include "benchmarks/structure/structure_model.h"
+#include "sim/bodies/legs.h"
 #include "trial/trial.h"
 
 namespace enc::bench::structure {
 namespace {
+
+// The machine alone, legs and platform, for the benchmark `structure`: as tendons, which is what the twin
+// uses, and as a closed loop of bodies with `connect` constraints, which exists for comparison only.
+
+enum class LegForm : std::uint8_t { tendon, connect };
+
+// How the servo moves H: 10 mm and 3 degrees at 1 Hz, slanted, from a sudden start.
+struct LegCommand {
+  Pose<'R', 'H'> pose;
+  Vec<'R'> velocity, turning;
+};
+
+class LegModel {
+ public:
+  LegModel(LegForm form, const sim::StructureTruth& truth);
+
+  void step(const LegCommand& from, const LegCommand& to);  // one physics step
+  void push(const Vec3& force);                             // on H, N, until the next call
+  [[nodiscard]] Vec3 tip() const;                           // H in R, m
+  [[nodiscard]] double gap() const;                         // of the loops, m; 0 for tendons
+  // The natural frequencies of the equations of motion, by differences of qacc, ascending, Hz (tendons).
+  [[nodiscard]] Hexapod::Lengths measured_modes();
+  [[nodiscard]] const Hexapod& machine() const { return machine_; }
+  [[nodiscard]] const sim::Legs& legs() const { return legs_; }
+  [[nodiscard]] sim::Physics& physics() { return physics_; }
+
+ private:
+  Hexapod machine_;
+  sim::Physics physics_;
+  sim::Legs legs_;
+  int qpos_ = 0, dof_ = 0;  // of the platform
+};
+
+constexpr double kBehind = 0.91;  // kg behind the sensor
+constexpr double kRod = 1e-4;     // kg, of half a leg in the closed loop: next to nothing
+
+void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
+void set4(double* to, const Quat& q) {
+  to[0] = q.w();
+  set3(to + 1, q.vec());
+}
+
+mjsBody* body_of(mjsBody* parent, const std::string& name, double mass, const Vec3& centre,
+                 const Vec3& inertia) {
+  mjsBody* body = mjs_addBody(parent, nullptr);
+  mjs_setName(body->element, name.c_str());
+  body->mass = mass;
+  body->explicitinertial = true;
+  set3(body->ipos, centre);
+  set3(body->inertia, inertia);
+  return body;
+}
+
+void joint_of(mjsBody* body, mjtJoint type, const Vec3& axis, const std::string& name) {
+  mjsJoint* joint = mjs_addJoint(body, nullptr);
+  mjs_setName(joint->element, name.c_str());
+  joint->type = type;
+  set3(joint->axis, axis);
+}
+
+// A leg as two bodies: a cardan joint at the base, a slide along the leg, tied to the platform's joint.
+void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
+  const std::string name = "leg" + std::to_string(leg);
+  const Vec3& foot = machine.base_joint(leg);
+  const Vec3 along = machine.zero().p() + machine.platform_joint(leg) - foot;
+  mjsBody* lower =
+      body_of(mjs_findBody(spec, "base"), name + "_lower", kRod, Vec3(0, 0, 0.03), Vec3::Constant(1e-7));
+  set3(lower->pos, foot);
+  set4(lower->quat, Quat::FromTwoVectors(Vec3::UnitZ(), along));
+  joint_of(lower, mjJNT_HINGE, Vec3::UnitX(), name + "_x");
+  joint_of(lower, mjJNT_HINGE, Vec3::UnitY(), name + "_y");
+  mjsBody* upper = body_of(lower, name + "_upper", kRod, Vec3(0, 0, 0.12), Vec3::Constant(1e-7));
+  joint_of(upper, mjJNT_SLIDE, Vec3::UnitZ(), name);
+  mjsEquality* tie = mjs_addEquality(spec, nullptr);
+  tie->type = mjEQ_CONNECT;
+  tie->objtype = mjOBJ_BODY;
+  mjs_setString(tie->name1, "platform");
+  mjs_setString(tie->name2, (name + "_upper").c_str());
+  set3(tie->data, machine.platform_joint(leg));
+  tie->solref[0] = 0.001;  // s: as hard as a step of 0.5 ms allows
+  tie->solimp[0] = tie->solimp[1] = 0.9999;
+  // The same spring and damper as the tendon's, on the slide, whose zero is the leg's length at zero.
+  auto* drive = mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));
+  drive->trntype = mjTRN_JOINT;
+  drive->biasprm[0] = drive->biasprm[1] * machine.zero_length();
+}
+
+sim::SpecPtr spec_of(LegForm form, const sim::StructureTruth& truth, const Hexapod& machine) {
+  sim::install_mujoco_handlers();
+  sim::SpecPtr spec(mj_makeSpec());
+  spec->option.timestep = truth.timestep;
+  spec->option.integrator = truth.integrator == "rk4"     ? mjINT_RK4
+                            : truth.integrator == "euler" ? mjINT_EULER
+                                                          : mjINT_IMPLICITFAST;
+  set3(spec->option.gravity, {0, 0, -9.80665});
+  mjsBody* world = mjs_findBody(spec.get(), "world");
+  mjs_setName(mjs_addBody(world, nullptr)->element, "base");
+  mjsBody* platform = body_of(world, "platform", 1.0, Vec3::Zero(), Vec3::Constant(1.0));
+  set3(platform->pos, machine.zero().p());
+  joint_of(platform, mjJNT_FREE, Vec3::UnitZ(), "platform");
+  body_of(platform, "behind_sensor", kBehind, Vec3(0, 0, -0.08), Vec3(0.002, 0.002, 0.0006));
+  sim::Legs::build(spec.get(), machine, truth, truth.platform_mass + kBehind);
+  if (form == LegForm::connect)
+    for (int leg = 0; leg < 6; ++leg) close_loop(spec.get(), machine, leg);
+  return spec;
+}
+
+LegCommand swing(const Hexapod& machine, double t) {
+  constexpr double kRate = 2.0 * std::numbers::pi;  // 1 Hz
+  const Vec3 way = 0.010 * Vec3(2, 1, 2) / 3.0;
+  const Vec3 axis = Vec3(1, 2, -2) / 3.0;
+  const double angle = 3.0 * std::numbers::pi / 180.0;
+  const double s = std::sin(kRate * t);
+  const double c = kRate * std::cos(kRate * t);
+  return {{Quat(Eigen::AngleAxisd(angle * s, axis)), Vec3(machine.zero().p() + s * way)},
+          Vec<'R'>(Vec3(c * way)),
+          Vec<'R'>(Vec3(c * angle * axis))};
+}
+
+LegModel::LegModel(LegForm form, const sim::StructureTruth& truth)
+    : machine_(HexapodGeometry{}),
+      physics_(spec_of(form, truth, machine_)),
+      legs_(truth, machine_, physics_, Pose<'W', 'R'>::identity()) {
+  const int joint = physics_.id(mjOBJ_JOINT, "platform");
+  dof_ = physics_.model()->jnt_dofadr[joint];
+  qpos_ = physics_.model()->jnt_qposadr[joint];
+}
+
+void LegModel::step(const LegCommand& from, const LegCommand& to) {
+  legs_.drive(physics_.data(), legs_.at(from.pose, from.velocity, from.turning),
+              legs_.at(to.pose, to.velocity, to.turning), physics_.model()->opt.timestep);
+  physics_.step();
+}
+
+void LegModel::push(const Vec3& force) {
+  mjData* d = physics_.data();
+  std::fill_n(d->qfrc_applied, physics_.model()->nv, 0.0);
+  set3(d->qfrc_applied + dof_, force);  // the free joint's speeds are those of H
+}
+
+Vec3 LegModel::tip() const { return Eigen::Map<const Vec3>(physics_.data()->qpos + qpos_); }
+
+double LegModel::gap() const {
+  const mjModel* m = physics_.model();
+  const mjData* d = physics_.data();
+  double largest = 0.0;
+  for (int i = 0; i < d->nefc; ++i)
+    if (d->efc_type[i] == mjCNSTR_EQUALITY) largest = std::max(largest, std::abs(d->efc_pos[i]));
+  return m->neq > 0 ? largest : 0.0;
+}
+
+Hexapod::Lengths LegModel::measured_modes() {
+  const mjModel* m = physics_.model();
+  mjData* d = physics_.data();
+  const LegCommand still{machine_.zero(), Vec<'R'>::zero(), Vec<'R'>::zero()};
+  const sim::LegMotion zero = legs_.at(still.pose, still.velocity, still.turning);
+  legs_.drive(d, zero, zero, m->opt.timestep);
+  const std::vector<double> home(d->qpos, d->qpos + m->nq);
+  constexpr double kStep = 1e-6;  // m, rad
+  Eigen::Matrix<double, 6, 6> slope;
+  for (int axis = 0; axis < 6; ++axis) {
+    Eigen::Matrix<double, 6, 1> ends[2];
+    for (const int side : {0, 1}) {
+      Eigen::Matrix<double, 6, 1> moved = Eigen::Matrix<double, 6, 1>::Zero();
+      moved(axis) = side == 0 ? -kStep : kStep;
+      std::copy(home.begin(), home.end(), d->qpos);
+      std::fill_n(d->qvel, m->nv, 0.0);
+      mj_integratePos(m, d->qpos, moved.data(), 1.0);
+      mj_forward(m, d);
+      ends[side] = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(d->qacc + dof_);
+    }
+    slope.col(axis) = (ends[1] - ends[0]) / (2.0 * kStep);
+  }
+  std::copy(home.begin(), home.end(), d->qpos);
+  Hexapod::Lengths hz =
+      Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>>(-slope, false).eigenvalues().real().cwiseSqrt() /
+      (2.0 * std::numbers::pi);
+  std::sort(hz.data(), hz.data() + 6);
+  return hz;
+}
 
 using sim::StructureTruth;
 
@@ -92,7 +275,7 @@ const std::vector<Family>& families() {
 CostCurve converge(const Report& report, const Family& family, const Path& truth,
                    const std::vector<Path>& paths) {
   double before = kUnset;
-  Series error_of_step{fmt::format("{}, {}", family.name(), family.integrator), {}, {}, {}, {}, Mark::both};
+  Series error_of_step{.name = fmt::format("{}, {}", family.name(), family.integrator), .mark = Mark::both};
   CostCurve error_of_cost{error_of_step.name};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Path& path = paths[i];
@@ -144,8 +327,8 @@ void work_and_precision(const Report& report, const BenchContext& context) {
        true,
        true,
        {},
-       "By theory RK4 falls with the fourth power of the step once that resolves the fastest vibration, "
-       "the others with the first; the table has the orders found."});
+       "By theory RK4 falls with the fourth power of the step once that resolves the fastest vibration, the "
+       "others with the first; the table has the orders found."});
   std::vector<CostCurve> curves;
   std::size_t next = 2;
   for (const Family& family : families()) {
@@ -287,10 +470,8 @@ void speed(const Report& report, const BenchContext& context) {
   add_cost(report.result, "structure.times_real_time.swing", 0.5e-3 / median(steps), "x", kUnset,
            "legs and platform, 10 mm and 3 deg at 1 Hz, one core, CPU time of its thread");
   add_cost(report.result, "structure.step_over_yardstick.median", median(steps) / yardstick.seconds(), "x",
-           kMostStep, "a step of it over a fixed piece of work of the same run (kit/yardstick.h)");
-  trial::TrialOptions options;
-  options.seed = context.seed;
-  options.seconds = context.quick ? 10.0 : 30.0;
+           kMostStep, "a step of it over a fixed piece of work of the same run (kit/cost.h)");
+  trial::TrialOptions options{.seed = context.seed, .seconds = context.quick ? 10.0 : 30.0};
   Yardstick beside;
   options.watch = beside.watch();
   trial::Trial trial(on_legs(context), options);
@@ -303,8 +484,6 @@ void speed(const Report& report, const BenchContext& context) {
   add_cost(report.result, "structure.tick_over_yardstick.mean",
            cpu / static_cast<double>(run.ticks) / beside.seconds(), "x", kMostTick, "a tick of it, likewise");
 }
-
-}  // namespace
 
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
@@ -325,4 +504,5 @@ void run(Bench& bench) {
 const Entry kEntry{"structure", "tennis_ball",
                    "hexapod on elastic legs: sag, modes, order of the integrator, cost", run};
 
+}  // namespace
 }  // namespace enc::bench::structure

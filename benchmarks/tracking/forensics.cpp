@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "core/base/units.h"
@@ -121,18 +121,14 @@ void add_figures(BenchResult& result, const std::vector<Tried>& trials) {
   add("bias.max", worst_bias / kMillimetre, "mm", kUnset, "largest error of a bias");
   add("latency_interval.percent", held * share, "%", kUnset,
       "its 95 % interval holds the mean age of this log's packets; it is wide, because it is made for the "
-      "mean of "
-      "all that might have come");
+      "mean of all that might have come");
   add("bias_interval.percent", bias_held * share, "%", kUnset, "its 95 % interval holds the bias");
 }
 
 void add_plot(BenchResult& result, const std::vector<Tried>& trials) {
-  Series logs{"logs", {}, {}, {}, {}, Mark::points};
+  Series logs{.name = "logs", .mark = Mark::points};
   Series exact{"found = injected", {0, 60}, {0, 60}};
-  for (const Tried& t : trials) {
-    logs.x.push_back(t.latency / kMillisecond);
-    logs.y.push_back(t.found / kMillisecond);
-  }
+  for (const Tried& t : trials) logs.add(t.latency / kMillisecond, t.found / kMillisecond);
   Plot plot{"tracking_forensics", "Latency out of a log", "injected, ms", "found, ms", false, false,
             {exact, logs}};
   plot.caption =
@@ -157,9 +153,9 @@ void add_table(const Table1& paper, BenchResult& result) {
       rmse[s] = paper[s][a].rmse / kMillimetre;
       mae[s] = paper[s][a].mae / kMillimetre;
     }
-    std::vector<std::string> row{kTableAxes[a], fmt::format("{:.4f}", mae[0]),
-                                 fmt::format("{:.4f}", std::sqrt(rmse[0] * rmse[0] - mae[0] * mae[0]))};
-    const auto add = [&](double mm, double speed) { row.push_back(fmt::format("{:.1f}", 1e3 * mm / speed)); };
+    std::vector<std::string> row{kTableAxes[a], fixed(mae[0], 4),
+                                 fixed(std::sqrt(rmse[0] * rmse[0] - mae[0] * mae[0]), 4)};
+    const auto add = [&](double mm, double speed) { row.push_back(fixed(1e3 * mm / speed, 1)); };
     add(std::sqrt(rmse[1] * rmse[1] - rmse[0] * rmse[0]), 20.0);
     add(std::sqrt(rmse[2] * rmse[2] - rmse[0] * rmse[0]), 40.0);
     add(mae[1] - mae[0], 20.0);

@@ -4,21 +4,173 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/scenes.h"
 #include "benchmarks/kit/statistics.h"
-#include "benchmarks/tracking/prediction_rows.h"
-#include "benchmarks/tracking/prediction_run.h"
+#include "benchmarks/tracking/motion.h"
+#include "benchmarks/tracking/tracking_fit.h"
 #include "sim/plants/tracker_plant.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::tracking {
 namespace {
+
+struct PredictionRow {
+  std::string id, title;
+  std::function<Motion(std::uint64_t seed)> motion;
+  std::function<void(sim::TrackerTruth&)> change{};                 // of the tracker; none: as the rig has it
+  bool with_bias = false;                                           // registration error kept
+  bool moving_only = false;                                         // stops do not count
+  bool peak = false;                                                // the largest error is what matters
+  bool in_figures = false;                                          // of each prediction and kind of packets
+  double from = 0.0, to = std::numeric_limits<double>::infinity();  // s of the motion that count
+  double paper = kUnset;                                            // m
+  double highest = kUnset;                                          // m: bound of constant velocity with
+  std::size_t bound_on = 1;                                         // packets: 0 polled, 1 event
+};
+
+// Every axis moves alike, so that the distance is what the paper's norm of three separate axes is.
+const Vec3 kAll = Vec3::Ones();
+
+Motion paper_moves(double speed, double acceleration, bool both_ways) {
+  StopsSpec spec;
+  spec.direction = kAll;
+  for (double& stop : spec.stops) stop *= kAll.norm();
+  spec.speed = speed * kAll.norm();
+  spec.acceleration = acceleration * kAll.norm();
+  spec.dwell = 0.5;  // what comes later in a stop is like that
+  spec.both_ways = both_ways;
+  return moves_with_stops(spec);
+}
+
+// 20 mm at 40 mm/s and 100 mm at 200 mm/s take as long.
+Motion reach(const ReachShape& shape, double peak_speed) {
+  return reaches(shape, {0.5 * peak_speed * kAll, peak_speed * kAll.norm()});
+}
+
+Motion shaking(const Motion& motion, double rms, std::uint64_t seed) {
+  return with_tremor(motion, rms, 8.0, 12.0, seed);
+}
+
+double middle(const ReachShape& shape) { return 0.25 * shape.peak; }  // s, of the first of those reaches
+
+PredictionRow row(std::string id, std::string title, std::function<Motion(std::uint64_t)> motion) {
+  PredictionRow made;
+  made.id = std::move(id);
+  made.title = std::move(title);
+  made.motion = std::move(motion);
+  return made;
+}
+
+// The same with stamps that are wrong: the latency is believed to be another than it is.
+void add_wrong_stamps(std::vector<PredictionRow>& rows, const PredictionRow& right) {
+  for (const double error : {3e-3, -3e-3}) {
+    PredictionRow made = right;
+    made.id = fmt::format("stamp_{}3ms.{}", error > 0 ? "plus" : "minus", right.id);
+    made.title += fmt::format(", stamps {:.0f} ms {}", std::abs(error) * 1e3, error > 0 ? "late" : "early");
+    made.change = [error](sim::TrackerTruth& truth) { truth.stamp_error += error; };
+    made.paper = kUnset;
+    if (!std::isnan(right.highest)) made.highest = 0.30e-3;
+    rows.push_back(made);
+  }
+}
+
+// One way, along +, the registration error opposes the lag (sources/tracking 6): the paper's Table 1. There
+// and back it is as often with the lag as against it, so a wrong latency costs as much as it does on average.
+void add_paper(std::vector<PredictionRow>& rows, double acceleration, const Table1& paper) {
+  const auto moves = [acceleration](double speed, bool both_ways) {
+    return [=](std::uint64_t) { return paper_moves(speed, acceleration, both_ways); };
+  };
+  for (std::size_t s = 1; s < kTableSpeeds.size(); ++s) {
+    const double speed = 1e-3 * kTableSpeeds[s];
+    PredictionRow made =
+        row(fixed(speed * 1e3, 0), fmt::format("paper's moves, {:.0f} mm/s, registration kept", speed * 1e3),
+            moves(speed, false));
+    made.with_bias = made.moving_only = made.in_figures = true;
+    made.paper = paper[s][3].rmse;  // norm [VHMR Table 1]
+    if (speed > 0.030) made.highest = 0.20e-3;
+    rows.push_back(made);
+  }
+  PredictionRow back = rows.back();
+  back.id = "there_and_back.40";
+  back.title = "there and back, 40 mm/s, registration kept";
+  back.motion = moves(0.040, true);
+  back.paper = kUnset;
+  rows.push_back(back);
+  add_wrong_stamps(rows, back);
+  PredictionRow one_way = rows[1];
+  one_way.paper = one_way.highest = kUnset;
+  add_wrong_stamps(rows, one_way);
+  PredictionRow made = row("registered.40", "paper's moves, 40 mm/s", moves(0.040, true));
+  made.moving_only = true;
+  rows.push_back(made);
+}
+
+void add_hand(std::vector<PredictionRow>& rows) {
+  const auto shaped = [](const ReachShape& shape, double speed) {
+    return [&shape, speed](std::uint64_t) { return reach(shape, speed); };
+  };
+  rows.push_back(row("reach.40", "reach, peak 40 mm/s", shaped(minimum_jerk(), 0.040)));
+  rows.push_back(row("reach.200", "reach, peak 200 mm/s", shaped(minimum_jerk(), 0.200)));
+  rows.push_back(row("early_peak.200", "reach with an early peak, 200 mm/s", shaped(early_peak(), 0.200)));
+  rows.push_back(row("two_movements.200", "reach and correction, 200 mm/s", shaped(two_movements(), 0.200)));
+  rows.push_back(
+      row("press", "press, 2 Hz, 3 mm", [](std::uint64_t) { return swing(0.003 * kAll, 2.0, 5.0); }));
+  rows.push_back(row("tremor.50um", "reach, 40 mm/s, tremor 0.05 mm rms, 8 to 12 Hz", [](std::uint64_t seed) {
+    return shaking(reach(minimum_jerk(), 0.040), 0.05e-3, seed);
+  }));
+  rows.push_back(row("tremor.200um", "tremor 0.2 mm rms alone",
+                     [](std::uint64_t seed) { return shaking(at_rest(5.0), 0.2e-3, seed); }));
+  rows.push_back(row("rest", "at rest: the tracker's noise", [](std::uint64_t) { return at_rest(5.0); }));
+}
+
+void add_faults(std::vector<PredictionRow>& rows) {
+  PredictionRow stop = row("stop.200", "sudden stop at 200 mm/s", [](std::uint64_t) {
+    return stopped(reach(minimum_jerk(), 0.200), middle(minimum_jerk()));
+  });
+  stop.peak = true;
+  stop.from = middle(minimum_jerk());
+  stop.to = stop.from + 0.3;
+  rows.push_back(stop);
+  for (const double length : {0.05, 0.1, 0.2, 0.5}) {
+    PredictionRow out = row(fmt::format("drop_out.{:.0f}", length * 1e3),
+                            fmt::format("reach, 40 mm/s, drop-out of {:.0f} ms", length * 1e3),
+                            [](std::uint64_t) { return reach(minimum_jerk(), 0.040); });
+    out.from = middle(minimum_jerk()) - 0.5 * std::min(length, 0.1);
+    out.to = out.from + length + 0.5;
+    out.change = [from = out.from, length](sim::TrackerTruth& truth) {
+      truth.blackout_at = from;
+      truth.blackout_for = length;
+    };
+    out.peak = true;
+    if (length <= 0.1) out.highest = 1.5e-3;
+    out.bound_on = 0;
+    rows.push_back(out);
+  }
+  PredictionRow loss = row("loss", "reach, 40 mm/s, a fifth of the packets lost",
+                           [](std::uint64_t) { return reach(minimum_jerk(), 0.040); });
+  loss.change = [](sim::TrackerTruth& truth) { truth.loss = 1.0 - 0.8 * (1.0 - truth.loss); };
+  loss.highest = 0.13e-3;
+  loss.bound_on = 0;
+  rows.push_back(loss);
+}
+
+// acceleration: of the machine that makes the paper's moves, m/s^2; paper: what the rows of its moves are
+// compared with.
+std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& paper) {
+  std::vector<PredictionRow> rows;
+  add_paper(rows, acceleration, paper);
+  add_hand(rows);
+  add_faults(rows);
+  return rows;
+}
 
 constexpr std::array<sim::Packets, 2> kPackets{sim::Packets::polled, sim::Packets::event};
 constexpr auto kPacketName = kWords<sim::Packets>;
@@ -122,11 +274,11 @@ std::vector<Figure> figures_of(const Trials& trials) {
   return figures;
 }
 
-std::string mm(double m) { return fmt::format("{:.3f}", m * 1e3); }
+std::string mm(double m) { return fixed(m * 1e3, 3); }
 
 Table rmse_table(const Trials& trials) {
   Table table{
-      "tracking_predicted", "Error of the tool's tip by motion and prediction", {"motion", "packets"}, {}};
+      "tracking_predicted", "Error of the tool's tip by motion and prediction", {"motion", "packets"}};
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at packets mm", name));
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at every tick mm", name));
   for (std::size_t r = 0; r < trials.rows.size(); ++r)
@@ -147,8 +299,7 @@ Table rmse_table(const Trials& trials) {
 Table peak_table(const Trials& trials) {
   Table table{"tracking_predicted_peak",
               "Largest error along an axis, and largest step of the prediction in a tick",
-              {"motion", "packets"},
-              {}};
+              {"motion", "packets"}};
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} peak mm", name));
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} step mm", name));
   for (std::size_t r = 0; r < trials.rows.size(); ++r) {
@@ -197,35 +348,30 @@ Plot rmse_plot(const Trials& trials) {
                          "motion", "RMS distance, mm");
   plot.log_y = true;
   std::vector<std::size_t> rows;
-  Series paper{"paper (holds, polled)", {}, {}, {}, {}, Mark::points, true};
+  Series paper{.name = "paper (holds, polled)", .mark = Mark::points, .paper = true};
   for (const Shown& shown : kShown)
     for (std::size_t r = 0; r < trials.rows.size(); ++r) {
       if (trials.rows[r].id != shown.id) continue;
-      if (!std::isnan(trials.rows[r].paper)) {
-        paper.x.push_back(static_cast<double>(rows.size()) - 0.25);
-        paper.y.push_back(trials.rows[r].paper * 1e3);
-      }
+      if (!std::isnan(trials.rows[r].paper))
+        paper.add(static_cast<double>(rows.size()) - 0.25, trials.rows[r].paper * 1e3);
       plot.x_names.emplace_back(shown.name);
       rows.push_back(r);
     }
   for (std::size_t p = 0; p < kPackets.size(); ++p)
     for (std::size_t k = 0; k < kName.size(); ++k) {
-      Series series{fmt::format("{}, {}", kLongName[k], kPacketName[p]), {}, {}, {}, {}, Mark::points};
+      Series series{.name = fmt::format("{}, {}", kLongName[k], kPacketName[p]), .mark = Mark::points};
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::vector<double>& of = trials.cells[rows[i]][p].at_packets[k];
         const auto [least, most] = std::minmax_element(of.begin(), of.end());
-        series.x.push_back(static_cast<double>(i) + 0.1 * (static_cast<double>(3 * p + k) - 2.5));
-        series.y.push_back(root_mean_square(of) * 1e3);
-        series.low.push_back(*least * 1e3);
-        series.high.push_back(*most * 1e3);
+        series.add(static_cast<double>(i) + 0.1 * (static_cast<double>(3 * p + k) - 2.5),
+                   {root_mean_square(of) * 1e3, *least * 1e3, *most * 1e3});
       }
       plot.series.push_back(std::move(series));
     }
   plot.series.push_back(std::move(paper));
   plot.caption =
       "On ticks with a new pose; intervals: over seeds. The table below has all motions. Where the tool "
-      "shakes at 8 to "
-      "12 Hz or has just stopped, compare with hold: there prediction need not help.";
+      "shakes at 8 to 12 Hz or has just stopped, compare with hold: there prediction need not help.";
   return plot;
 }
 
@@ -258,9 +404,7 @@ std::array<double, 3> step_costs(const models::Setup& setup, const BenchContext&
       const std::size_t k = (i + static_cast<std::size_t>(round)) % 3;
       models::Setup with = setup;
       with.rig.tracker.prediction = kPredictions[k];
-      trial::TrialOptions options;
-      options.seed = context.seed;
-      options.seconds = context.quick ? 3.0 : 10.0;
+      trial::TrialOptions options{.seed = context.seed, .seconds = context.quick ? 3.0 : 10.0};
       const trial::TrialResult run = trial::Trial(with, options).run();
       medians[k].push_back(median(run.step_ns));
       simulated += run.simulated;
@@ -302,19 +446,17 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
   const auto miss = misses(setup, context, result.simulated);
   Table table{"tracking_predicted_loop",
               "In the whole loop: cost of step() and miss at first touch",
-              {"prediction", "step() p50 us"},
-              {}};
+              {"prediction", "step() p50 us"}};
   Plot plot = named_plot("tracking_predicted_miss", "Miss at first touch by prediction",
                          "approach speed, mm/s", "miss, mm");
   plot.log_x = true;
   for (const double v : kSpeeds) table.columns.push_back(fmt::format("miss at {:.0f} mm/s mm", v * 1e3));
   for (std::size_t k = 0; k < 3; ++k) {
-    table.rows.push_back({kLongName[k], fmt::format("{:.2f}", cost[k] * 1e-3)});
-    Series series{kLongName[k], {}, {}, {}, {}, Mark::both};
+    table.rows.push_back({kLongName[k], fixed(cost[k] * 1e-3, 2)});
+    Series series{.name = kLongName[k], .mark = Mark::both};
     for (std::size_t v = 0; v < kSpeeds.size(); ++v) {
       table.rows.back().push_back(mm(miss[k][v]));
-      series.x.push_back(kSpeeds[v] * 1e3);
-      series.y.push_back(miss[k][v] * 1e3);
+      series.add(kSpeeds[v] * 1e3, miss[k][v] * 1e3);
     }
     plot.series.push_back(std::move(series));
     result.figures.push_back({fmt::format("tracking.predicted.{}.step.p50", kName[k]), kUnset, cost[k] * 1e-3,
@@ -342,16 +484,14 @@ void add_prediction(const BenchContext& context, BenchResult& result) {
   };
   append(result.figures, figures_of(trials));
   append(result.tables, std::vector<Table>{rmse_table(trials), peak_table(trials)});
-  append(
-      result.plots,
-      std::vector<Plot>{
-          rmse_plot(trials),
-          time_plot(trials, context, "stop.200", "tracking_predicted_stop",
-                    "The tool meets a wall at 200 mm/s. Until the first pose from after the stop has come, "
-                    "every prediction goes on; holding never leads."),
-          time_plot(trials, context, "drop_out.100", "tracking_predicted_drop_out",
-                    "No poses for 100 ms in the middle of a reach. The prediction goes on for 100 ms and "
-                    "catches up afterwards.")});
+  append(result.plots,
+         std::vector<Plot>{rmse_plot(trials),
+                           time_plot(trials, context, "stop.200", "tracking_predicted_stop",
+                                     "The tool meets a wall at 200 mm/s. Until the first pose from after the "
+                                     "stop has come, every prediction goes on; holding never leads."),
+                           time_plot(trials, context, "drop_out.100", "tracking_predicted_drop_out",
+                                     "No poses for 100 ms in the middle of a reach. The prediction goes on "
+                                     "for 100 ms and catches up afterwards.")});
   result.simulated += trials.simulated;
   if (context.progress) context.progress(0.8);
   add_loop(result, trials.setup, context);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/over_rig.h"
 #include "core/base/units.h"
 
 namespace enc::bench::tracking {
@@ -170,7 +169,7 @@ void add_table_figures(BenchResult& result, const Table1& paper, const SpannedTa
       for (const Statistic& statistic : kStatistics) add(statistic, s, a);
 }
 
-std::string fine_mm(double metres) { return fmt::format("{:.4f}", metres * kMmPerM); }
+std::string fine_mm(double metres) { return fixed(metres * kMmPerM, 4); }
 std::string percent(double ratio) { return fmt::format("{:+.1f}", (ratio - 1.0) * 100.0); }
 
 Table table1_table(const Table1& paper, const SpannedTable& twin, const Table1& theory) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/kit/benchmark.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/verdict/reference.h"
 #include "models/setup/scene_file.h"
 #include "trial/travel/travel_measure.h"
@@ -27,7 +27,7 @@ struct TravelErrors : trial::TravelSums {
   void add(const TravelErrors& other);
 };
 
-// Runs the travel of the set-up once; `base` as over_rig.h has it.
+// Runs the travel of the set-up once; `base` as scenes.h has it.
 [[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
                                       const trial::TrialOptions& base = {});
 

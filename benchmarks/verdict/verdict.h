@@ -10,6 +10,18 @@
 
 namespace enc::bench {
 
+// Where the paper [VHMR] contradicts itself. The report lists these; no benchmark has one as its target.
+
+struct Contradiction {
+  std::string id;       // "table2.A.release"
+  std::string where;    // in the paper
+  std::string printed;  // as it stands there
+  std::string found;    // what the printed numbers give when computed with
+};
+
+// Computed from the printed numbers (benchmarks/reference), each time. `models`: the models folder.
+[[nodiscard]] std::vector<Contradiction> contradictions(const std::string& models);
+
 // A threshold is a range: `least` is what the most sensitive of studies, people or places asks for, `most`
 // the least sensitive. All three are in the unit of the figure.
 struct Threshold {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/statistics.h"
-#include "benchmarks/vishap/arm_play.h"
 #include "benchmarks/vishap/vishap.h"
 #include "core/base/units.h"
 #include "core/vision/augment/facets.h"
@@ -302,9 +301,8 @@ void tell_beliefs(Bench& bench, const std::vector<Cell>& cells) {
     if (b > 0)
       bench.figure(fmt::format("removal.device_percent.{}", kBeliefs[b].id), mean(all.device), "%",
                    kBeliefs[b].words);
-    table.add(kBeliefs[b].words, fmt::format("{:.3f}", mean(all.device)),
-              fmt::format("{:.2f}", least(all.device)), fmt::format("{:.2f}", mean(all.overlay)),
-              fmt::format("{:.2f}", most(all.overlay)));
+    table.add(kBeliefs[b].words, fixed(mean(all.device), 3), fixed(least(all.device), 2),
+              fixed(mean(all.overlay), 2), fixed(most(all.overlay), 2));
   }
   bench.table(std::move(table));
 }
@@ -330,10 +328,9 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
     for (std::size_t arm = 0; arm < 2; ++arm) {
       const Seen seen = all_of(cells, row.which, arm);
       const char* drawn = arm == 0 ? "with" : "without";
-      table.add(row.words, drawn, seen.frames, fmt::format("{:.1f}", percent(seen.found, seen.frames)),
-                fmt::format("{:.1f}", percent(seen.elsewhere, seen.frames)),
-                fmt::format("{:.2f}", mean(seen.pixels)), fmt::format("{:.2f}", mean(seen.place) * kMmPerM),
-                fmt::format("{} of {}", seen.mistaken, seen.nobody));
+      table.add(row.words, drawn, seen.frames, fixed(percent(seen.found, seen.frames), 1),
+                fixed(percent(seen.elsewhere, seen.frames), 1), fixed(mean(seen.pixels), 2),
+                fixed(mean(seen.place) * kMmPerM, 2), fmt::format("{} of {}", seen.mistaken, seen.nobody));
       const std::string id = fmt::format("arm_in_view.{}.{}", drawn, row.id);
       bench.figure(id + ".found_percent", percent(seen.found, seen.frames), "%",
                    arm == 0 && row.which == &Cell::open ? at_least(95.0) : Bounds{},

@@ -1,9 +1,320 @@
 #include "benchmarks/vishap/vishap.h"
 
-#include "benchmarks/kit/force_precision.h"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/scenes.h"
+#include "benchmarks/reaching/reach_runs.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
+#include "core/machine/arm_shape.h"
+#include "sim/camera/skin_tones.h"
+#include "sim/world.h"
+#include "trial/assemble/prepare.h"
+#include "trial/assemble/vision.h"
+#include "trial/camera/arm_things.h"
+#include "trial/measure/finger_measure.h"
+#include "trial/measure/frame_force.h"
 
 namespace enc::bench::vishap {
 namespace {
+
+constexpr double kMeets = 0.6, kNobody = 0.1;  // shares of frames
+constexpr double kTilt = 0.5;                  // rad: how a prop may face, about the wall's normal
+constexpr double kOutOfPlane = staged::Draw{}.tilt, kTowards = 0.4;
+// rad rms: a finger that is believed 2 mm beside where it is turns the normal of a ball of 40 mm by so much.
+constexpr double kFacingOff = 0.05;
+
+double between(sim::Stream& stream, double low, double high) { return low + (high - low) * stream.uniform(); }
+
+// What the encoders say of the joints.
+PerJoint measured(const sim::ArmTruth& arm, const PerJoint& q) {
+  PerJoint said{};
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const double step = 2.0 * M_PI / (arm.counts[i] * arm.machine.drives[i].ratio);
+    said[i] = step * std::floor(q[i] / step + 0.5);
+  }
+  return said;
+}
+
+// The experiment of [VisHap 3] as a whole: camera, fingertip, world, PHANToM. A finger comes with an even
+// speed, meets the prop, presses, slides and leaves, and what is felt is drawn over the distance that vision
+// sees (Fig 5).
+
+struct Walked {
+  std::string scene;
+  std::vector<std::string> set;
+  double seconds = kUnset;
+  std::int64_t reaches = 0;  // random ones, instead of what the scene's user does
+  std::uint64_t seed = 1;
+  bool frames = false;  // a second core says what each picture changes
+};
+
+struct Ran {
+  double simulated = 0.0, cpu = 0.0;  // s
+  trial::TrialResult result;
+  std::vector<trial::Meeting> meetings;
+  std::vector<reaching::ReachOutcome> reaches;
+  double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
+  double step = 0.0;  // N: of Lambda f along the normal, from tick to tick in contact
+  std::vector<trial::FrameForce::Change> frames;  // what each picture changed of it
+  std::vector<double> seen, felt;                 // m, N: of each picture in contact
+  std::vector<double> off;                        // m: of a told place from the true one at its exposure
+  std::vector<double> off_normal;                 // m: along the surface's normal
+};
+
+// What was true and felt at the exposures that are still to be told.
+struct Felt {
+  Time t{};
+  Point<'W'> tip;
+  double felt = 0.0;
+  bool contact = false;
+};
+
+class Onlooker {
+ public:
+  explicit Onlooker(Ran& ran) : ran_(ran) {}
+  void see(const trial::Glance& glance) {
+    finger_.see(glance);
+    reach_.see(glance);
+    const bool contact = glance.out.mode == Mode::contact;
+    const double felt = -glance.out.force.xyz[2];
+    if (contact && before_ && std::isfinite(felt) && std::isfinite(last_))
+      ran_.step = std::max(ran_.step, std::abs(felt - last_));
+    before_ = contact;
+    last_ = felt;
+    line_.push_back({glance.tick.t, glance.truth.tool_tip, felt, contact});
+    if (line_.size() > 400) line_.pop_front();
+    take(glance);
+  }
+  void finish() {
+    ran_.meetings = finger_.meetings();
+    ran_.reaches = reach_.reaches();
+    ran_.far_speed = finger_.far_speed();
+    ran_.slope = finger_.fit().slope();
+    ran_.r2 = finger_.fit().r2();
+    ran_.believed = finger_.believed().slope();
+  }
+
+ private:
+  void take(const trial::Glance& glance) {
+    const Stamped<TrackedTool>& told = glance.in.tool;
+    if (told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
+    newest_ = told.t;
+    const auto then = std::find_if(line_.begin(), line_.end(), [&](const Felt& m) { return m.t == told.t; });
+    if (then == line_.end()) return;
+    const Point<'W'> at = glance.scene.X_WC * told.value.X_CT.origin();
+    ran_.off.push_back((at - then->tip).norm());
+    const std::int32_t object = glance.out.object;
+    if (object < 0) return;
+    const trial::Wanted surface =
+        trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(object)], at);
+    ran_.off_normal.push_back(dot(at - then->tip, surface.normal));
+    if (!then->contact) return;
+    ran_.seen.push_back(surface.distance - glance.truth.tool_radius);
+    ran_.felt.push_back(then->felt);
+  }
+
+  Ran& ran_;
+  trial::FingerMeasure finger_;
+  reaching::ReachMeasure reach_;
+  std::deque<Felt> line_;
+  Time newest_{};
+  bool before_ = false;
+  double last_ = kUnset;
+};
+
+Ran run_one(const BenchContext& context, const Walked& asked) {
+  Ran ran;
+  Onlooker look(ran);
+  trial::TrialOptions options{.seed = asked.seed,
+                              .seconds = asked.seconds,
+                              .drivers = modules_of(context),
+                              .watch = [&](const trial::Glance& glance) { look.see(glance); }};
+  trial::FrameForce frames;
+  if (asked.frames)
+    options.law = [&](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
+      frames.step(scene, tick, in, state, out);
+    };
+  models::Setup setup = load_scene(context, asked.scene, asked.set);
+  if (asked.reaches > 0) reaching::reach_at_random(setup, asked.reaches);
+  trial::Trial trial(std::move(setup), options);
+  const double start = thread_seconds();
+  ran.result = trial.run();
+  ran.cpu = thread_seconds() - start;
+  ran.simulated = ran.result.simulated;
+  look.finish();
+  ran.frames = frames.changes();
+  if (ran.result.diverged_at >= 0)
+    throw Error("a run of " + asked.scene + " diverged: " + ran.result.divergence);
+  return ran;
+}
+
+// Presses and slides once for each speed, mm/s, as often as asked.
+std::vector<std::string> strokes(const std::string& speeds, std::size_t repeats) {
+  return {"user.approach_mm_s=[" + speeds + "]",
+          "user.press_s=0.6",
+          "user.hold_s=0.3",
+          "user.release_s=0.4",
+          "user.rest_s=1.5",
+          "user.depth_mm=5",
+          "user.slide_mm=20",
+          "user.slide_mm_s=60",
+          fmt::format("user.repeats={}", repeats)};
+}
+
+// Half of the width and height, and of the focal length.
+std::vector<std::string> quarter_size() {
+  std::vector<std::string> set;
+  for (const char* of : {"rig", "truth"})
+    for (const char* key : {"camera.width_px=320", "camera.height_px=240"})
+      set.push_back(fmt::format("{}.{}", of, key));
+  for (const char* eye : {"left", "right"}) {
+    set.push_back(fmt::format("rig.camera.{}.focal_px=[360.5,360.5]", eye));
+    set.push_back(fmt::format("rig.camera.{}.centre_px=[159.5,119.5]", eye));
+  }
+  set.emplace_back("truth.camera.focal_px=360.5");
+  return set;
+}
+
+void tell_wall(Bench& bench, const Ran& ran) {
+  for (const double v : {50.0, 100.0, 200.0, 300.0}) {
+    double most = 0.0, n = 0.0;
+    for (const trial::Meeting& m : ran.meetings) {
+      if (std::isnan(m.touched) || std::abs(1e3 * m.approach_speed - v) > 1.0) continue;
+      most = std::max(most, m.miss);
+      ++n;
+    }
+    if (n == 0.0) continue;  // not asked for
+    bench.figure(fmt::format("wall.miss_mm.{:.0f}.max", v), most * kMmPerM, "mm",
+                 v <= 200.0 ? at_most(2.0) : Bounds{},
+                 fmt::format("from the prop's middle to the finger, along the wall, of {:.0f} touches at "
+                             "{:.0f} mm/s; 640 x 480 at 20 Hz",
+                             n, v));
+  }
+  bench.figure("wall.slope", ran.slope, "N/m",
+               "contact force over true depth, 2 to 5 mm, while pressed and slid");
+  bench.figure("wall.believed_slope", ran.believed, "N/m", "the same over the depth that the core believes");
+  bench.figure("wall.force_step.max", trial::greatest_change(ran.frames, true), "N", at_most(0.2),
+               "what a picture in contact changes of Lambda f along the normal until the next, beside a core "
+               "that is not told of it");
+  bench.figure("wall.force_step.before.max", trial::greatest_change(ran.frames, false), "N",
+               "the same of a picture before the touch, which says when that begins");
+  bench.figure("wall.force_step.tick.max", ran.step, "N",
+               "of Lambda f along the normal from tick to tick in contact, mostly the finger's own doing: at "
+               "300 mm/s the wall's spring alone gains 0.18 N in each");
+  bench.figure("wall.far_speed.max", ran.far_speed * kMmPerM, "mm/s", at_most(0.1),
+               "of the arm's tip while the finger is far, from a second after it went");
+  bench.figure("wall.place.rms", rms(ran.off) * kMmPerM, "mm",
+               "told fingertip against the true one at its exposure");
+  bench.figure("wall.place_normal.mean", mean(ran.off_normal) * kMmPerM, "mm",
+               "the same along the normal, in the mean");
+  bench.figure("wall.frames.rate", ran.result.vision.rate(), "Hz", "that the haptic loop was told of");
+  bench.figure(
+      "wall.frames.jitter",
+      ran.result.vision.intervals.empty()
+          ? kUnset
+          : (*std::max_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end()) -
+             *std::min_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end())) *
+                kMmPerM,
+      "ms", "longest less shortest interval of them");
+}
+
+void plot_felt(Bench& bench, const std::string& scene, const Ran& ran, const std::string& caption) {
+  Series felt{"twin"};
+  felt.mark = Mark::points;
+  for (std::size_t i = 0; i < ran.seen.size(); ++i) felt.add(ran.seen[i] * kMmPerM, ran.felt[i]);
+  bench.plot({.id = "fig5_" + scene,
+              .title = "Normal force over distance, " + scene + " (VisHap Fig 5)",
+              .x_label = "distance that vision sees (mm)",
+              .y_label = "normal force (N)",
+              .series = {felt},
+              .caption = caption});
+}
+
+void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
+  double right = 0.0, felt = 0.0, all = 0.0, in_time = 0.0;
+  for (const reaching::ReachOutcome& r : ran.reaches) {
+    if (std::isnan(r.met)) continue;
+    ++all;
+    right += r.chosen == r.aim ? 1.0 : 0.0;
+    felt += r.felt == r.aim ? 1.0 : 0.0;
+    in_time += r.lead() >= r.travel() ? 1.0 : 0.0;
+  }
+  bench.figure(scene + ".felt_percent", 100.0 * felt / all, "%",
+               bench.context.quick ? Bounds{} : at_least(99.0),
+               fmt::format("of {:.0f} random reaches that the camera saw: the object that is rendered when "
+                           "the finger has met the prop is the one that the person reached for",
+                           all));
+  bench.figure(
+      scene + ".object_percent", 100.0 * right / all, "%",
+      "of these: it was chosen already when the finger came to where it is, with the prop or without; an "
+      "ideal that is told when the finger touches names 99 % (docs/reference/reaching.md)");
+  const auto tail = [&](double reaching::ReachOutcome::*what) {
+    return tail_of(reaching::felts(ran.reaches, what), 0.95);
+  };
+  const Tail after = tail(&reaching::ReachOutcome::felt_after);
+  bench.figure(scene + ".felt_after_ms." + after.word, 1e3 * after.value, "ms",
+               "from where the finger passes the place of the key until a key is felt");
+  const Tail depth = tail(&reaching::ReachOutcome::felt_depth);
+  bench.figure(scene + ".felt_depth_mm." + depth.word, 1e3 * depth.value, "mm",
+               "how far the finger has gone beyond that place by then");
+  bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
+}
+
+// Three springs: before it gives way, while it does, and on the board below [VisHap Fig 4].
+void tell_button(Bench& bench, const Ran& ran) {
+  const Scene scene = trial::prepare_setup(load_scene(bench.context, "camera/button"));
+  const InteractionSpec& does = scene.objects.front().interaction;
+  double before = 0.0, after = 0.0, board = 0.0;
+  for (std::size_t i = 0; i < ran.seen.size(); ++i) {
+    const double depth = -ran.seen[i];
+    if (depth > 0.3 * does.trigger && depth < does.trigger) before = std::max(before, ran.felt[i]);
+    if (depth > does.trigger + does.gradual && depth < does.bottom) after = std::max(after, ran.felt[i]);
+    if (depth > does.bottom) board = std::max(board, ran.felt[i]);
+  }
+  bench.figure("button.before.max", before, "N",
+               "felt before the key gives way, by the depth that vision sees");
+  bench.figure("button.after.max", after, "N", "and after, above the board");
+  bench.figure("button.board.max", board, "N", "and on the board");
+}
+
+// A finger that the camera sees meets the prop: miss, force, time, and Fig 5.
+void add_whole_stack(Bench& bench) {
+  const BenchContext& context = bench.context;
+  const std::size_t repeats = context.quick ? 1 : context.full ? 10 : 3;
+  const std::string speeds = context.quick ? "100, 200" : "50, 100, 200, 300";
+  const std::vector<std::string> wall = strokes(speeds, repeats);
+  std::vector<std::string> small = wall;
+  for (std::string& one : quarter_size()) small.push_back(std::move(one));
+  const std::int64_t reaches = context.quick ? 2 : context.full ? 100 : 15;
+  const std::vector<Walked> asked{
+      {"camera/wall", wall, kUnset, 0, context.seed, true},
+      {"camera/wall", small, kUnset, 0, context.seed},
+      {"camera/button", {"user.press_s=2", "user.release_s=1"}, kUnset, 0, context.seed},
+      {"camera/keypad", {"truth.hand.aborted=0"}, kUnset, reaches, context.seed},
+      {"camera/wall", wall, 3.0, 0, context.seed},
+      {"camera/wall", wall, 3.0, 0, context.seed}};
+  const std::vector<Ran> ran = bench.each(asked, [&](const Walked& one) { return run_one(context, one); });
+  tell_wall(bench, ran[0]);
+  plot_felt(bench, "wall", ran[0],
+            "Each picture in contact: what was felt at its exposure, over where it sees the finger.");
+  bench.cost("wall.small.real_time", ran[1].simulated / ran[1].cpu, "x",
+             "320 x 240: simulated over CPU seconds of one thread, the drawing of the pictures included");
+  bench.cost("wall.real_time", ran[0].simulated / ran[0].cpu, "x", "640 x 480: the same");
+  tell_button(bench, ran[2]);
+  plot_felt(bench, "button", ran[2], "As for the wall; the key gives way, then its board is met.");
+  tell_objects(bench, "keypad", ran[3]);
+  bench.figure("wall.same_hash.count", ran[4].result.hash == ran[5].result.hash ? 1.0 : 0.0, "", exactly(1.0),
+               "two runs of three seconds, at a time on two threads, give the same state hash");
+}
 
 void run(Bench& bench) {
   add_whole_stack(bench);
@@ -17,4 +328,100 @@ const Entry kEntry{"vishap", "camera/wall", "the whole stack of VisHap: a finger
                    run};
 
 }  // namespace
+
+ArmPlay::ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, std::uint64_t seed)
+    : setup_(setup),
+      scene_(trial::prepare_setup(setup)),
+      spec_(trial::stage_of(setup.twin.camera, seed)),
+      camera_(camera),
+      stage_(camera.stage(spec_)),
+      stream_(seed, "arm play"),
+      X_CW_(pose_of<'W', 'C'>(setup.twin.frames.W_C).inverse()),
+      X_WR_(sim::arm_base(setup.twin.arm)),
+      normal_(trial::wanted_at(scene_.objects.front(), Point<'W'>(0, 0, 0)).normal),
+      skin_(sim::skin_colour(setup.twin.camera.skin)) {}
+
+AugmentedSpec ArmPlay::believed(const Belief& belief) const {
+  AugmentedSpec spec;
+  spec.camera = setup_.rig.camera;
+  spec.segmentation = setup_.rig.vision.segmentation;
+  spec.arm = setup_.rig.arm.machine;
+  spec.prop = setup_.scene.prop->size;
+  spec.X_WR = scene_.X_WR;
+  spec.X_WC = scene_.X_WC * Pose<'C', 'C'>(Quat::Identity(), Vec3(belief.camera_off.e()));
+  return spec;
+}
+
+void ArmPlay::pose_arm(const Point<'W'>& tip, Frame& frame) {
+  const ArmMachine& machine = setup_.twin.arm.machine;
+  const Arm arm(machine);
+  PerJoint q{};
+  if (!arm.inverse(X_WR_.inverse() * tip, q)) q = arm.zero();
+  const auto tilted = [&](const Quat& from, double by) {
+    const double way = between(stream_, 0.0, 2.0 * M_PI);
+    return from * Quat(Eigen::AngleAxisd(by, Vec3(std::cos(way), std::sin(way), 0.0)));
+  };
+  facing_ = tilted(rotation_z_to(normal_.e()), between(stream_, 0.0, kTilt));
+  frame.moment = {};
+  frame.moment.joints = measured(setup_.twin.arm, q);
+  frame.moment.q_WN = tilted(facing_, kFacingOff * stream_.normal());
+  frame.shown.things.clear();
+  for (const ArmPart& part : arm_shape(machine, q, X_WR_))
+    frame.shown.things.push_back(trial::thing_of(part, X_CW_));
+  const Point<'W'> at = X_WR_ * arm.tip(q);
+  frame.shown.things.push_back(trial::thing_of(prop_shape(setup_.scene.prop->size, at, facing_), X_CW_));
+}
+
+void ArmPlay::draw(Frame& frame) {
+  stage_->draw(frame.shown, frames_++, frame.pair.left, frame.pair.right, &frame.pair.truth);
+}
+
+void ArmPlay::rest(Frame& frame) {
+  frame.shown = {};
+  frame.meets = false;
+  pose_arm(X_WR_ * Arm(setup_.twin.arm.machine).tip({}), frame);
+  draw(frame);
+}
+
+void ArmPlay::next(Frame& frame) {
+  const auto place = [&] {
+    return Point<'W'>(between(stream_, -0.07, 0.05), between(stream_, -0.08, 0.08),
+                      between(stream_, -0.02, 0.08));
+  };
+  const Point<'W'> tip = place(), elsewhere = place();
+  frame.shown = {};
+  pose_arm(tip, frame);
+  frame.meets = stream_.uniform() < kMeets;
+  frame.shown.hand = frame.meets || stream_.uniform() > kNobody / (1.0 - kMeets);
+  frame.shown.look.skin = skin_;
+  const double radius = 0.5 * frame.shown.look.finger_width;
+  // A finger that comes to the wall, as far out of the image's plane as where fingertips are judged.
+  Vec<'C'> along;
+  do {
+    const double side = between(stream_, 0.0, 2.0 * M_PI), tilt = between(stream_, -kOutOfPlane, kOutOfPlane);
+    along = Vec<'C'>(std::cos(tilt) * std::cos(side), std::cos(tilt) * std::sin(side), std::sin(tilt));
+  } while (dot(X_CW_.inverse() * along, normal_) > -kTowards);
+  const double above = frame.meets ? radius + between(stream_, 0.0, 0.025) : between(stream_, 0.03, 0.12);
+  const Vec<'W'> normal = frame.meets ? Vec<'W'>(Vec3(facing_ * Vec3::UnitZ())) : normal_;
+  frame.shown.pose.tip = X_CW_ * ((frame.meets ? tip : elsewhere) + above * normal);
+  frame.shown.pose.along = along;
+  frame.shown.pose.roll = between(stream_, 0.0, 2.0 * M_PI);
+  if (frame.shown.hand) frame.moment.finger = frame.shown.pose.tip;
+  draw(frame);
+}
+
+void ArmPlay::without_arm(const Frame& frame, staged::Pair& pair) {
+  sim::Shown shown = frame.shown;
+  shown.things.clear();
+  stage_->draw(shown, frames_ - 1, pair.left, pair.right, &pair.truth);
+}
+
+Image ArmPlay::empty() {
+  sim::StageSpec quiet = spec_;
+  quiet.sensor.noise = 0.0;
+  Image left, right;
+  camera_.stage(quiet)->draw(sim::Shown{}, 0, left, right);
+  return left;
+}
+
 }  // namespace enc::bench::vishap

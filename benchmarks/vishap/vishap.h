@@ -1,14 +1,65 @@
-// The stack of [VisHap] as a whole: parts of the benchmark `vishap`.
+// The stack of [VisHap] as a whole: parts of the benchmark `vishap`, and frames of an arm that comes to meet
+// a finger, before the twin's stereo head.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/staged/staged.h"
+#include "core/vision/augment/augmented_view.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::vishap {
+
+// Frames of an arm that comes to meet a finger, before the twin's stereo head: the arm anywhere, often with
+// its prop under the fingertip. The truth, and what a rig believes of it.
+
+// How far a belief is from the truth.
+struct Belief {
+  Vec<'C'> camera_off = Vec<'C'>::zero();
+};
+
+class ArmPlay {
+ public:
+  // Scenery, hands and poses by seed; the skin is that of the scene's user.
+  ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, std::uint64_t seed);
+
+  struct Frame {
+    staged::Pair pair;
+    sim::Shown shown;
+    AugmentedMoment moment;
+    bool meets = false;  // the prop is just under the fingertip
+  };
+  void rest(Frame& frame);  // the arm where it starts, nobody there
+  void next(Frame& frame);
+  // The frame again without the arm.
+  void without_arm(const Frame& frame, staged::Pair& pair);
+  [[nodiscard]] Image empty();  // the room alone, without noise
+
+  [[nodiscard]] AugmentedSpec believed(const Belief& belief) const;
+  [[nodiscard]] Point<'C'> in_camera(const Point<'W'>& p) const { return X_CW_ * p; }  // truly
+
+ private:
+  void pose_arm(const Point<'W'>& tip, Frame& frame);
+  void draw(Frame& frame);
+
+  models::Setup setup_;
+  Scene scene_;
+  sim::StageSpec spec_;
+  const sim::CameraModule& camera_;
+  std::unique_ptr<sim::Stage> stage_;
+  sim::Stream stream_;
+  Pose<'C', 'W'> X_CW_;
+  Pose<'W', 'R'> X_WR_;
+  Vec<'W'> normal_;                 // of the wall
+  Quat facing_ = Quat::Identity();  // of the prop's front, q_WN
+  sim::Rgb skin_;
+  std::uint64_t frames_ = 0;
+};
 
 // The haptic device taken out of the left image, objects put in its place, and what an arm in view is to the
 // tracker.
 void add_device_removal(Bench& bench);
-// A finger that the camera sees meets the prop: miss, force, time, and Fig 5.
-void add_whole_stack(Bench& bench);
 
 }  // namespace enc::bench::vishap

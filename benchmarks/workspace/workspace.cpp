@@ -45,24 +45,23 @@ std::array<double, 3> converged(Table& table, const char* what, double step, int
   double before = kUnset, now = volume(step);
   for (int i = 0; i < halvings; ++i) {
     table.rows.push_back({what, fmt::format("{:g}", step * kMmPerM), fmt::format("{:.4e}", now),
-                          i == 0 ? "" : fmt::format("{:.2f}", 100.0 * (now / before - 1.0))});
+                          i == 0 ? "" : fixed(100.0 * (now / before - 1.0), 2)});
     step /= 2.0;
     before = now;
     now = volume(step);
   }
   table.rows.push_back({what, fmt::format("{:g}", step * kMmPerM), fmt::format("{:.4e}", now),
-                        fmt::format("{:.2f}", 100.0 * (now / before - 1.0))});
+                        fixed(100.0 * (now / before - 1.0), 2)});
   return {now, std::abs(now - before), step};
 }
 
 void add_volumes(const BenchContext& context, BenchResult& result, const ReachVolume& reach) {
-  Table table{
-      "workspace_convergence",
-      "Volumes over the step of their grids",
-      {"volume", "step (mm)", "m3", "change (%)"},
-      {},
-      "Midpoint rule over x and y. Straight: heights in closed form. Turned: heights found by bisection "
-      "with a search for the best allowed turn, which may miss some."};
+  Table table{"workspace_convergence",
+              "Volumes over the step of their grids",
+              {"volume", "step (mm)", "m3", "change (%)"},
+              {},
+              "Midpoint rule over x and y. Straight: heights in closed form. Turned: heights found by "
+              "bisection with a search for the best allowed turn, which may miss some."};
   const auto straight = converged(table, "straight", 4e-3, context.quick ? 1 : 3,
                                   [&](double step) { return reach.straight(step); });
   const auto turned = converged(table, "turned", context.quick ? 32e-3 : 24e-3, context.full ? 2 : 1,
@@ -92,10 +91,9 @@ void add_tracker(BenchResult& result, const models::Setup& setup, const Scene& s
     farthest = std::max(farthest, (at - scene.X_WC.p()).norm());
   }
   add(result, "tracker.farthest.max", kUnset, farthest, "m", Role::ours, kUnset, 1.4,
-      fmt::format(
-          "from C to the farthest corner of rig.tracker.volume_mm, {:g} x {:g} x {:g}; 0.09 mm accuracy "
-          "holds up to 1.4 m [VHMR 2]",
-          size.x() * kMmPerM, size.y() * kMmPerM, size.z() * kMmPerM));
+      fmt::format("from C to the farthest corner of rig.tracker.volume_mm, {:g} x {:g} x {:g}; 0.09 mm "
+                  "accuracy holds up to 1.4 m [VHMR 2]",
+                  size.x() * kMmPerM, size.y() * kMmPerM, size.z() * kMmPerM));
 }
 
 // Directions from which a sphere is pressed, to its full depth.
@@ -139,7 +137,7 @@ void add_map(BenchResult& result, const std::vector<Direction>& all, const char*
              const char* caption) {
   Plot plot{id, title, "azimuth, deg", "polar, deg (0: from above)", false, false, {}, caption};
   const auto series = [&](const char* name, auto which) {
-    Series s{name, {}, {}, {}, {}, Mark::points};
+    Series s{.name = name, .mark = Mark::points};
     for (const Direction& d : all)
       if (which(d)) s.x.push_back(d.azimuth), s.y.push_back(d.polar);
     if (!s.x.empty()) plot.series.push_back(std::move(s));
@@ -198,8 +196,8 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
 // Outline of the straight reach in a plane through W's axes, with the paper's box.
 void add_slices(BenchResult& result, const ReachVolume& reach) {
   const auto upright = [&](const char* id, const char* title, const char* label, bool along_x, double half) {
-    Series edge{"reach, straight axes", {}, {}};
-    Series turned{"reach, any allowed turn", {}, {}, {}, {}, Mark::points};
+    Series edge{"reach, straight axes"};
+    Series turned{.name = "reach, any allowed turn", .mark = Mark::points};
     std::vector<std::array<double, 2>> lower;
     for (int i = -200; i <= 200; ++i) {
       const double at = i * 0.5e-3;  // m
@@ -242,7 +240,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
             {},
             "Horizontal slices. Below -13 mm they fall into pieces, see the sections."};
   for (const double z : {-0.010, 0.0, 0.010, 0.020}) {
-    Series edge{fmt::format("z = {:g} mm", z * kMmPerM), {}, {}};
+    Series edge{fmt::format("z = {:g} mm", z * kMmPerM)};
     for (int degree = 0; degree <= 360; degree += 2) {
       const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
       double in = 0.0;  // the slice is one piece around the axis: walk out until it ends
@@ -261,8 +259,6 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
   result.plots.push_back(std::move(plan));
 }
 
-}  // namespace
-
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;
@@ -276,9 +272,11 @@ void run(Bench& bench) {
   add_directions(context, result, scene);
   add_slices(result, reach);
   result.note =
-      "Nothing here runs in time: geometry alone. The tip's commands keep W's axes, so 'straight' is "
-      "what a scene can use.";
+      "Nothing here runs in time: geometry alone. The tip's commands keep W's axes, so 'straight' is what a "
+      "scene can use.";
 }
+
+}  // namespace
 
 const Entry kEntry{
     "workspace", "tennis_ball",

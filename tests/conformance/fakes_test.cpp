@@ -244,7 +244,7 @@ TEST(Fakes, AFaultThatWasTypedBelongsToNoRun) {
 
 // However it is killed, the machine comes to rest within this, s of its own time (docs/reference/safety.md):
 // 44 ms of points and dead time, then 604 ms until its servo has settled, from 50 mm/s
-// (tests/benchmarks/wires/settling.h).
+// (tests/benchmarks/wires/wired_trial.h).
 constexpr double kRunsDry = 0.65;
 
 void kill_at_random_moments(int times) {
