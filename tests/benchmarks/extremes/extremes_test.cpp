@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
-#include "benchmarks/extremes/judge.h"
-#include "benchmarks/kit/benchmark.h"
+#include "benchmarks/kit/bench.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
 
@@ -18,8 +18,7 @@ namespace {
 // Judges half a second of a shipped scene whose outputs are changed on one tick before the judge sees them.
 Judge judged(const std::string& scene, const std::function<void(Outputs&)>& change) {
   Judge judge;
-  trial::TrialOptions options;
-  options.seconds = 0.5;
+  trial::TrialOptions options{.seconds = 0.5};
   options.watch = [&](const trial::Glance& g) {
     Outputs out = g.out;
     if (g.tick.index == 300) change(out);

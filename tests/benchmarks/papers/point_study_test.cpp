@@ -16,7 +16,7 @@
 namespace enc::bench {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string kHeader = "camera_x_m,camera_y_m,camera_z_m,device_x_m,device_y_m,device_z_m,pair\n";
 

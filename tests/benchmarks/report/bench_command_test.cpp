@@ -1,4 +1,5 @@
-// `bench` as a person calls it: what it refuses, and what is left of a run that was stopped.
+// `bench` as a person calls it: the words behind it, what it refuses, what is left of a run that was stopped;
+// and which figures of a run are not those that the repository keeps.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -11,25 +12,186 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/commands/committed.h"
+#include "benchmarks/report/choice.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace enc::tests {
+namespace enc::bench {
 namespace {
 
 namespace fs = std::filesystem;
+using test::bytes_of;
 using ::testing::AllOf;
 using ::testing::AnyOf;
+using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::StartsWith;
-using Json = nlohmann::json;
+using tests::module_folder;
+using tests::program_file;
+using tests::Result;
+using tests::run;
+using tests::run_program;
 
-using test::bytes_of;
+std::vector<std::string> names_of(const std::vector<Choice>& choices) {
+  std::vector<std::string> names;
+  for (const Choice& c : choices) names.emplace_back(c.benchmark->name);
+  return names;
+}
+
+std::string refusal(const std::vector<std::string>& words) {
+  try {
+    (void)chosen(words);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "not refused";
+}
+
+TEST(Choice, NoWordsAreAllBenchmarks) { EXPECT_EQ(chosen({}).size(), benchmarks().size()); }
+
+TEST(Choice, IsInTheOrderNamedAndEachOnce) {
+  EXPECT_THAT(names_of(chosen({"speed", "dent", "speed"})), ElementsAre("speed", "dent"));
+}
+
+TEST(Choice, IdsOfOneBenchmarkComeTogetherAndTheWholeWins) {
+  const std::vector<Choice> ids = chosen({"press.restore", "dent", "press.outside.max"});
+  ASSERT_THAT(names_of(ids), ElementsAre("press", "dent"));
+  EXPECT_THAT(ids[0].ids, ElementsAre("press.restore", "press.outside.max"));
+  EXPECT_THAT(ids[1].ids, IsEmpty());
+  EXPECT_THAT(chosen({"press.restore", "press"}).front().ids, IsEmpty());
+  EXPECT_THAT(chosen({"press", "press.restore"}).front().ids, IsEmpty());
+}
+
+TEST(Choice, AnIdIsWholeTokens) {
+  const Choice choice = chosen({"encounter.miss.10"}).front();
+  const auto figure = [](const char* id) {
+    return Figure{id, kUnset, 1.0, "", Role::ours, kUnset, kUnset, ""};
+  };
+  EXPECT_TRUE(wanted(choice, figure("encounter.miss.10.max")));
+  EXPECT_TRUE(wanted(choice, figure("encounter.miss.10")));
+  EXPECT_FALSE(wanted(choice, figure("encounter.miss.100.max")));
+  EXPECT_FALSE(wanted(choice, figure("encounter.miss.20.max")));
+}
+
+// 4.1, 2 and 4.2 to 5 of the paper; what this program has of it.
+TEST(Choice, ThePaperIsInItsOwnOrder) {
+  std::vector<std::string> order;
+  for (const std::string& name : names_of(chosen({"paper-2020"})))
+    if (name == "tracking" || name == "stiffness" || name == "workspace") order.push_back(name);
+  EXPECT_THAT(order, ElementsAre("tracking", "stiffness", "workspace"));
+}
+
+TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
+  EXPECT_THAT(refusal({"pres.restore.max"}), HasSubstr("unknown benchmark 'pres'; did you mean 'press'?"));
+  EXPECT_THAT(refusal({"paper-2021"}), HasSubstr("'paper-2020'"));
+  EXPECT_THAT(refusal({""}), HasSubstr("unknown benchmark"));
+  BenchResult result{
+      "press", "", 0, 0, {{"press.restore.max", kUnset, 1.0, "", Role::ours, kUnset, kUnset, ""}}};
+  EXPECT_NO_THROW(check_ids(chosen({"press.restore"}).front(), result));
+  EXPECT_NO_THROW(check_ids(chosen({"press"}).front(), result));
+  try {
+    check_ids(chosen({"press.restor.max"}).front(), result);
+    FAIL() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("unknown figure 'press.restor.max'; did you mean 'press.restore.max'?"));
+  }
+}
+
+// Nothing is passed over in silence: what --set cannot change refuses it, by name.
+TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
+  const std::string models = tests::source_dir() + "/models";
+  std::vector<std::string> left;
+  EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), true, models, left)),
+              ElementsAre("press", "registration"));
+  try {
+    (void)settable(chosen({"press", "nearest", "impact.peak"}), true, models, left);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, impact read no scene"));
+  }
+  left.clear();
+  const std::size_t kept = settable(chosen({}), false, models, left).size();
+  EXPECT_EQ(kept + left.size(), benchmarks().size());
+  EXPECT_THAT(left, IsSupersetOf({"footprint", "impact", "nearest"}));
+}
+
+// Over devices only what needs no truth can be measured; what was named is not passed over.
+TEST(Choice, OverTheDevicesOfARigOnlyThoseThatCan) {
+  EXPECT_THAT(names_of(over_devices(chosen({}), false)), ElementsAre("stiffness", "tracking"));
+  EXPECT_THAT(names_of(over_devices(chosen({"tracking.rig", "stiffness"}), true)),
+              ElementsAre("tracking", "stiffness"));
+  try {
+    (void)over_devices(chosen({"press", "tracking", "dent"}), true);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(),
+                HasSubstr("--rig: press, dent measure in the twin alone; expected stiffness or tracking"));
+  }
+}
+
+const Committed& kept() {
+  static const Committed kAll = Committed::parse(
+      "# Figures.\nid,unit,value,least,most,low,high,commit\n"
+      "x.median,N,2,1.5,2.5,,,1a2b3c4\n"
+      "x.single,N,2,,,,,1a2b3c4\n"
+      "x.rounding,px,8e-15,,,,0.5,1a2b3c4\n"
+      "x.none,N,,,,,,1a2b3c4\n",
+      "figures.csv");
+  return kAll;
+}
+Figure figure_of(const std::string& id, double value) {
+  Figure figure;
+  figure.id = id;
+  figure.twin = value;
+  return figure;
+}
+bool differs(const std::string& id, double value, double least = kUnset, double most = kUnset,
+             double high = kUnset) {
+  Figure figure = figure_of(id, value);
+  figure.high = high;
+  figure.least = least;
+  figure.most = most;
+  return kept().differs(figure);
+}
+
+TEST(Committed, WithinTheSpreadOfEitherRunNothingDiffers) {
+  EXPECT_FALSE(differs("x.median", 2.4)) << "of the file";
+  EXPECT_TRUE(differs("x.median", 2.6));
+  EXPECT_FALSE(differs("x.median", 2.6, 1.9, 3.0)) << "of this run";
+  EXPECT_TRUE(differs("x.median", 2.6, 2.55, 2.65));
+}
+
+TEST(Committed, ASingleValueDiffersByMoreThanItsFourDigits) {
+  EXPECT_FALSE(differs("x.single", 2.001));
+  EXPECT_TRUE(differs("x.single", 2.01));
+  EXPECT_FALSE(differs("x.rounding", 3e-15, kUnset, kUnset, 0.5)) << "far below its bound";
+}
+
+TEST(Committed, AValueThatIsNewlyThereOrGoneDiffers) {
+  EXPECT_TRUE(differs("x.none", 1.0));
+  EXPECT_FALSE(differs("x.none", kUnset));
+  EXPECT_TRUE(differs("x.single", kUnset));
+}
+
+TEST(Committed, WhatHasNoCounterpartAndWhatHangsOnTheMachineNeverDiffers) {
+  EXPECT_FALSE(differs("x.new", 1.0));
+  Figure cost = figure_of("x.single", 20.0);
+  cost.cost = true;
+  EXPECT_FALSE(kept().differs(cost));
+  Figure absent = figure_of("x.single", kUnset);
+  absent.absent = true;
+  EXPECT_FALSE(kept().differs(absent));
+}
+
+using Json = nlohmann::json;
 
 TEST(Bench, ListSaysWhatThereIs) {
   const Result r = run_program({"bench", "--list"});
@@ -185,11 +347,11 @@ TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
   const test::TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   // Job control, or the shell would have its child ignore SIGINT.
-  const Result r = run({"bash", "-c",
-                        "set -m; \"$1\" bench dent press --repeats 1000000 --out \"$2\" & "
-                        "until grep -q dent.contact \"$2/results.json\" 2>/dev/null; do sleep 0.05; done; "
-                        "kill -$3 $!; wait $!",
-                        "bash", program_file(), out.string(), std::to_string(GetParam())});
+  const Result r =
+      run({"bash", "-c",
+           "set -m; \"$1\" bench dent press --repeats 1000000 --out \"$2\" & until grep -q dent.contact "
+           "\"$2/results.json\" 2>/dev/null; do sleep 0.05; done; kill -$3 $!; wait $!",
+           "bash", program_file(), out.string(), std::to_string(GetParam())});
   const bool asked = GetParam() != SIGKILL;
   EXPECT_EQ(r.code, 128 + GetParam()) << r.err;
   if (asked) {
@@ -214,10 +376,10 @@ TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
   // None of its figures hangs on the processor's speed.
   ASSERT_EQ(run_program({"bench", "deformation", "--quick", "--out", out}).code, 0);
   const std::string before = bytes_of(folder.path() / "out" / "results.json");
-  const Result r = run({"bash", "-c",
-                        "set -m; \"$1\" bench press --repeats 1000000 --out \"$2\" & sleep 1; "
-                        "kill -INT $!; wait $!",
-                        "bash", program_file(), out});
+  const Result r =
+      run({"bash", "-c",
+           "set -m; \"$1\" bench press --repeats 1000000 --out \"$2\" & sleep 1; kill -INT $!; wait $!",
+           "bash", program_file(), out});
   EXPECT_EQ(r.code, 130) << r.err;
   EXPECT_EQ(bytes_of(folder.path() / "out" / "results.json"), before);
   EXPECT_THAT(bytes_of(folder.path() / "out" / "REPORT.md"), HasSubstr("all hold"));
@@ -226,4 +388,4 @@ TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
 INSTANTIATE_TEST_SUITE_P(By, StoppedBench, ::testing::Values(SIGINT, SIGTERM, SIGKILL));
 
 }  // namespace
-}  // namespace enc::tests
+}  // namespace enc::bench
