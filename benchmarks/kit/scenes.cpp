@@ -37,10 +37,7 @@ trial::TrialOptions rig_options(const BenchContext& context) {
   return options;
 }
 
-trial::TrialOptions twin_options(const BenchContext& context) {
-  trial::TrialOptions options{.stop = context.stop};
-  return options;
-}
+trial::TrialOptions twin_options(const BenchContext& context) { return {.stop = context.stop}; }
 
 bool attended(const BenchContext& context, const models::Setup& setup) {
   return trial::slots_of(setup).real && !context.fakes && !context.lockstep;

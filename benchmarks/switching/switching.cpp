@@ -32,10 +32,7 @@ models::Setup live(const BenchContext& context, const std::string& scene, std::v
   return load_scene(context, scene, std::move(own));
 }
 
-trial::TrialOptions options_of(const BenchContext& context) {
-  trial::TrialOptions options{.seed = context.seed};
-  return options;
-}
+trial::TrialOptions options_of(const BenchContext& context) { return {.seed = context.seed}; }
 
 constexpr double kFelt = 0.1;  // N
 
