@@ -17,7 +17,6 @@
 #include "app/run/console.h"
 #include "app/run/run_report.h"
 #include "app/run/run_window.h"
-#include "app/run/verdict.h"
 #include "app/stability_text.h"
 #include "core/base/error.h"
 #include "models/files.h"

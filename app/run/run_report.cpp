@@ -1,21 +1,23 @@
 #include "app/run/run_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include <encounter_version.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/built.h"
 #include "app/process.h"
 #include "app/run/percentiles.h"
-#include "app/run/press_text.h"
 #include "app/stability_text.h"
 #include "core/base/counted.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string modes_line(const trial::TrialResult& result) {
   std::string text;
@@ -25,171 +27,6 @@ std::string modes_line(const trial::TrialResult& result) {
       text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", mode_name(static_cast<Mode>(i)), time);
   }
   return text;
-}
-
-// One entry for each push of the test rig.
-template <class F>
-std::string each_push(const std::vector<trial::PushFigures>& pushes, const F& figure) {
-  std::string text;
-  for (const trial::PushFigures& push : pushes) text += (text.empty() ? "" : " / ") + figure(push);
-  return text;
-}
-
-std::string push_lines(const RunReport& r) {
-  if (!r.scene.probe()) return "";
-  const auto& pushes = r.measured.pushes.pushes();
-  std::string text =
-      fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(),
-                  r.scene.probe()->repeats, r.scene.probe()->depth * 1e3, r.scene.probe()->speed * 1e3);
-  if (pushes.empty())
-    return text + fmt::format("note        the machine never pushed; last notice of the core: {}\n",
-                              r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
-  text += fmt::format("  peak      {} N (measured)\n",
-                      each_push(pushes, [](const auto& p) { return fmt::format("{:.2f}", p.peak_force); }));
-  text += fmt::format("  reached   {} mm\n", each_push(pushes, [](const auto& p) {
-                        return fmt::format("{:.3f}", p.peak_deflection * 1e3);
-                      }));
-  text +=
-      fmt::format("  loss      {} % of the work\n",
-                  each_push(pushes, [](const auto& p) { return fmt::format("{:.1f}", p.loss() * 100.0); }));
-  if (pushes.size() > 1)
-    text += fmt::format("repeats     within {:.3f} N at equal deflection\n", r.measured.pushes.spread());
-  text += fmt::format("error       at most {:.3f} N (measured force against the true one)\n",
-                      r.measured.pushes.force_error());
-  return text;
-}
-
-// One entry for each time that the arm was told to prepare.
-template <class F>
-std::string each_meeting(const std::vector<trial::Meeting>& meetings, const F& figure) {
-  std::string text;
-  for (const trial::Meeting& meeting : meetings) {
-    if (std::isnan(meeting.touched)) continue;
-    text += (text.empty() ? "" : " / ") + figure(meeting);
-  }
-  return text;
-}
-
-// The spring that a wall is, where the user presses one.
-std::string spring_line(const RunReport& r) {
-  const std::optional<UserSpec>& user = r.setup.scene.user;
-  if (!user || user->kind != UserKind::press_release) return "";
-  const Object& pressed = r.scene.objects[pressed_object(r.setup.scene.objects, user->object, "user")];
-  if (pressed.interaction.kind != Interaction::slide) return "";
-  if (!std::isfinite(r.measured.fingers.fit().r2()))
-    return "spring      not measured: the finger was never 2 to 10 mm deep\n";
-  return fmt::format(
-      "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
-      "N/m; R2 {:.5f} over the depth that the core believed\n",
-      r.measured.fingers.fit().slope(), r.measured.fingers.fit().r2(), pressed.stiffness,
-      r.measured.fingers.believed().r2());
-}
-
-// A press tells where vision puts a finger that the prop feels.
-std::string seen_line(const RunReport& r) {
-  const std::vector<trial::SeenPress> presses = r.measured.seen.presses();
-  if (presses.empty()) return "";
-  std::string each;
-  for (const trial::SeenPress& press : presses)
-    each += fmt::format("{}{:+.2f}", each.empty() ? "" : " / ", press.mean * 1e3);
-  const bool all = r.measured.seen.shift().ways == 3;
-  return fmt::format(
-      "seen        {} mm above the prop that it pushed (by vision and encoders, a press each){}\n", each,
-      all ? ""
-          : fmt::format("; a {} that has moved along the surface would not show in it",
-                        r.setup.scene.camera ? "camera" : "tracker"));
-}
-
-// What the controller of energy saw and did, where it is on.
-std::string passivity_line(const RunReport& r) {
-  const bool arm = r.scene.impedance() != nullptr;
-  if (!trial::controlled(r.scene)) return "";
-  const auto& contacts = r.measured.passivity.contacts();
-  if (contacts.empty()) return "passivity   controlled; there was no contact to control\n";
-  const trial::PassivityFigures all = r.measured.passivity.worst();
-  const auto acted =
-      std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
-  const std::string of = counted(contacts.size(), "contact");
-  std::string text =
-      acted == 0 ? fmt::format("passivity   the controller left the law's {} as it is, in all of {}",
-                               arm ? "force" : "way", of)
-      : !arm ? fmt::format("passivity   the controller held the tip back in {} of {}: for {:.0f} ms in all",
-                           acted, of, all.acted * 1e3)
-             : fmt::format(
-                   "passivity   the controller held the law's force back in {} of {}: for {:.0f} ms in "
-                   "all, by at "
-                   "most {:.2f} N, which kept {:.3f} mJ from coming out",
-                   acted, of, all.acted * 1e3, all.most, all.dissipated * 1e3);
-  text +=
-      fmt::format("; of one contact at most {:.3f} mJ more came out than went in along the normal (by {})\n",
-                  all.given * 1e3, arm ? "encoders" : "the machine's own force and pose");
-  // It counts what each force did, and nobody did anything with these.
-  if (arm && r.result.withheld > 0)
-    text +=
-        "  dry       no force was sent, and the controller takes each for sent: armed it holds back other "
-        "ones\n";
-  return text;
-}
-
-// An arm that meets a bare finger [VisHap 3].
-std::string finger_lines(const RunReport& r) {
-  if (!r.scene.impedance()) return "";
-  const auto& meetings = r.measured.fingers.meetings();
-  std::string text =
-      fmt::format("far         tip speed at most {:.3f} mm/s\n", r.measured.fingers.far_speed() * 1e3);
-  const auto touched =
-      std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
-  text += fmt::format("prepare     {}, {} followed by a touch\n", counted(meetings.size(), "time"), touched);
-  if (touched == 0) return text;
-  using trial::Meeting;
-  text += fmt::format(
-      "approach    {} mm/s (planned, of the first touch after each prepare)\n",
-      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.0f}", m.approach_speed * 1e3); }));
-  text += fmt::format("  there     {} ms before the touch\n", each_meeting(meetings, [](const Meeting& m) {
-                        return std::isnan(m.arrived) ? "not"
-                                                     : fmt::format("{:.0f}", (m.touched - m.arrived) * 1e3);
-                      }));
-  text += fmt::format(
-      "  miss      {} mm (along the surface, true finger to the middle of the prop, at the touch)\n",
-      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.miss * 1e3); }));
-  text += fmt::format(
-      "  peak      {} N (greatest until the next prepare, as the next two)\n",
-      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.peak_force); }));
-  if (std::any_of(meetings.begin(), meetings.end(), [](const Meeting& m) { return m.peak_depth > 0.0; }))
-    text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
-                          return std::isnan(m.peak_depth) ? "not known"
-                                                          : fmt::format("{:.2f}", m.peak_depth * 1e3);
-                        }));
-  text += fmt::format(
-      "  step      {} N, greatest from one cycle to the next\n",
-      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
-  const double sideways = r.measured.fingers.tangential_share();
-  return text + spring_line(r) + seen_line(r) + passivity_line(r) +
-         (std::isfinite(sideways)
-              ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
-                            100.0 * sideways)
-              : "sideways    not measured: never more than 1 N along the normal\n");
-}
-
-// The contact with the largest term, and how well all of them close (docs/reference/ledger.md).
-std::string ledger_line(const RunReport& r) {
-  const std::vector<trial::ContactLedger> all = r.measured.ledger.contacts();
-  if (all.empty())
-    return r.result.contacts > 0 && r.scene.probe()
-               ? "ledger      nothing rendered: a real object is pressed\n"
-               : "";
-  const auto most = std::max_element(all.begin(), all.end(),
-                                     [](const auto& a, const auto& b) { return a.largest() < b.largest(); });
-  const auto up = [](double x, double parts) { return std::ceil(x * parts) / parts; };
-  double worst = 0.0;
-  for (const trial::ContactLedger& one : all) worst = std::max(worst, one.closure());
-  return fmt::format(
-      "ledger      contact {}{}: hand {:.2f} + carried {:.2f} + generated {:.2f} = stored {:.2f} + "
-      "dissipated "
-      "{:.2f} mJ; {} close{} within {:.2f} %; at most {:.3f} mJ out beyond what was put in\n",
-      most->contact, most->rendered ? "" : " (nothing rendered)", most->hand * 1e3, most->carried * 1e3,
-      most->generated() * 1e3, most->stored() * 1e3, most->dissipated() * 1e3, all.size(),
-      all.size() == 1 ? "s" : "", up(worst * 100.0, 1e2), up(trial::worst_surplus(all) * 1e3, 1e3));
 }
 
 // Who repeats this gets the same report.
@@ -222,16 +59,6 @@ std::string hold_lines(const trial::TrialResult& result) {
                             result.mode_time[static_cast<std::size_t>(Mode::hold)]);
 }
 
-// What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
-std::string pushed_lines(const RunReport& r) {
-  if (!r.setup.scene.pusher || !r.measured.felt.truth) return "";
-  const auto& pushes = r.measured.presses.presses();
-  return fmt::format("pushed      {} of {} from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
-                     pushes.size(), counted(r.setup.scene.pusher->repeats, "time"),
-                     peak_of(pushes, &trial::PressFigures::peak_force),
-                     peak_of(pushes, &trial::PressFigures::peak_deflection) * 1e3);
-}
-
 // Of a run that keeps the wall clock.
 std::string loop_line(const trial::TrialResult& result) {
   std::string text;
@@ -261,11 +88,136 @@ std::string vision_lines(const trial::TrialResult& result) {
                      ms(vision.intervals), ms(vision.ages));
 }
 
+// ---- JSON, which has null for NaN
+
+Json rows_json(const std::vector<certificate::Row>& rows) {
+  Json all = Json::array();
+  for (const certificate::Row& row : rows)
+    all.push_back({{"name", row.name},
+                   {"from_N_per_m", row.low},
+                   {"to_N_per_m", row.bound},
+                   {"from_is", word_of(row.side)},
+                   {"margin", row.margin},
+                   {"applies", row.applies}});
+  return all;
+}
+
+Json stability_json(const std::vector<trial::Certified>& certificates) {
+  Json all = Json::array();
+  for (const trial::Certified& one : certificates) {
+    const certificate::Certificate& of = one.certificate;
+    Json json{{"object", one.object},
+              {"class", word_of(of.verdict)},
+              {"beyond", one.beyond()},
+              {"asked_N_per_m", one.asked},
+              {"rows", rows_json(of.rows)}};
+    if (one.unknown()) json["missing"] = of.missing;
+    if (one.place.finite())
+      json["place_mm"] = {one.place.xyz[0] * 1e3, one.place.xyz[1] * 1e3, one.place.xyz[2] * 1e3};
+    if (!one.like.empty()) json["bounds_of"] = one.like;
+    if (std::isnan(one.ramp)) {
+      json["let_go_0.1_mm"] = word_of(of.small.rest);
+      json["let_go_1_mm"] = word_of(of.large.rest);
+    } else {
+      json["swings_mm"] = one.swing * 1e3;
+    }
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+// A percentile that there are too few values for is null.
+template <class T>
+Json times_json(const std::vector<T>& times, double scale) {
+  const Percentiles of = percentiles_of(times);
+  return {{"p50", of.p50 * scale},
+          {"p99", of.p99 * scale},
+          {"p99_9", of.p99_9 * scale},
+          {"max", of.most * scale}};
+}
+
+Json vision_json(const trial::FrameTimes& vision) {
+  return {{"threaded", vision.threaded},
+          {"frames", vision.frames},
+          {"rate_hz", vision.rate()},
+          {"interval_ms", times_json(vision.intervals, 1e3)},
+          {"age_ms", times_json(vision.ages, 1e3)}};
+}
+
+// What ran: program, scene, rig, and what is asked of them.
+void add_origin(Json& json, const RunReport& r) {
+  json["encounter"] = ENCOUNTER_VERSION;
+  json["commit"] = trial::built_commit().name;
+  json["commit_date"] = trial::built_commit().day;
+  json["date"] = trial::day_text(r.begun);
+  if (r.result.keeps_wall_time) json["started"] = trial::time_text(r.begun);
+  json["scene"] = r.setup.scene_path;
+  json["rig"] = r.setup.rig_path;
+  json["seed"] = r.asked.seed;
+  json["set"] = r.asked.set;
+  json["for_s"] = r.asked.seconds ? Json(*r.asked.seconds) : Json(nullptr);
+  json["title"] = r.setup.scene.title;
+}
+
+// What was built, and how the run went.
+void add_course(Json& json, const RunReport& r) {
+  json["built"] = Json::object();
+  json["left_out"] = Json::object();
+  for (const Part& part : parts_of(r.setup)) json[part.built ? "built" : "left_out"][part.name] = part.what;
+  for (const trial::DeviceWords& device : r.result.devices) json["devices"][device.role] = device.words;
+  for (int i = 0; i < kModes; ++i)
+    json["modes_s"][std::string(mode_name(static_cast<Mode>(i)))] =
+        r.result.mode_time[static_cast<std::size_t>(i)];
+  json["contacts"] = r.result.contacts;
+  json["holds"] = Json::array();
+  for (const auto& [t, why] : r.result.holds)
+    json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
+  for (const trial::LostLink& link : r.result.links)
+    json["lost_links"].push_back(
+        {{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}, {"by_hand", link.by_hand}});
+  if (!r.result.log.empty()) json["log"] = r.result.log;
+}
+
+// What it cost, and what of it is to be trusted.
+void add_cost(Json& json, const RunReport& r) {
+  json["step_ns"] = times_json(r.result.step_ns, 1.0);
+  if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns, 1.0);
+  if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
+  json["stability"] = stability_json(r.certificates);
+  if (!r.measured.felt.truth) {
+    json["felt_peak_N"] = r.measured.felt.peak;
+    json["felt_depth_mm"] = 1e3 * r.measured.felt.deepest;
+  }
+  if (!r.result.real_time.empty()) json["real_time"] = r.result.real_time;
+  json["simulated_s"] = r.result.simulated;
+  json["wall_s"] = r.result.wall;
+  json["times_real_time"] = r.result.simulated / r.result.wall;
+  json["withheld_commands"] = r.result.withheld;
+  json["missed_cycles"] = r.result.missed;
+  json["late_s"] = r.result.lateness.total;
+  json["limits_crossed"] = r.crossed;
+  json["stopped"] = r.result.interrupted;
+  json["ticks"] = r.result.ticks;
+  json["diverged_at_tick"] = r.result.diverged_at;
+  json["started_cpu_ms"] = r.started * 1e3;
+  json["peak_memory_MiB"] = peak_memory_mb();
+  json["threads"] = thread_count();
+  json["mujoco_elements"] = r.elements;
+  json["mujoco_steps"] = r.steps;
+  json["unsolved_steps"] = r.unsolved;
+  json["libraries"] = mapped_libraries();
+  json["state_hash"] = fmt::format("{:016x}", r.result.hash);
+}
+
 }  // namespace
 
 std::string speed_text(double simulated, double wall) {
   const double speed = wall > 0.0 ? simulated / wall : 0.0;
   return speed < 10.0 ? fmt::format("{:.2g}", speed) : fmt::format("{:.0f}", speed);
+}
+
+std::string last_notice(const trial::TrialResult& result) {
+  return "last notice of the core: " + (result.last_why == 0 ? "none" : why_text(result.last_why));
 }
 
 std::string run_text(const RunReport& r) {
@@ -290,13 +242,9 @@ std::string run_text(const RunReport& r) {
   for (const trial::ArmStrength& at : r.strengths)
     if (const std::string beyond = trial::beyond_text(at); !beyond.empty())
       text += "beyond      " + beyond + "\n";
-  text += press_lines(r) + push_lines(r) + pushed_lines(r) + travel_lines(r);
-  text += finger_lines(r);
-  if (!r.scene.impedance()) text += passivity_line(r);
-  text += ledger_line(r);
+  text += measured_text(r);
   if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
-    text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",
-                        r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+    text += fmt::format("note        the user has not touched anything yet; {}\n", last_notice(r.result));
   for (const std::string& line : r.crossed) text += "LIMIT       " + line + "\n";
   text += questionnaire_text(r.setup);
   text += vision_lines(r.result);
@@ -307,6 +255,15 @@ std::string run_text(const RunReport& r) {
       peak_memory_mb());
   text += fmt::format("state hash  {:016x} after {}\n", r.result.hash, counted(r.result.ticks, "tick"));
   return text;
+}
+
+std::string run_json(const RunReport& r) {
+  Json json;
+  add_origin(json, r);
+  add_course(json, r);
+  json.update(measured_json(r));
+  add_cost(json, r);
+  return json.dump(2) + "\n";
 }
 
 }  // namespace enc::app

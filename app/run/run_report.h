@@ -1,8 +1,10 @@
-// The output of `run`, as text within 25 lines or as one JSON object.
+// The output of `run`, as text within 25 lines or as one JSON object, and the limits that the run exceeded.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "app/common/options.h"
 #include "trial/certificates.h"
@@ -28,12 +30,19 @@ struct RunReport {
   double started = 0.0;     // CPU s from the start of the process to the first tick
   trial::WallTime begun{};  // due time of the first tick
   bool steered = false;     // a person steered the hand, so the scene's plan does not describe it
-  std::vector<std::string> crossed{};  // verdict.h
+  std::vector<std::string> crossed{};  // crossed()
 };
 
 // Speed relative to the clock: two digits below 10, so that a slow run is not "0 x".
 [[nodiscard]] std::string speed_text(double simulated, double wall);
 [[nodiscard]] std::string run_text(const RunReport& report);
 [[nodiscard]] std::string run_json(const RunReport& report);
+// The part of both about the run's task: presses, pushes, the tool carried by the machine, meetings, energy.
+[[nodiscard]] std::string measured_text(const RunReport& report);
+[[nodiscard]] nlohmann::ordered_json measured_json(const RunReport& report);
+// "last notice of the core: ..."
+[[nodiscard]] std::string last_notice(const trial::TrialResult& result);
+// The limits that a run exceeded, one line each; the program then ends with exit code 1.
+[[nodiscard]] std::vector<std::string> crossed(const RunReport& report);
 
 }  // namespace enc::app

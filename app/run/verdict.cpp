@@ -1,12 +1,14 @@
-#include "app/run/verdict.h"
-
+// The limits that a run exceeded, one line each.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "app/machine_words.h"
+#include "app/run/run_report.h"
 #include "core/base/counted.h"
 
 namespace enc::app {
@@ -37,15 +39,10 @@ void add_swings(const RunReport& r, Lines& lines) {
 void add_empty(const RunReport& r, Lines& lines) {
   const auto& empty = r.measured.touches.empty();
   if (empty.empty()) return;
-  lines.push_back(
-      fmt::format("nothing was {} in {} of {}, first at {:.2f} s: the tool is not where the tracker "
-                  "says, or the machine did not get there",
-                  r.scene.impedance() ? "touched" : "felt", empty.size(),
-                  counted(r.result.contacts, "contact"), empty.front()));
-}
-
-std::string last_notice(const RunReport& r) {
-  return "last notice of the core: " + (r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+  lines.push_back(fmt::format(
+      "nothing was {} in {} of {}, first at {:.2f} s: the tool is not where the tracker "
+      "says, or the machine did not get there",
+      words_of(r.setup.scene).met, empty.size(), counted(r.result.contacts, "contact"), empty.front()));
 }
 
 // A part of the presses of the plan, and when the first of them began.
@@ -57,13 +54,13 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
   const auto first = std::find_if(tried.begin(), tried.end(), is);
   lines.push_back(fmt::format("{} of {} {}, first the one from {:.2f} s on{}", n,
                               counted(tried.size(), "press"), text, first->began,
-                              r.result.contacts == 0 ? "; " + last_notice(r) : ""));
+                              r.result.contacts == 0 ? "; " + last_notice(r.result) : ""));
 }
 
 // At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.measured.touches.plan().tried().size());
-  if (r.steered || r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
+  if (r.steered || n == 0 || r.result.contacts <= n) return;
   lines.push_back(
       fmt::format("{} of {}: force was felt where nothing pushed, or the tip lost what "
                   "pushed it",
@@ -79,7 +76,7 @@ void add_untouched(const RunReport& r, Lines& lines) {
   const bool never = tried.empty() ? r.result.contacts == 0 && r.setup.scene.user && r.whole
                                    : std::all_of(tried.begin(), tried.end(), missed);
   if (never)
-    lines.push_back("the user never touched anything; " + last_notice(r));
+    lines.push_back("the user never touched anything; " + last_notice(r.result));
   else
     add_tried(r, missed, "touched nothing", lines);
   add_tried(
@@ -89,6 +86,7 @@ void add_untouched(const RunReport& r, Lines& lines) {
 
 // A finger that is beside its prop feels an edge, or nothing.
 void add_beside(const RunReport& r, Lines& lines) {
+  if (r.steered) return;
   const Vec3 size = r.setup.scene.prop.value_or(PropSpec{}).size;
   const double half = 0.5 * std::min(size.x(), size.y());
   const auto& meetings = r.measured.fingers.meetings();
@@ -105,7 +103,6 @@ void add_beside(const RunReport& r, Lines& lines) {
 
 void add_misses(const RunReport& r, Lines& lines) {
   if (r.steered) return;  // the bound is of the plan's speed
-  if (r.scene.impedance()) return add_beside(r, lines);
   const auto& presses = r.measured.presses.presses();
   const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };
   const auto n = std::count_if(presses.begin(), presses.end(), missed);
@@ -199,20 +196,19 @@ void add_unsolved(const RunReport& r, Lines& lines) {
                   r.setup.twin.solver.iterations, r.unsolved, r.steps));
 }
 
+// In the order of their lines.
+using Check = void (*)(const RunReport& r, Lines& lines);
+constexpr std::array<Check, 10> kOfHexapod{add_motors,   add_unstable,   add_swings, add_empty, add_untouched,
+                                           add_repeated, add_departures, add_misses, add_moved, add_unsolved};
+constexpr std::array<Check, 9> kOfArm{add_motors,     add_unstable, add_swings, add_empty,   add_untouched,
+                                      add_departures, add_beside,   add_moved,  add_unsolved};
+constexpr std::array<std::span<const Check>, 2> kChecks{kOfHexapod, kOfArm};
+
 }  // namespace
 
 std::vector<std::string> crossed(const RunReport& report) {
   Lines lines;
-  add_motors(report, lines);
-  add_unstable(report, lines);
-  add_swings(report, lines);
-  add_empty(report, lines);
-  add_untouched(report, lines);
-  add_repeated(report, lines);
-  add_departures(report, lines);
-  add_misses(report, lines);
-  add_moved(report, lines);
-  add_unsolved(report, lines);
+  for (const Check check : kChecks.at(words_of(report.setup.scene).row)) check(report, lines);
   return lines;
 }
 
