@@ -100,7 +100,7 @@ std::string devices_text(const std::vector<trial::DeviceWords>& devices) {
 SeenParts seen_parts(const SceneSpec& scene) {
   SeenParts seen;
   if (scene.prop) seen.prop = fmt::format("prop ({})", word_of(scene.prop->kind));
-  if (scene.user) seen.tool = scene.arm ? "finger" : "hand-held tool with markers";
+  if (scene.user) seen.tool = words_of(scene).tool;
   if (scene.gripper) seen.tool = "clamped tool with markers";
   if (scene.gripper) seen.gripper = "gripper";
   if (scene.force) seen.force_sensor = "force sensor";

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/said.h"
 
 namespace enc::app {
@@ -89,13 +90,13 @@ std::string stability_text(const models::Setup& setup, const std::vector<Certifi
   for (const Certified& one : certificates)
     if (one.beyond() || one.unknown())
       text += (one.beyond() ? "  BEYOND: " : "  NOT KNOWN: ") + trial::refusal_text(setup, one) + "\n";
-  const bool arm = setup.scene.arm.has_value();
-  if ((arm ? setup.rig.arm.passivity : setup.rig.admittance.passivity) == PassivityForm::controlled)
+  const MachineWords& words = words_of(setup.scene);
+  if (words.passivity(setup.rig) == PassivityForm::controlled)
     text += fmt::format(
         "  rig.{}.passivity=controlled: energy that would come out along the normal is held back; the "
         "classes "
         "above are without that, and decide the exit code and --armed all the same\n",
-        arm ? "arm" : "admittance");
+        words.section);
   return text + rows_text(nearest_its_bound(certificates));
 }
 

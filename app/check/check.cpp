@@ -1,21 +1,25 @@
+#include "app/check/check.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <encounter_version.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "app/built.h"
-#include "app/check/advise.h"
-#include "app/check/costs.h"
 #include "app/common/options.h"
 #include "app/modules/modules.h"
 #include "app/process.h"
 #include "app/said.h"
 #include "app/stability_text.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/control/scene/arm_scene.h"
 #include "core/control/scene/room.h"
@@ -24,12 +28,13 @@
 #include "models/setup/scene_sizes.h"
 #include "trial/assemble/prepare.h"
 #include "trial/limits.h"
+#include "trial/precision/precision.h"
+#include "trial/trial.h"
 
 namespace enc::app {
 namespace {
 
 // ---- frames
-// -------------------------------------------------------------------------------------------------------
 
 std::string in_mm(const Vec3& p) {
   const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-3 + 0.0; };  // no -0
@@ -58,13 +63,11 @@ std::string object_frames(const models::Setup& setup, const Scene& scene) {
 std::string frames_text(const models::Setup& setup, const Scene& scene) {
   const SceneSpec& s = setup.scene;
   const FramesRig& rig = setup.rig.frames;
-  std::string text =
-      constant("WR", scene.X_WR.p(), "machine base; H is W at the machine's zero") +
-      variable("RH", s.arm ? "tip, from the arm's joints" : "haptic-tip, from the machine's joints");
+  std::string text = constant("WR", scene.X_WR.p(), "machine base; H is W at the machine's zero") +
+                     variable("RH", words_of(s).tip);
   if (s.force) text += constant("HF", rig.H_F.position, "force sensor");
   if (s.tracker)
-    text += constant("WC", rig.W_C.position, "tracker camera") +
-            variable("CT", s.arm ? "finger, from the tracker" : "tool markers, from the tracker");
+    text += constant("WC", rig.W_C.position, "tracker camera") + variable("CT", words_of(s).tracked);
   if (s.display)
     text += constant("WS", rig.W_S.position, "headset server") + variable("SG", "headset") +
             constant("GL", rig.G_L.position, "hand tracker on the headset");
@@ -74,7 +77,6 @@ std::string frames_text(const models::Setup& setup, const Scene& scene) {
 }
 
 // ---- limits
-// -------------------------------------------------------------------------------------------------------
 
 std::string objects_named(const std::vector<std::string>& names) {
   if (names.size() == 1) return fmt::format("object '{}'", names.front());
@@ -117,7 +119,7 @@ std::string softest_text(const models::Setup& setup, const Scene& scene) {
       setup.rig.contact.hand_stiffness * 1e-3);
 }
 
-std::string limits(const models::Setup& setup, const Scene& scene) {
+std::string hexapod_limits(const models::Setup& setup, const Scene& scene) {
   Said said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = setup.scene.objects[i].name;
@@ -173,7 +175,7 @@ std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
   return (few ? "" : least_text(strengths)) + lines_of(said) + beyond;
 }
 
-// An arm has no deflection limit: it pushes with what it has.
+// An arm has no deflection limit: its motors limit its force.
 std::string arm_limits(const models::Setup& setup, const Scene& scene) {
   const Impedance& law = *scene.impedance();
   Said said;
@@ -193,6 +195,158 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
              law.rig.stiffness, law.rig.damping, damping_ratio(law.rig, law.home_mass), law.home_mass * 1e3,
              law.rig.peak, law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
 }
+
+constexpr std::array kLimits{hexapod_limits, arm_limits};  // by MachineWords::row
+
+// ---- costs
+
+constexpr double kRun = 0.25;  // s, of experiment
+
+// The parts of the engine that are off because this scene has no use for them.
+std::string not_looked_for(const mjModel& model) {
+  constexpr std::array<std::pair<int, const char*>, 3> kOff{
+      {{mjDSBL_CONTACT, "contacts"}, {mjDSBL_CONSTRAINT, "constraints"}, {mjDSBL_ISLAND, "islands"}}};
+  std::vector<std::string> off;
+  for (const auto& [flag, word] : kOff)
+    if ((model.opt.disableflags & flag) != 0) off.emplace_back(word);
+  return off.empty() ? "" : fmt::format("; not looked for: {}", fmt::join(off, ", "));
+}
+
+std::string physics_text(const sim::Physics& physics) {
+  const mjModel& m = *physics.model();
+  return fmt::format("  physics   {} MuJoCo elements: {} bodies, {} joints, {} geoms, {} sensors{}\n",
+                     physics.elements(), m.nbody, m.njnt, m.ngeom, m.nsensor, not_looked_for(m));
+}
+
+bool among(const std::vector<std::string>& libraries, const std::string& part) {
+  return std::any_of(libraries.begin(), libraries.end(),
+                     [&](const std::string& name) { return name.find(part) != std::string::npos; });
+}
+
+// The process as the kernel reports it.
+std::string process_text() {
+  const std::vector<std::string> libraries = mapped_libraries();
+  std::vector<std::string> loaded, left;
+  for (const std::string& library : libraries)  // in whichever folder it stood
+    if (const std::string name = module_name(library); !name.empty()) loaded.push_back(name);
+  for (const std::string& name : modules_there())
+    if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) left.push_back(name);
+  const bool gl = among(libraries, "libGL") || among(libraries, "libEGL") || among(libraries, "libOSMesa");
+  const int threads = thread_count();
+  return fmt::format(
+      "  process   {}, {} libraries, {:.0f} MiB at most so far; OpenGL {}; modules {}; not loaded "
+      "{}\n",
+      counted(threads, "thread"), libraries.size(), peak_memory_mb(), gl ? "loaded" : "not loaded",
+      loaded.empty() ? "none" : fmt::format("{}", fmt::join(loaded, ", ")),
+      left.empty() ? "none" : fmt::format("{}", fmt::join(left, ", ")));
+}
+
+// Some lines of text. Runs the first quarter of a second of a fully simulated scene. Empty for any other
+// scene, because no device may be moved or waited for, and if a camera's modules are not built. `ready` is
+// the CPU time of the process so far, s.
+std::string costs_text(const models::Setup& setup, std::uint64_t seed, double ready) {
+  const trial::Slots slots = trial::slots_of(setup);
+  if (slots.real || !slots.simulated)
+    return "\ncosts       not measured: not all devices of this rig are simulated\n";
+  for (const char* module : {"camera", "vision"})
+    if (setup.scene.camera && !module_there(module))
+      return fmt::format("\ncosts       not measured: the module {} is not built\n", module);
+  trial::TrialOptions options;
+  options.seed = seed;
+  options.seconds = kRun;
+  options.drivers = load_module;
+  const double before = cpu_seconds();
+  trial::Trial trial(setup, options);
+  const double built = cpu_seconds();
+  const trial::TrialResult result = trial.run();
+  const double tick = (cpu_seconds() - built) / static_cast<double>(result.ticks);
+  return fmt::format(
+             "\ncosts       ready after {:.0f} ms of CPU time; a tick takes {:.1f} us: {:.3g} x real time "
+             "(its first {:g} s)\n",
+             (ready + built - before) * 1e3, tick * 1e6, 1.0 / (tick * setup.rig.loop.rate), kRun) +
+         physics_text(trial.world().physics()) + process_text();
+}
+
+// ---- advice
+
+std::string settings_text(const trial::Precision& all, const trial::PrecisionPoint& point) {
+  std::string text;
+  for (const std::string& set : all.settings(point)) text += fmt::format(" --set {}", set);
+  return text;
+}
+
+std::string row(const trial::PrecisionPoint& point) {
+  const std::string name = fmt::format("  {:<12} {:>6g} us ", point.integrator, point.step * 1e6);
+  if (!point.failure.empty()) return fmt::format("{}  failed: {}\n", name, point.failure);
+  return fmt::format("{} {:>7.4f} N {:>8.2f} um {:>7.0f} x real time{}\n", name, point.error, point.way * 1e6,
+                     1.0 / point.cpu, point.shipped ? "  as it is" : "");
+}
+
+// Those of the two that were asked for: "0.0518 N", "12.30 um", or both.
+std::string both(const trial::Accuracy& asked, const std::string& force, const std::string& way) {
+  if (std::isnan(asked.way)) return force;
+  return std::isnan(asked.force) ? way : force + " and " + way;
+}
+std::string errs_by(const trial::PrecisionPoint& point, const trial::Accuracy& asked) {
+  return both(asked, fmt::format("{:.4f} N", point.error), fmt::format("{:.2f} um", point.way * 1e6));
+}
+// The range in which another converged run may put the error.
+std::string spread_of(const trial::Precision& all, const trial::PrecisionPoint& point,
+                      const trial::Accuracy& asked) {
+  const trial::Spread force = all.error_spread(point), way = all.way_spread(point);
+  return both(asked, fmt::format("{:.4f} to {:.4f} N", force.least, force.most),
+              fmt::format("{:.2f} to {:.2f} um", way.least * 1e6, way.most * 1e6));
+}
+bool may_be_more(const trial::Precision& all, const trial::PrecisionPoint& point,
+                 const trial::Accuracy& asked) {
+  return all.error_spread(point).most > asked.force || all.way_spread(point).most > asked.way;
+}
+std::string words(const trial::Accuracy& asked) {
+  return both(asked, fmt::format("{:g} N", asked.force), fmt::format("{:g} um", asked.way * 1e6));
+}
+
+std::string advised(const trial::Precision& all, const trial::Accuracy& asked) {
+  const trial::PrecisionPoint* best = cheapest(all.points, asked);
+  if (best == nullptr) return fmt::format("advice      none of these errs by less than {}\n", words(asked));
+  std::string text = fmt::format(
+      "advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n            by another "
+      "converged run {}{}\n",
+      (best->shipped ? " as it is:" : "") + settings_text(all, *best), errs_by(*best, asked), words(asked),
+      1.0 / best->cpu, spread_of(all, *best, asked),
+      may_be_more(all, *best, asked) ? ": that may be more than allowed" : "");
+  if (const trial::PrecisionPoint* next = next_cheaper(all.points, *best))
+    text += fmt::format("            the next cheaper, {} at {:g} us, errs by {}, {:.0f} x real time\n",
+                        next->integrator, next->step * 1e6, errs_by(*next, asked), 1.0 / next->cpu);
+  else
+    text += "            nothing cheaper was found: no step is longer than the haptic period\n";
+  return text;
+}
+
+}  // namespace
+
+std::string advice_text(const trial::Precision& all, const trial::Accuracy& asked) {
+  std::string text = fmt::format(
+      "\nprecision   of the true force on what is held, rms while it touches; and of the tip's path\n"
+      "            {:g} s of the scene, {:.1f} s touched, judged by {} at {:g} us and another one; floor "
+      "about {:.4f} N, {:.2f} um\n",
+      all.seconds, static_cast<double>(all.touched) * all.tick, all.converged.integrator,
+      all.converged.step * 1e6, all.second.error, all.second.way * 1e6);
+  for (const trial::PrecisionPoint& point : all.points) text += row(point);
+  return text + advised(all, asked) +
+         "            judged by these errors alone: what is stable, `encounter bench stability` says\n";
+}
+
+void refuse_below_floor(const trial::Precision& all, const trial::Accuracy& asked) {
+  if (all.second.meets(asked) || cheapest(all.points, asked) != nullptr) return;
+  throw Error(fmt::format("an error of {} is below what this scene can tell, {}: two converged runs "
+                          "({} at {:g} us, {} at {:g} us) differ by that, as counts of its sensors fall "
+                          "the other way; expected at least that",
+                          words(asked), errs_by(all.second, asked), all.converged.integrator,
+                          all.converged.step * 1e6, all.second.integrator, all.second.step * 1e6),
+              all.second.error > asked.force ? "--error-N" : "--error-um");
+}
+
+namespace {
 
 trial::Accuracy accuracy_of(const CheckOptions& options) {
   const auto refuse_unless_above_0 = [](const std::optional<double>& error, const char* what,
@@ -251,7 +405,7 @@ int check(const CheckOptions& options) {
   fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}{}", setup.scene.title,
              parts_text(setup) + models::sizes_text(setup),
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
-             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
+             frames_text(setup, scene), kLimits.at(words_of(setup.scene).row)(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
   fmt::print("{}", costs_text(setup, options.seed, ready));
   return asked ? advise(options, *asked) : 0;

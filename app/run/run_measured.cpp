@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/machine_words.h"
+#include "app/built.h"
 #include "app/run/run_report.h"
 #include "core/base/counted.h"
 #include "core/base/units.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/machine_words.h"
+#include "app/built.h"
 #include "app/run/run_report.h"
 #include "core/base/counted.h"
 
