@@ -1,9 +1,14 @@
 // What the program finds in encounter_fit.so.
 #include "core/devices/module.h"
 
-#include "app/calibrate/fits/fits.h"
+#include <fmt/format.h>
+
+#include "app/common/shell_word.h"
 #include "app/fit/commands.h"
 #include "app/fit/fit_module.h"
+#include "core/base/error.h"
+#include "models/identify/camera/point_set.h"
+#include "models/identify/tip/pivot_log.h"
 
 namespace enc::app {
 namespace {
@@ -18,6 +23,25 @@ constexpr FitModule kFit{.fit = fit_command,
                          .rig = calibrate_rig};
 
 }  // namespace
+
+void refuse_pairs(const std::string& csv, const std::string& file, const std::string& expected) {
+  if (!models::is_point_set(csv)) return;
+  throw Error(
+      fmt::format("{}:1:1: is a table of pairs of points; expected {}; run: encounter calibrate camera {}",
+                  file, expected, shell_word(file)));
+}
+
+void refuse_poses(const std::string& csv, const std::string& file, const std::string& expected) {
+  if (!models::is_pivot_log(csv)) return;
+  throw Error(
+      fmt::format("{}:1:1: is a table of a tool's poses; expected {}; run: encounter calibrate tip {}", file,
+                  expected, shell_word(file)));
+}
+
+bool is_rig(const std::string& what) {
+  return what.find_first_of("./") == std::string::npos || what.ends_with(".toml");
+}
+
 }  // namespace enc::app
 
 extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {

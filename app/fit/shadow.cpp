@@ -3,6 +3,7 @@
 #include "trial/identify/shadow/shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -20,126 +21,64 @@ namespace {
 using trial::Divergence;
 using trial::Quantity;
 using trial::Shadow;
-using OrderedJson = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;  // prints NaN as null
 
-// How a quantity is shown, and what it means where the record is ahead of the twin, and behind it.
-struct Meaning {
+struct Unit {
   const char* name;
-  const char* unit;
   const char* key;  // in JSON
   double scale;     // of SI
   int digits;
+};
+constexpr Unit kTime{"ms", "ms", 1e3, 2}, kLength{"mm", "mm", 1e3, 4}, kLengthRms{"mm rms", "mm", 1e3, 4},
+    kForceRms{"N rms", "N", 1.0, 4}, kShare{"%", "percent", 1e2, 2};
+
+// How a quantity is shown, and what it means if the record is ahead of the twin or behind it.
+struct Meaning {
+  const char* name;
+  Unit unit;
   const char* more;  // {}: by how much
   const char* less;
 };
 
-Meaning meaning_of(const Divergence& one) {
-  switch (one.quantity) {
-    case Quantity::machine_time:
-      return {"time",
-              "ms",
-              "ms",
-              1e3,
-              2,
-              "the machine answers {} later than the twin's",
-              "the machine answers {} earlier than the twin's"};
-    case Quantity::machine_place:
-      return {"place",
-              "mm",
-              "mm",
-              1e3,
-              4,
-              "the machine stands {} farther than the twin's, towards +",
-              "the machine stands {} farther than the twin's, towards -"};
-    case Quantity::machine_rest:
-      return {"rest",
-              "mm rms",
-              "mm",
-              1e3,
-              4,
-              "the machine moves otherwise than the twin's by {}, which neither a time nor a place explains",
-              ""};
-    case Quantity::registration:
-      if (one.axis == "away")
-        return {"registration",
-                "mm",
-                "mm",
-                1e3,
-                4,
-                "registration: the tool is seen {} farther from the tip that it presses than by the twin's "
-                "tracker",
-                "registration: the tool is seen {} nearer to the tip that it presses than by the twin's "
-                "tracker"};
-      return {"registration",
-              "mm",
-              "mm",
-              1e3,
-              4,
-              "registration: the tool is seen {} farther than by the twin's tracker, towards +",
-              "registration: the tool is seen {} farther than by the twin's tracker, towards -"};
-    case Quantity::tool_latency:
-      return {"latency",
-              "ms",
-              "ms",
-              1e3,
-              2,
-              "latency: what is seen of the tool comes {} later than from the twin's tracker",
-              "latency: what is seen of the tool comes {} earlier than from the twin's tracker"};
-    case Quantity::tool_stamps:
-      return {"stamps",
-              "ms",
-              "ms",
-              1e3,
-              2,
-              "the tracker's stamps are {} later than the twin's, beside what they are of",
-              "the tracker's stamps are {} earlier than the twin's, beside what they are of"};
-    case Quantity::stiffness:
-      return {"stiffness",
-              "%",
-              "percent",
-              1e2,
-              2,
-              "stiffness: the object is {} stiffer than the twin's",
-              "stiffness: the object is {} softer than the twin's"};
-    case Quantity::object_place:
-      return {"place",
-              "mm",
-              "mm",
-              1e3,
-              4,
-              "the object, or the machine, stands elsewhere: {} nearer to each other than the twin's",
-              "the object, or the machine, stands elsewhere: {} farther from each other than the twin's"};
-    case Quantity::force_time:
-      return {"time",
-              "ms",
-              "ms",
-              1e3,
-              2,
-              "the force comes {} later than the twin's",
-              "the force comes {} earlier than the twin's"};
-    case Quantity::force_rest:
-      return {
-          "rest",
-          "N rms",
-          "N",
-          1.0,
-          4,
-          "the force differs from the twin's by {} that no stiffness, place or time explains: the object has "
-          "another law, or the sensor is worse, and what else is said of the force is to be doubted",
-          "the force differs from the twin's by {} less than expected: the sensor is better"};
-    case Quantity::rendered:
-      break;
-  }
-  return {"stiffness",
-          "%",
-          "percent",
-          1e2,
-          2,
-          "stiffness: the rendered object is {} stiffer than the twin's",
-          "stiffness: the rendered object is {} softer than the twin's"};
+// In the order of Quantity.
+constexpr std::array<Meaning, 11> kMeanings{{
+    {"time", kTime, "the machine answers {} later than the twin's",
+     "the machine answers {} earlier than the twin's"},
+    {"place", kLength, "the machine stands {} farther than the twin's, towards +",
+     "the machine stands {} farther than the twin's, towards -"},
+    {"rest", kLengthRms,
+     "the machine moves otherwise than the twin's by {}, which neither a time nor a place explains", ""},
+    {"registration", kLength,
+     "registration: the tool is seen {} farther than by the twin's tracker, towards +",
+     "registration: the tool is seen {} farther than by the twin's tracker, towards -"},
+    {"latency", kTime, "latency: what is seen of the tool comes {} later than from the twin's tracker",
+     "latency: what is seen of the tool comes {} earlier than from the twin's tracker"},
+    {"stamps", kTime, "the tracker's stamps are {} later than the twin's, beside what they are of",
+     "the tracker's stamps are {} earlier than the twin's, beside what they are of"},
+    {"stiffness", kShare, "stiffness: the object is {} stiffer than the twin's",
+     "stiffness: the object is {} softer than the twin's"},
+    {"place", kLength,
+     "the object, or the machine, stands elsewhere: {} nearer to each other than the twin's",
+     "the object, or the machine, stands elsewhere: {} farther from each other than the twin's"},
+    {"time", kTime, "the force comes {} later than the twin's", "the force comes {} earlier than the twin's"},
+    {"rest", kForceRms,
+     "the force differs from the twin's by {} that no stiffness, place or time explains: the object has "
+     "another law, or the sensor is worse, and what else is said of the force is to be doubted",
+     "the force differs from the twin's by {} less than expected: the sensor is better"},
+    {"stiffness", kShare, "stiffness: the rendered object is {} stiffer than the twin's",
+     "stiffness: the rendered object is {} softer than the twin's"},
+}};
+constexpr Meaning kRegistrationAway{
+    "registration", kLength,
+    "registration: the tool is seen {} farther from the tip that it presses than by the twin's tracker",
+    "registration: the tool is seen {} nearer to the tip that it presses than by the twin's tracker"};
+
+const Meaning& meaning_of(const Divergence& one) {
+  if (one.quantity == Quantity::registration && one.axis == "away") return kRegistrationAway;
+  return kMeanings.at(static_cast<std::size_t>(one.quantity));
 }
 
-std::string size_text(const models::Interval& off, const Meaning& as, double sign) {
+std::string size_text(const models::Interval& off, const Unit& as, double sign) {
   double value = sign * off.value * as.scale;
   if (std::abs(value) < 0.5 * std::pow(10.0, -as.digits)) value = 0.0;  // and not -0.00
   if (std::isnan(value)) return "not known";
@@ -150,9 +89,9 @@ std::string size_text(const models::Interval& off, const Meaning& as, double sig
 
 // "stiffness: the object is 5.00 +- 0.27 % stiffer than the twin's"
 std::string sentence(const Divergence& one) {
-  const Meaning as = meaning_of(one);
+  const Meaning& as = meaning_of(one);
   const bool more = one.off.value >= 0.0;
-  const std::string size = fmt::format("{} {}", size_text(one.off, as, more ? 1.0 : -1.0), as.unit);
+  const std::string size = fmt::format("{} {}", size_text(one.off, as.unit, more ? 1.0 : -1.0), as.unit.name);
   const std::string text = fmt::format(fmt::runtime(more ? as.more : as.less), size);
   return text + (one.axis == "away" ? "" : one.axis);
 }
@@ -163,10 +102,11 @@ const char* verdict_of(const Divergence& one) {
 }
 
 std::string row(const Divergence& one) {
-  const Meaning as = meaning_of(one);
+  const Meaning& as = meaning_of(one);
   const std::string name = one.axis.empty() ? as.name : fmt::format("{} {}", as.name, one.axis);
   return fmt::format("{:<12}{:<20}{:>22} {:<7}{:>8.3g} {:<7} {}\n", word_of(one.channel), name,
-                     size_text(one.off, as, 1.0), as.unit, one.bound * as.scale, as.unit, verdict_of(one));
+                     size_text(one.off, as.unit, 1.0), as.unit.name, one.bound * as.unit.scale, as.unit.name,
+                     verdict_of(one));
 }
 
 std::string report(const std::string& record, const std::vector<std::string>& set, const std::string& title,
@@ -200,8 +140,6 @@ std::string report(const std::string& record, const std::vector<std::string>& se
                             shadow.unjudged.size());
 }
 
-OrderedJson number_or_none(double x) { return std::isfinite(x) ? OrderedJson(x) : OrderedJson(nullptr); }
-
 std::string json_of(const Shadow& shadow, const std::string& lack) {
   OrderedJson json;
   if (!lack.empty()) json["lack"] = lack;
@@ -210,13 +148,13 @@ std::string json_of(const Shadow& shadow, const std::string& lack) {
   json["diverges"] = shadow.diverges();
   json["channels"] = OrderedJson::array();
   for (const Divergence& one : shadow.found) {
-    const Meaning as = meaning_of(one);
+    const Unit& as = meaning_of(one).unit;
     OrderedJson entry;
     entry["channel"] = word_of(one.channel);
     entry["quantity"] = word_of(one.quantity);
     if (!one.axis.empty()) entry["axis"] = one.axis;
-    entry[fmt::format("off_{}", as.key)] = number_or_none(one.off.value * as.scale);
-    entry[fmt::format("half_{}", as.key)] = number_or_none(one.off.half * as.scale);
+    entry[fmt::format("off_{}", as.key)] = one.off.value * as.scale;
+    entry[fmt::format("half_{}", as.key)] = one.off.half * as.scale;
     entry[fmt::format("bound_{}", as.key)] = one.bound * as.scale;
     entry["verdict"] = one.diverges() ? "diverges" : one.vague() ? "not told" : "agrees";
     if (one.diverges()) entry["words"] = sentence(one);

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
 #include "app/common/shell_word.h"
+#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
@@ -26,7 +26,7 @@
 namespace enc::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // prints NaN as null
 using models::PointSet;
 using trial::PointStudy;
 
@@ -119,12 +119,7 @@ std::string notes_text(const PointSet& places, const PointStudy& s) {
   return out;
 }
 
-Json json_of(const Vec3& v, double unit) {
-  Json list = Json::array();
-  for (Eigen::Index a = 0; a < 3; ++a)
-    list.push_back(std::isfinite(v(a)) ? Json(v(a) * unit) : Json(nullptr));
-  return list;
-}
+Json json_of(const Vec3& v, double unit) { return {v.x() * unit, v.y() * unit, v.z() * unit}; }
 Json json_of(const std::array<models::Interval, 3>& of, double models::Interval::*what, double unit) {
   return json_of(Vec3(of[0].*what, of[1].*what, of[2].*what), unit);
 }

@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
 #include "app/common/shell_word.h"
+#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/time.h"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
+#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "models/identify/tip/pivot_doubts.h"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
+#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "models/identify/tracker/latency_fit.h"
@@ -16,7 +16,7 @@
 namespace enc::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // prints NaN as null
 using models::AxisLatency;
 using models::Interval;
 using models::LatencyFit;
@@ -148,10 +148,9 @@ std::string advice_text(const LatencyFit& fit) {
   return out;
 }
 
-Json number(double x, double unit) { return std::isfinite(x) ? Json(x * unit) : Json(nullptr); }
 void put(Json& to, const std::string& name, const char* label, const Interval& i, double unit) {
-  to[fmt::format("{}_{}", name, label)] = number(i.value, unit);
-  to[fmt::format("{}_half_{}", name, label)] = number(i.half, unit);
+  to[fmt::format("{}_{}", name, label)] = i.value * unit;
+  to[fmt::format("{}_half_{}", name, label)] = i.half * unit;
 }
 
 std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
@@ -166,22 +165,22 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
     Json axis;
     put(axis, "latency", "ms", x.latency, kMsPerS);
     put(axis, "bias", "mm", x.bias, kMmPerM);
-    axis["noise_mm"] = number(x.noise, kMmPerM);
+    axis["noise_mm"] = x.noise * kMmPerM;
     put(axis, "bias_change", "mm", x.change, kMmPerM);
     put(axis, "lag_step", "mm", x.step, kMmPerM);
-    axis["places_mm"] = number(x.places, kMmPerM);
+    axis["places_mm"] = x.places * kMmPerM;
     axis["travel_mm"] = x.travel * kMmPerM;
     axis["stops"] = x.stops;
     axis["moving"] = x.moving;
     axis["one_way"] = x.one_way;
     axis["adrift"] = x.adrift;
-    axis["scale"] = number(x.scale, 1.0);
+    axis["scale"] = x.scale;
     json["axes"][std::string(1, kNames[a])] = axis;
   }
   put(json, "latency", "ms", fit.latency, kMsPerS);
   put(json, "scatter", "ms", fit.scatter, kMsPerS);
   json["axes_agree"] = fit.axes_agree;
-  json["stamp_age_ms"] = number(fit.stamp_age.value, kMsPerS);
+  json["stamp_age_ms"] = fit.stamp_age.value * kMsPerS;
   put(json, "stamp_late", "ms", fit.stamp_error, kMsPerS);
   json["notes"] = log.notes;
   return json.dump(2);
