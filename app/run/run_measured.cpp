@@ -419,13 +419,13 @@ struct MachineReport {
 constexpr std::array<MachineReport, 2> kReports{
     {{press_text, passivity_line,
       [](const RunReport& r) {
-        return Json{{"presses", list_of(met_presses(r), press_json)}};
+        return Json::object({{"presses", list_of(met_presses(r), press_json)}});
       },
       press_totals},
      {[](const RunReport&) { return std::string(); }, finger_text,
       [](const RunReport& r) {
-        return Json{{"meetings", list_of(r.measured.fingers.meetings(), meeting_json)},
-                    {"seen", list_of(r.measured.seen.presses(), seen_json)}};
+        return Json::object({{"meetings", list_of(r.measured.fingers.meetings(), meeting_json)},
+                             {"seen", list_of(r.measured.seen.presses(), seen_json)}});
       },
       [](const RunReport&) { return Json::object(); }}}};
 
