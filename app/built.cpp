@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/process.h"
-#include "core/base/counted.h"
+#include "core/base/words.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -14,13 +14,11 @@
 #include "core/base/error.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
-#include "models/mesh_files/mesh_places.h"
-#include "models/mesh_files/mesh_write.h"
+#include "models/mesh_files/mesh_file.h"
 #include "models/schema/wording.h"
-#include "models/shapes/hare.h"
 #include "models/shapes/shapes.h"
 #include "models/tables/csv_reader.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 namespace {

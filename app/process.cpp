@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "trial/operator/standard_error.h"
+#include "trial/operator/terminal.h"
 
 namespace enc::app {
 

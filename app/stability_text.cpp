@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "app/said.h"
+#include "app/common/words.h"
 
 namespace enc::app {
 namespace {

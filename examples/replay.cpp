@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "models/setup/scene_file.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 
 int main(int count, char** words) {
   if (count != 2) return std::fputs("replay RECORD.encrec\n", stderr), 2;

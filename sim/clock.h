@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/devices/clock.h"
+#include "core/devices/rig.h"
 
 namespace enc::sim {
 

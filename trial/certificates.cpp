@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/control/scene/steadiness.h"
-#include "core/control/task/meet/arm_loop.h"
+#include "core/control/task/meet/impedance.h"
 #include "trial/assemble/assemble.h"
 
 namespace enc::trial {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/control/scene/scene.h"
-#include "core/control/task/state.h"
+#include "core/control/task/tasks.h"
 #include "core/devices/signals.h"
 #include "models/setup/scene_file.h"
 #include "trial/certificates.h"

@@ -11,7 +11,7 @@
 #include "core/control/task/carry/travel.h"
 #include "core/control/task/measure/probe.h"
 #include "models/schema/wording.h"
-#include "models/setup/rig_calibration.h"
+#include "models/setup/calibration_files.h"
 #include "sim/clock.h"
 #include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"

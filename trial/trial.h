@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/device.h"
 #include "core/devices/rig.h"
-#include "core/devices/stereo_camera.h"
 #include "core/record/record.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"

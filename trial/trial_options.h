@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "core/control/step.h"
-#include "core/devices/clock.h"
+#include "core/devices/device.h"
 #include "core/devices/mode.h"
 #include "core/devices/rig.h"
-#include "core/devices/stereo_camera.h"
 #include "sim/truth/truth.h"
 #include "trial/assemble/assemble.h"
 #include "trial/family.h"

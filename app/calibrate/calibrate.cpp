@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/common/command_options.h"
-#include "app/modules/own_modules.h"
+#include "app/modules/modules.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"

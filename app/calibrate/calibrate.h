@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/common/calibrate_options.h"
+#include "app/common/module_options.h"
 
 namespace enc::app {
 

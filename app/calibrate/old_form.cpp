@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/calibrate/calibrate.h"
-#include "app/common/shell_word.h"
+#include "app/common/words.h"
 #include "core/base/error.h"
 #include "core/record/record.h"
 #include "models/schema/wording.h"

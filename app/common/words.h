@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "core/record/record.h"
 #include "models/setup/scene_file.h"
 

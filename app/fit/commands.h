@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/common/calibrate_options.h"
+#include "app/common/module_options.h"
 #include "app/common/options.h"
 #include "trial/assemble/assemble.h"
 

@@ -22,7 +22,7 @@
 #include "models/setup/scene_file.h"
 #include "models/tables/csv_reader.h"
 #include "trial/identify/ball/ball_fit.h"
-#include "trial/identify/read_table.h"
+#include "trial/measure/record_table.h"
 
 namespace enc::app {
 namespace {

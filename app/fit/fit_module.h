@@ -2,7 +2,7 @@
 // tracker, a tip, a camera or a rig.
 #pragma once
 
-#include "app/common/calibrate_options.h"
+#include "app/common/module_options.h"
 #include "app/common/options.h"
 #include "trial/assemble/assemble.h"
 

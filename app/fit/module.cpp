@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "app/common/shell_word.h"
+#include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "app/fit/fit_module.h"
 #include "core/base/error.h"
-#include "models/identify/camera/point_set.h"
+#include "models/identify/camera/register.h"
 #include "models/identify/tip/pivot_log.h"
 
 namespace enc::app {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/common/lack.h"
+#include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"

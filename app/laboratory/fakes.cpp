@@ -22,7 +22,7 @@
 #include "encounter_version.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/operator/signals.h"
 
 namespace enc::app {

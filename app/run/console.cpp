@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "app/run/percentiles.h"
-#include "trial/time/beside_loop.h"
+#include "trial/time/real_time.h"
 
 namespace enc::app {
 namespace {

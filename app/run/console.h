@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "trial/operator/run_watch.h"
-#include "trial/operator/standard_error.h"
+#include "trial/operator/terminal.h"
 
 namespace enc::app {
 

@@ -20,12 +20,11 @@
 #include "app/stability_text.h"
 #include "core/base/error.h"
 #include "models/files.h"
-#include "trial/operator/consent.h"
+#include "trial/measure/run_measures.h"
 #include "trial/operator/operator.h"
 #include "trial/provenance/provenance.h"
-#include "trial/run/run_measures.h"
-#include "trial/steered/steering_log.h"
-#include "trial/time/record_thread.h"
+#include "trial/steered/steering.h"
+#include "trial/time/real_time.h"
 #include "trial/trial.h"
 
 namespace enc::app {

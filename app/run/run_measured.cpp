@@ -10,8 +10,8 @@
 
 #include "app/built.h"
 #include "app/run/run_report.h"
-#include "core/base/counted.h"
 #include "core/base/units.h"
+#include "core/base/words.h"
 
 namespace enc::app {
 namespace {

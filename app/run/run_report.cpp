@@ -11,7 +11,7 @@
 #include "app/process.h"
 #include "app/run/percentiles.h"
 #include "app/stability_text.h"
-#include "core/base/counted.h"
+#include "core/base/words.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -8,9 +8,8 @@
 
 #include "app/common/options.h"
 #include "trial/certificates.h"
-#include "trial/limits.h"
+#include "trial/measure/run_measures.h"
 #include "trial/provenance/provenance.h"
-#include "trial/run/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::app {

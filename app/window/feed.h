@@ -11,8 +11,8 @@
 #include "app/view/moment/moment.h"
 #include "app/window/history/history.h"
 #include "core/vision/vision_module.h"
-#include "trial/operator/queue.h"
 #include "trial/operator/run_watch.h"
+#include "trial/time/real_time.h"
 
 namespace enc::app {
 

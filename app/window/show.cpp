@@ -11,7 +11,7 @@
 #include "app/run/percentiles.h"
 #include "app/view/moment/depict.h"
 #include "core/base/error.h"
-#include "trial/steered/faults.h"
+#include "trial/steered/steering.h"
 
 namespace enc::app {
 namespace {

@@ -28,8 +28,7 @@
 #include "models/setup/scene_names.h"
 #include "sim/window/window.h"
 #include "trial/assemble/assemble.h"
-#include "trial/assemble/prepare.h"
-#include "trial/operator/consent.h"
+#include "trial/operator/operator.h"
 
 namespace enc::app {
 namespace {

@@ -25,7 +25,7 @@
 #include "core/record/state_hash.h"
 #include "trial/assemble/vision.h"
 #include "trial/devices/device_log.h"
-#include "trial/run/run_measures.h"
+#include "trial/measure/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::bench::ablation {

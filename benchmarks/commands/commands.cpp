@@ -32,8 +32,8 @@
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "models/tables/csv_reader.h"
-#include "trial/operator/consent.h"
-#include "trial/operator/standard_error.h"
+#include "trial/operator/operator.h"
+#include "trial/operator/terminal.h"
 
 namespace enc::bench {
 namespace {

@@ -14,11 +14,11 @@
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/staged/staged.h"
 #include "core/base/units.h"
-#include "core/vision/finger/tangent.h"
+#include "core/vision/finger/cap.h"
 #include "core/vision/finger_tracker.h"
 #include "core/vision/hand/hand_scene.h"
 #include "core/vision/stereo/rectify.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 
 namespace enc::bench::fingertip {
 namespace {

@@ -8,7 +8,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "sim/hand/user.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/trial.h"
 
 namespace enc::bench::impact {

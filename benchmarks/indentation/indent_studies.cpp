@@ -10,7 +10,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/stiffness/push_study.h"
 #include "core/control/task/measure/probe.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 #include "core/machine/loop_model.h"
 #include "models/directions/directions.h"
 #include "models/identify/response/loop_csv.h"

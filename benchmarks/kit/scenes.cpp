@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/devices/mode.h"
-#include "trial/operator/consent.h"
+#include "trial/operator/operator.h"
 
 namespace enc::bench {
 

@@ -11,7 +11,6 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
 #include "core/base/error.h"
-#include "trial/ledger/ledger_measure.h"
 
 namespace enc::bench::ledger {
 namespace {

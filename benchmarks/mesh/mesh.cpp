@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
-#include "models/mesh_files/mesh_write.h"
+#include "models/mesh_files/mesh_file.h"
 #include "models/shapes/shapes.h"
 #include "trial/trial.h"
 

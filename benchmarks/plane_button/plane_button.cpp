@@ -9,7 +9,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "core/control/scene/arm_scene.h"
+#include "core/control/scene/scene.h"
 
 namespace enc::bench::plane_button {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/safety/braking.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/safety/inside.h"
+#include "core/control/track/reach.h"
 
 namespace enc::bench::reaching {
 namespace {

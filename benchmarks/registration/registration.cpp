@@ -11,10 +11,10 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/registration/accuracy.h"
 #include "benchmarks/verdict/reference.h"
-#include "core/base/counted.h"
 #include "core/base/units.h"
+#include "core/base/words.h"
 #include "models/setup/scene_file.h"
-#include "trial/identify/camera/driven_arm.h"
+#include "trial/identify/camera/registration_rig.h"
 
 namespace enc::bench::registration {
 namespace {

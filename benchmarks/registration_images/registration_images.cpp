@@ -16,9 +16,7 @@
 #include "core/control/scene/scene.h"
 #include "sim/camera/stage.h"
 #include "trial/assemble/vision.h"
-#include "trial/identify/camera/driven_arm.h"
 #include "trial/identify/camera/registration_rig.h"
-#include "trial/identify/camera/tip_eyes.h"
 
 namespace enc::bench::registration_images {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 
 namespace enc::bench::segmentation {
 namespace {

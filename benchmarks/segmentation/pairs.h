@@ -13,8 +13,8 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/staged/staged.h"
-#include "core/vision/segmentation/roc.h"
-#include "models/identify/block_error.h"
+#include "core/vision/segmentation/skin.h"
+#include "models/identify/block_fit.h"
 
 namespace enc::bench::segmentation {
 

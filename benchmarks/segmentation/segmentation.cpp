@@ -9,10 +9,10 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/segmentation/pairs.h"
 #include "core/base/units.h"
-#include "core/vision/segmentation/kernels/arc.h"
+#include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/kernels/majority.h"
 #include "core/vision/segmentation/tiles.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 
 namespace enc::bench::segmentation {
 namespace {

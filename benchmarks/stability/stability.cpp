@@ -14,7 +14,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/certificates.h"
 
 namespace enc::bench::stability {

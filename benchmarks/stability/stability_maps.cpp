@@ -12,7 +12,7 @@
 #include "core/control/scene/scene.h"
 #include "core/control/scene/steadiness.h"
 #include "models/setup/scene_file.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/certificates.h"
 
 namespace enc::bench::stability {

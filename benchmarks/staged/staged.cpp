@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 #include "sim/picture/picture.h"
 
 namespace enc::bench::staged {

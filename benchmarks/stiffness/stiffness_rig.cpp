@@ -17,7 +17,7 @@
 #include "benchmarks/stiffness/stiffness.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/certificates.h"
 
 namespace enc::bench::stiffness {

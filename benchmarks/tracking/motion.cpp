@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/control/stages/walk.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/truth/random.h"
 

@@ -11,7 +11,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/verdict/reference.h"
 #include "models/setup/scene_file.h"
-#include "trial/travel/travel_measure.h"
+#include "trial/measure/test_measures.h"
 #include "trial/trial.h"
 
 namespace enc::bench::tracking {

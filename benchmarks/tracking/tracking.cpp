@@ -18,7 +18,7 @@
 #include "core/base/frames.h"
 #include "core/base/units.h"
 #include "sim/plants/tracker_plant.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::bench::tracking {
 namespace {

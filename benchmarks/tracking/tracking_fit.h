@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/table1.h"
-#include "trial/travel/travel_measure.h"
+#include "trial/measure/test_measures.h"
 
 namespace enc::bench::tracking {
 

@@ -8,10 +8,10 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/vishap/vishap.h"
 #include "core/base/units.h"
-#include "core/vision/augment/facets.h"
+#include "core/vision/augment/view_parts.h"
 #include "core/vision/finger_tracker.h"
-#include "core/vision/stereo/triangulate.h"
-#include "trial/assemble/prepare.h"
+#include "core/vision/stereo/rectify.h"
+#include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"
 
 namespace enc::bench::vishap {

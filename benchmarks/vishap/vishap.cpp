@@ -15,11 +15,10 @@
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "core/machine/arm_shape.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 #include "sim/world.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"
-#include "trial/camera/arm_things.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/frame_force.h"
 

@@ -1,7 +1,6 @@
 // A stereo camera out of files: a folder of PNG or JPEG images, or a video through ffmpeg. What was recorded
 // comes back frame by frame at a rate, the same in every run.
 #include "core/devices/module.h"
-#include "core/vision/frame_files.h"
 #include "hw_drivers/images/play/image_camera.h"
 
 namespace enc::images {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/frames.h"
+#include "core/base/words.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_edges.h"
 #include "models/mesh_files/mesh_file.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/shape/surface/mesh.h"
-#include "core/spec/surface_material.h"
+#include "core/spec/object_spec.h"
 
 namespace enc::models {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 

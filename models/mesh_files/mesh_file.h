@@ -11,7 +11,7 @@
 
 #include "core/base/frames.h"
 #include "core/shape/surface/mesh.h"
-#include "core/spec/surface_material.h"
+#include "core/spec/object_spec.h"
 #include "models/files.h"
 
 namespace enc::models {

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
+#include "core/base/words.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/toml_reader.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/spec/optics_rig.h"
 #include "core/spec/rig_spec.h"
-#include "core/spec/vision/stereo_rig.h"
 
 namespace enc::models {
 

@@ -10,14 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
+#include "core/base/words.h"
 #include "core/control/task/measure/probe.h"
-#include "core/control/world/contact_limits.h"
 #include "core/control/world/object.h"
 #include "core/devices/roles.h"
-#include "core/spec/vision/vision_check.h"
+#include "core/spec/vision_check.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/calibration_files.h"

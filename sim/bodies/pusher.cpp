@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 
 namespace enc::sim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/frames.h"
 #include "core/base/image.h"
-#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/optics_rig.h"
 
 namespace enc::sim {
 

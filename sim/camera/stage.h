@@ -12,8 +12,8 @@
 #include "core/base/frames.h"
 #include "core/base/image.h"
 #include "core/base/time.h"
-#include "core/devices/stereo_camera.h"
-#include "core/spec/vision/stereo_rig.h"
+#include "core/devices/device.h"
+#include "core/spec/optics_rig.h"
 #include "sim/camera/shown.h"
 #include "sim/spec/sensor_spec.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "core/devices/stereo_camera.h"
+#include "core/devices/device.h"
 #include "sim/camera/stage.h"
 
 namespace enc::sim {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/base/frames.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 
 namespace enc::sim {
 

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/track/reach.h"
 
 namespace enc::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/base/sample.h"
-#include "core/devices/haptic_arm.h"
+#include "core/devices/device.h"
 #include "core/machine/motors.h"
 #include "sim/spec/arm_spec.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/base/sample.h"
 #include "core/control/scene/scene.h"
-#include "core/devices/view.h"
+#include "core/devices/signals.h"
 #include "sim/spec/twin_spec.h"
 #include "sim/truth/random.h"
 

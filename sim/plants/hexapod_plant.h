@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/base/sample.h"
-#include "core/machine/reach.h"
+#include "core/machine/hexapod.h"
 #include "core/machine/servo.h"
 #include "sim/spec/twin_spec.h"
 #include "sim/truth/random.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/words.h"
-#include "core/spec/arm_rig.h"
+#include "core/spec/rendering_rig.h"
 
 namespace enc::sim {
 

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "core/devices/mode.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"

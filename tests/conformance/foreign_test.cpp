@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "core/record/record.h"
-#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/netft/fake/server.h"
-#include "hw_drivers/netft/wire/record.h"
+#include "hw_drivers/netft/wire/messages.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"

@@ -12,7 +12,7 @@
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/gcs/fake/server.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 #include "hw_drivers/wires/string_link.h"
 #include "tests/support/devices.h"
 #include "trial/devices/device_log.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "sim/plants/hexapod_plant.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/support/built.h"

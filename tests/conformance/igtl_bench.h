@@ -12,7 +12,7 @@
 
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 #include "tests/support/devices.h"
 
 namespace enc::test {

@@ -17,8 +17,7 @@
 #include "app/laboratory/fakes.h"
 #include "app/modules/modules.h"
 #include "core/record/record.h"
-#include "hw_drivers/wires/free_ports.h"
-#include "hw_drivers/wires/tight_times.h"
+#include "hw_drivers/wires/fake_settings.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 

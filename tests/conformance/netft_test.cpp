@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "hw_drivers/netft/drive/inspect.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
-#include "hw_drivers/netft/wire/command.h"
+#include "hw_drivers/netft/wire/messages.h"
 #include "tests/support/devices.h"
 #include "tests/support/error_of.h"
 

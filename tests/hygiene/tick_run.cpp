@@ -19,7 +19,7 @@
 #include "core/record/record.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
-#include "trial/run/run_measures.h"
+#include "trial/measure/run_measures.h"
 
 namespace enc::test {
 namespace {

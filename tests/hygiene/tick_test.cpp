@@ -26,8 +26,8 @@
 #include "tests/hygiene/tick_run.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"
-#include "trial/assemble/prepare.h"
-#include "trial/time/record_thread.h"
+#include "trial/assemble/assemble.h"
+#include "trial/time/real_time.h"
 
 namespace enc::test {
 namespace {

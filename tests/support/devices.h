@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "core/control/scene/scene.h"
+#include "core/devices/device.h"
 #include "core/devices/driver.h"
 #include "core/devices/fake.h"
-#include "core/devices/manipulator.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 
 namespace enc::test {
 

@@ -8,7 +8,7 @@
 
 #include "models/identify/response/response_fit.h"
 #include "sim/bodies/ball_plant.h"
-#include "trial/identify/ball/ball_loops.h"
+#include "trial/identify/ball/ball_fit.h"
 
 namespace enc::test {
 

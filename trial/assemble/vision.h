@@ -6,8 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/devices/pose_tracker.h"
-#include "core/devices/stereo_camera.h"
+#include "core/devices/device.h"
 #include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
 #include "sim/camera/shown.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/devices/stereo_camera.h"
-#include "core/vision/frame_files.h"
+#include "core/devices/device.h"
+#include "core/devices/module.h"
 #include "models/files.h"
 
 namespace enc::trial {

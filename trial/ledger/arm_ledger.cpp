@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/task/meet/arm_loop.h"
+#include "core/control/task/meet/impedance.h"
 #include "sim/spec/arm_spec.h"
 
 namespace enc::trial {

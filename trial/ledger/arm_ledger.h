@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/control/task/state.h"
+#include "core/control/task/tasks.h"
 #include "trial/ledger/ledger.h"
 
 namespace enc::trial {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/frames.h"
-#include "core/control/safety/braking.h"
+#include "core/control/safety/inside.h"
 
 namespace enc::trial {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/control/scene/scene.h"
-#include "core/control/task/state.h"
+#include "core/control/task/tasks.h"
 
 namespace enc::trial {
 

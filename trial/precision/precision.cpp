@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "models/order_statistics.h"
 
 namespace enc::trial {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/base/latest.h"
-#include "core/devices/pose_tracker.h"
+#include "core/devices/device.h"
 #include "sim/truth/random.h"
 
 namespace enc::trial {

@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/common/axes.h"
-#include "app/common/shell_word.h"
+#include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
@@ -17,11 +16,9 @@
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
-#include "trial/identify/camera/driven_arm.h"
 #include "trial/identify/camera/point_study.h"
 #include "trial/identify/camera/registration_rig.h"
-#include "trial/identify/camera/tip_eyes.h"
-#include "trial/identify/read_table.h"
+#include "trial/measure/record_table.h"
 
 namespace enc::app {
 namespace {

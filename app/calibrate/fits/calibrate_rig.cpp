@@ -13,8 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "app/common/axes.h"
-#include "app/common/shell_word.h"
+#include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
@@ -23,11 +22,11 @@
 #include "models/files.h"
 #include "models/identify/rig/turn.h"
 #include "models/schema/wording.h"
-#include "models/setup/rig_calibration.h"
+#include "models/setup/calibration_files.h"
 #include "models/setup/scene_file.h"
 #include "trial/identify/rig/machine_calibration.h"
-#include "trial/operator/consent.h"
-#include "trial/operator/standard_error.h"
+#include "trial/operator/operator.h"
+#include "trial/operator/terminal.h"
 
 namespace enc::app {
 namespace {

@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/common/axes.h"
+#include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "models/identify/tip/pivot_doubts.h"
+#include "models/identify/tip/pivot_fit.h"
 #include "models/identify/tip/pivot_log.h"
 #include "models/schema/wording.h"
-#include "trial/identify/read_table.h"
+#include "trial/measure/record_table.h"
 
 namespace enc::app {
 namespace {

@@ -16,12 +16,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibrate/images/commands.h"
-#include "app/common/axes.h"
-#include "app/common/shell_word.h"
-#include "core/base/counted.h"
+#include "app/common/words.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/vision/segmentation/kernels/arc.h"
+#include "core/base/words.h"
+#include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/skin.h"
 #include "hw_drivers/images/files/pair_list.h"
 #include "models/files.h"

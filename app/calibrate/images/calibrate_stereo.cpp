@@ -15,18 +15,16 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibrate/images/commands.h"
-#include "app/common/axes.h"
-#include "app/common/shell_word.h"
-#include "core/base/counted.h"
+#include "app/common/words.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
+#include "core/base/words.h"
 #include "hw_drivers/images/files/pair_list.h"
 #include "models/files.h"
-#include "models/identify/stereo/rectify.h"
 #include "models/identify/stereo/stereo_calibration.h"
 #include "models/schema/wording.h"
-#include "models/setup/stereo_file.h"
+#include "models/setup/calibration_files.h"
 #include "sim/picture/picture.h"
 
 namespace enc::app {

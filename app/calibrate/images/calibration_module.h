@@ -2,7 +2,7 @@
 // loaded only for `calibrate stereo` or `calibrate skin`.
 #pragma once
 
-#include "app/common/calibrate_options.h"
+#include "app/common/module_options.h"
 
 namespace enc::app {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/common/calibrate_options.h"
+#include "app/common/module_options.h"
 
 namespace enc::app {
 

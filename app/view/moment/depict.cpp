@@ -9,7 +9,7 @@
 #include "core/control/world/moving.h"
 #include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
-#include "sim/bodies/seen_surface.h"
+#include "sim/bodies/model.h"
 
 namespace enc::app {
 namespace {

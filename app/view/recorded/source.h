@@ -10,7 +10,7 @@
 #include "app/common/options.h"
 #include "app/view/moment/moment.h"
 #include "core/record/record.h"
-#include "trial/steered/steering_log.h"
+#include "trial/steered/steering.h"
 
 namespace enc::app {
 

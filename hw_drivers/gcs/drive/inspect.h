@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/machine/reach.h"
+#include "core/machine/hexapod.h"
 #include "hw_drivers/gcs/drive/settings.h"
 #include "hw_drivers/gcs/wire/coordinates.h"
 

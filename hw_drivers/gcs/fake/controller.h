@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/devices/manipulator.h"
+#include "core/devices/device.h"
 #include "hw_drivers/gcs/fake/path.h"
 #include "hw_drivers/gcs/wire/coordinates.h"
 #include "hw_drivers/gcs/wire/error_text.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/base/frames.h"
-#include "core/machine/reach.h"
+#include "core/machine/hexapod.h"
 
 namespace enc::gcs {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/device.h"
 #include "core/devices/fake.h"
-#include "core/devices/force_sensor.h"
 #include "hw_drivers/net/bad_line.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/netft/drive/session.h"

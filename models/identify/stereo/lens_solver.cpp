@@ -6,7 +6,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "core/vision/stereo/lens.h"
+#include "core/vision/stereo/rectify.h"
 
 namespace enc::calibration {
 

@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/optics_rig.h"
 #include "models/identify/stereo/corners.h"
 #include "models/identify/stereo/stereo_calibration.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/vision/stereo/lens.h"
+#include "core/vision/stereo/rectify.h"
 #include "models/identify/stereo/lens_solver.h"
 
 namespace enc {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/optics_rig.h"
 #include "models/identify/stereo/corners.h"
 
 namespace enc {

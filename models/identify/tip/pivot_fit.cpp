@@ -14,9 +14,9 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/base/words.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {

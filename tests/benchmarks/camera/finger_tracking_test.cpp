@@ -11,7 +11,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
 #include "core/vision/finger_tracker.h"
-#include "sim/camera/skin_tones.h"
+#include "sim/camera/shown.h"
 
 namespace enc::bench::staged {
 namespace {

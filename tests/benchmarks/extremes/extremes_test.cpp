@@ -9,8 +9,8 @@
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
 #include "benchmarks/kit/bench.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/twin.h"
 
 namespace enc::bench::extremes {
 namespace {

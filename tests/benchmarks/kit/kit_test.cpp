@@ -29,12 +29,10 @@
 #include "benchmarks/stiffness/push_study.h"
 #include "core/base/error.h"
 #include "hw_drivers/net/socket.h"
-#include "hw_drivers/wires/free_ports.h"
-#include "hw_drivers/wires/tight_times.h"
+#include "hw_drivers/wires/fake_settings.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::bench {
 namespace {

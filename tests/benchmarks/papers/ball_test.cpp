@@ -12,7 +12,7 @@
 #include "benchmarks/indentation/indentation.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 
 namespace enc::bench::deformation {
 namespace {

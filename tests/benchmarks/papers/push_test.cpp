@@ -9,8 +9,8 @@
 #include "benchmarks/stiffness/push_study.h"
 #include "benchmarks/stiffness/stiffness.h"
 #include "sim/bodies/pusher.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/twin.h"
 
 namespace enc::bench::stiffness {
 namespace {

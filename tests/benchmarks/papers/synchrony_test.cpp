@@ -7,13 +7,13 @@
 
 #include "benchmarks/synchrony/sync_trial.h"
 #include "core/base/units.h"
-#include "core/control/stages/fuse.h"
-#include "core/control/track/minimum_jerk.h"
-#include "core/control/world/contact_limits.h"
-#include "sim/plants/display_plant.h"
+#include "core/control/stages/report.h"
+#include "core/control/track/reach.h"
+#include "core/control/world/object.h"
+#include "sim/plants/device_plants.h"
 #include "sim/truth/random.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/scenes.h"
+#include "tests/support/twin.h"
 #include "trial/trial.h"
 
 namespace enc::bench::synchrony {

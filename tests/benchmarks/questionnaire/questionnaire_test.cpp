@@ -14,9 +14,8 @@
 #include "benchmarks/questionnaire/opinion.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::bench::questionnaire {
 namespace {

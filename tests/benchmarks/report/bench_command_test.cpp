@@ -16,9 +16,8 @@
 #include "benchmarks/report/choice.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::bench {
 namespace {

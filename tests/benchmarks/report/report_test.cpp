@@ -18,8 +18,7 @@
 #include "benchmarks/verdict/verdict.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace enc::bench {
 namespace {

@@ -18,7 +18,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "core/devices/mode.h"
 #include "hw_drivers/gcs/drive/settings.h"
-#include "hw_drivers/wires/tight_times.h"
+#include "hw_drivers/wires/fake_settings.h"
 #include "models/setup/driver_table.h"
 #include "sim/plants/hexapod_plant.h"
 #include "tests/benchmarks/wires/wired_trial.h"

@@ -18,7 +18,7 @@
 #include "benchmarks/stiffness/push_study.h"
 #include "benchmarks/tracking/table1.h"
 #include "core/base/units.h"
-#include "hw_drivers/wires/tight_times.h"
+#include "hw_drivers/wires/fake_settings.h"
 #include "tests/support/built.h"
 
 namespace enc::bench::wires {

@@ -8,19 +8,18 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/devices/force_sensor.h"
-#include "core/devices/manipulator.h"
+#include "core/devices/device.h"
 #include "hw_drivers/gcs/drive/conversation.h"
 #include "hw_drivers/gcs/fake/commands.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/igtl/drive/reception.h"
-#include "hw_drivers/igtl/wire/stream.h"
+#include "hw_drivers/igtl/wire/message.h"
 #include "hw_drivers/net/big_endian.h"
-#include "hw_drivers/netft/drive/inspect.h"
+#include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/drive/session.h"
-#include "hw_drivers/netft/fake/box.h"
-#include "hw_drivers/netft/wire/command.h"
-#include "hw_drivers/netft/wire/http.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "hw_drivers/netft/wire/messages.h"
+#include "hw_drivers/netft/wire/page.h"
 #include "tests/fuzz/machine/fuzzing.h"
 
 namespace enc::fuzz {

@@ -11,13 +11,12 @@
 #include "core/shape/surface/triangle.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
-#include "models/mesh_files/mesh_write.h"
 #include "models/schema/wording.h"
 #include "models/shapes/shapes.h"
 #include "tests/fuzz/machine/fuzzing.h"
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/scenes.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::fuzz {
 namespace {

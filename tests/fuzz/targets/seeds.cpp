@@ -6,12 +6,12 @@
 #include <fstream>
 
 #include "core/record/replay.h"
-#include "models/mesh_files/mesh_write.h"
+#include "models/mesh_files/mesh_file.h"
 #include "models/shapes/shapes.h"
 #include "tests/fuzz/machine/fuzzing.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
 

@@ -15,7 +15,7 @@
 #include "tests/support/files.h"
 #include "tests/support/plant_loop.h"
 #include "tests/support/run_program.h"
-#include "trial/identify/ball/ball_loops.h"
+#include "trial/identify/ball/ball_fit.h"
 
 namespace enc::tests {
 namespace {

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "models/mesh_files/mesh_write.h"
+#include "models/mesh_files/mesh_file.h"
 #include "models/setup/scene_file.h"
 #include "models/setup/scene_sizes.h"
 #include "models/shapes/shapes.h"
@@ -21,7 +21,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/trial.h"
 
 namespace enc::tests {

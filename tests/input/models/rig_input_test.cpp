@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "models/setup/rig_calibration.h"
+#include "models/setup/calibration_files.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "tests/support/error_of.h"

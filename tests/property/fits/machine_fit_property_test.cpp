@@ -11,9 +11,8 @@
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "core/machine/arm.h"
-#include "models/identify/rig/hand_eye.h"
+#include "models/identify/rig/machine_fit.h"
 #include "models/identify/rig/turn.h"
-#include "models/identify/rig/weight_fit.h"
 #include "sim/truth/random.h"
 #include "tests/support/error_of.h"
 

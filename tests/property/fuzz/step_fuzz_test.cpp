@@ -15,11 +15,11 @@
 #include "core/control/scene/scene.h"
 #include "core/control/step.h"
 #include "core/record/state_hash.h"
-#include "models/shapes/hare.h"
+#include "models/shapes/shapes.h"
 #include "tests/support/built.h"
 #include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::test {
 namespace {

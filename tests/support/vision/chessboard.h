@@ -2,7 +2,7 @@
 // looks.
 #pragma once
 
-#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/optics_rig.h"
 #include "models/identify/stereo/corners.h"
 
 namespace enc::test {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/devices/stereo_camera.h"
-#include "core/spec/vision/stereo_rig.h"
+#include "core/devices/device.h"
+#include "core/spec/optics_rig.h"
 #include "tests/support/vision/painted_hand.h"
 
 namespace enc::painted {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/server.h"
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"

@@ -18,11 +18,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/devices/device.h"
 #include "core/devices/fake.h"
-#include "core/devices/force_sensor.h"
-#include "core/devices/manipulator.h"
-#include "core/devices/pose_tracker.h"
-#include "hw_drivers/net/steady.h"
+#include "hw_drivers/net/clocks.h"
 #include "tests/threads/laboratory/faulty_places.h"
 
 namespace enc::test {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

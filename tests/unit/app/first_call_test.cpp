@@ -6,9 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {

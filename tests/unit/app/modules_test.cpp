@@ -8,11 +8,10 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "app/modules/module_file.h"
 #include "core/base/error.h"
 #include "encounter_version.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {

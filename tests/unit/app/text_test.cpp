@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "app/laboratory/fault_text.h"
+#include "app/laboratory/fakes.h"
 #include "app/run/percentiles.h"
 #include "app/run/run_report.h"
 #include "app/stability_text.h"

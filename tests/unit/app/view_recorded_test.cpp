@@ -6,8 +6,8 @@
 
 #include "app/view/recorded/source.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::app {
 namespace {

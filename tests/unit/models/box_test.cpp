@@ -11,8 +11,8 @@
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
 namespace enc::test {

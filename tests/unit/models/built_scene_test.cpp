@@ -11,9 +11,9 @@
 #include "models/schema/schema.h"
 #include "models/schema/toml_writer.h"
 #include "models/setup/scene_file.h"
-#include "sim/truth/truth_fields.h"
+#include "sim/truth/truth.h"
 #include "tests/support/built.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "trial/trial.h"
 
 namespace enc::models {

@@ -17,9 +17,8 @@
 #include "models/schema/schema.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {

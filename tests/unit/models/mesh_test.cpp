@@ -14,11 +14,10 @@
 #include "core/base/frames.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
-#include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"
 #include "models/sizes/mesh_size.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {

@@ -13,12 +13,11 @@
 #include "core/base/rotation.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
+#include "models/setup/calibration_files.h"
 #include "models/setup/scene_file.h"
-#include "models/setup/stereo_file.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/replaced.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {

@@ -12,10 +12,9 @@
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/world.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/twin.h"
 #include "trial/assemble/assemble.h"
-#include "trial/assemble/prepare.h"
 
 namespace enc::sim {
 namespace {

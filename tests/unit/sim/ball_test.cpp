@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "sim/bodies/ball_contact.h"
 #include "sim/bodies/ball_plant.h"
 
 namespace enc::sim {

@@ -8,9 +8,9 @@
 
 #include "core/base/error.h"
 #include "core/record/replay.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/refusal.h"
-#include "trial/measure/probe_measure.h"
+#include "tests/support/twin.h"
+#include "trial/measure/test_measures.h"
 
 namespace enc::test {
 namespace {

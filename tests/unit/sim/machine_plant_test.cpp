@@ -6,11 +6,11 @@
 
 #include "core/base/error.h"
 #include "sim/plants/arm_plant.h"
-#include "sim/plants/gripper_plant.h"
+#include "sim/plants/device_plants.h"
 #include "sim/plants/hexapod_plant.h"
-#include "tests/conformance/bench_world.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
+#include "tests/support/twin.h"
 #include "tests/unit/trial/runs.h"
 #include "trial/trial.h"
 

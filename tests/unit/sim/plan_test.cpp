@@ -8,10 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/control/scene/press_check.h"
+#include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
-#include "sim/hand/steered_plan.h"
 #include "sim/hand/user.h"
-#include "tests/conformance/bench_world.h"
+#include "tests/support/twin.h"
 #include "trial/trial.h"
 
 namespace enc::sim {

@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/bodies/pusher.h"
-#include "sim/plants/force_plant.h"
-#include "sim/plants/stereo_noise.h"
+#include "sim/plants/device_plants.h"
 #include "sim/plants/tracker_plant.h"
 
 namespace enc::sim {

@@ -12,7 +12,7 @@
 #include "core/record/state_hash.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/truth/random.h"
-#include "tests/conformance/bench_world.h"
+#include "tests/support/twin.h"
 
 namespace enc::test {
 namespace {

@@ -10,14 +10,12 @@
 #include "core/devices/roles.h"
 #include "models/setup/driver_table.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/replaced.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/unit/trial/runs.h"
 #include "trial/devices/device_log.h"
 #include "trial/trackers/frame_times.h"
-#include "trial/trackers/jittered_tracker.h"
+#include "trial/trackers/threaded_tracker.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

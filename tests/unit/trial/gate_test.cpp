@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/lists/way.h"
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

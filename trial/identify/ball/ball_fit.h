@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 
 #include "models/identify/ball/drifting_noise.h"
-#include "models/identify/block_error.h"
+#include "models/identify/block_fit.h"
 #include "models/identify/response/response_fit.h"
 #include "sim/bodies/ball_plant.h"
 

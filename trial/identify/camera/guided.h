@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/machine/arm.h"
-#include "models/identify/camera/point_set.h"
-#include "sim/plants/stereo_noise.h"
+#include "models/identify/camera/register.h"
+#include "sim/plants/tracker_plant.h"
 #include "sim/spec/arm_spec.h"
 
 namespace enc::trial {

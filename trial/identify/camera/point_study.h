@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "models/identify/block_error.h"
-#include "models/identify/camera/point_set.h"
+#include "models/identify/block_fit.h"
+#include "models/identify/camera/register.h"
 
 namespace enc::trial {
 

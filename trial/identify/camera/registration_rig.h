@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/devices/stereo_camera.h"
+#include "core/devices/device.h"
 #include "core/vision/ball/ball_finder.h"
 #include "models/setup/scene_file.h"
 #include "sim/camera/shown.h"

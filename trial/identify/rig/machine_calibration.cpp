@@ -10,8 +10,8 @@
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
-#include "core/control/carry.h"
-#include "core/control/track/minimum_jerk.h"
+#include "core/control/step.h"
+#include "core/control/track/reach.h"
 #include "core/devices/mode.h"
 #include "core/machine/arm.h"
 

@@ -9,9 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/machine/reach.h"
-#include "models/identify/rig/hand_eye.h"
-#include "models/identify/rig/weight_fit.h"
+#include "core/machine/hexapod.h"
+#include "models/identify/rig/machine_fit.h"
 #include "models/setup/scene_file.h"
 #include "trial/trial.h"
 

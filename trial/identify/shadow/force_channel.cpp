@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
+#include "core/base/words.h"
 #include "core/control/step.h"
 #include "models/identify/block_fit.h"
 #include "trial/identify/shadow/channels.h"

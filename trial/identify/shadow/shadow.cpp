@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "trial/assemble/assemble.h"
 #include "trial/identify/shadow/channels.h"
 

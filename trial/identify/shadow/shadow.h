@@ -10,7 +10,7 @@
 
 #include "core/base/words.h"
 #include "core/record/record.h"
-#include "models/identify/block_error.h"
+#include "models/identify/block_fit.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::trial {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/counted.h"
+#include "core/base/words.h"
 #include "models/identify/block_fit.h"
 #include "models/identify/tracker/latency_fit.h"
 #include "models/order_statistics.h"

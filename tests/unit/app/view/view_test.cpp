@@ -9,10 +9,8 @@
 #include <unistd.h>
 
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
-#include "tests/support/one_line.h"
+#include "tests/support/files.h"
 #include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/window/controls.h"
-#include "app/window/history/timeline.h"
+#include "app/window/history/history.h"
 #include "app/window/link.h"
 
 namespace enc::app {

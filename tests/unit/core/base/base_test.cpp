@@ -11,7 +11,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/base/counted.h"
 #include "core/base/frames.h"
 #include "core/base/latest.h"
 #include "core/base/rotation.h"

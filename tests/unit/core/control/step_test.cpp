@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/control/stages/walk.h"
-#include "core/control/task/state.h"
+#include "core/control/task/tasks.h"
 #include "core/record/state_hash.h"
 #include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/control/task/meet/impedance.h"
-#include "core/spec/arm_rig.h"
+#include "core/spec/rendering_rig.h"
 #include "sim/plants/arm_plant.h"
 
 namespace enc {

@@ -16,10 +16,9 @@
 #include "core/base/error.h"
 #include "core/record/ranges.h"
 #include "core/record/replay.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc {
 namespace {

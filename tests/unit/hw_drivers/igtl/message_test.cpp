@@ -12,7 +12,6 @@
 
 #include "hw_drivers/igtl/drive/in_hand.h"
 #include "hw_drivers/igtl/wire/content.h"
-#include "hw_drivers/igtl/wire/stream.h"
 #include "hw_drivers/net/big_endian.h"
 #include "tests/unit/hw_drivers/hex.h"
 

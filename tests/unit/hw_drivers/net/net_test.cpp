@@ -14,9 +14,8 @@
 
 #include "core/base/error.h"
 #include "hw_drivers/net/bad_line.h"
-#include "hw_drivers/net/clock_tie.h"
+#include "hw_drivers/net/clocks.h"
 #include "hw_drivers/net/socket.h"
-#include "hw_drivers/net/steady.h"
 #include "tests/support/refusal.h"
 
 namespace enc::net {

@@ -8,14 +8,11 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "hw_drivers/netft/drive/counter_rate.h"
-#include "hw_drivers/netft/drive/inspect.h"
+#include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/drive/session.h"
-#include "hw_drivers/netft/fake/box.h"
-#include "hw_drivers/netft/wire/command.h"
-#include "hw_drivers/netft/wire/configuration.h"
-#include "hw_drivers/netft/wire/http.h"
-#include "hw_drivers/netft/wire/record.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "hw_drivers/netft/wire/messages.h"
+#include "hw_drivers/netft/wire/page.h"
 #include "tests/support/refusal.h"
 #include "tests/unit/hw_drivers/hex.h"
 

@@ -23,8 +23,8 @@
 #include "core/vision/finger_tracker.h"
 #include "core/vision/segmentation/skin.h"
 #include "sim/camera/context.h"
-#include "sim/camera/skin_tones.h"
-#include "sim/camera/warp.h"
+#include "sim/camera/sensor.h"
+#include "sim/camera/shown.h"
 #include "tests/support/built.h"
 
 namespace enc::sim {

@@ -11,11 +11,10 @@
 #include "core/base/error.h"
 #include "core/base/frames.h"
 #include "core/base/rotation.h"
-#include "core/vision/augment/part_mask.h"
+#include "core/vision/augment/view_parts.h"
 #include "sim/camera/sensor.h"
 #include "sim/camera/stage.h"
-#include "sim/camera/warp.h"
-#include "trial/camera/arm_things.h"
+#include "trial/assemble/vision.h"
 
 namespace enc::sim {
 namespace {

@@ -1,7 +1,7 @@
 // Labels of a picture keep out of its title.
-#include "sim/picture/label_rows.h"
-
 #include <gtest/gtest.h>
+
+#include "sim/picture/picture.h"
 
 namespace enc::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 #include "sim/camera/twin_camera.h"
-#include "tests/support/vision/quarter_size.h"
+#include "tests/support/twin.h"
 #include "tests/unit/trial/runs.h"
 #include "trial/trial.h"
 

@@ -14,7 +14,7 @@
 
 #include "tests/support/scenes.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/mcap/json_schema.h"
+#include "trial/mcap/json.h"
 #include "trial/mcap/mcap_writer.h"
 #include "trial/mcap/record_mcap.h"
 

@@ -9,14 +9,14 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "core/control/scene/arm_scene.h"
+#include "core/control/scene/scene.h"
 #include "core/record/replay.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/ledger/ledger_measure.h"
+#include "trial/ledger/ledger.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"

@@ -7,20 +7,19 @@
 
 #include <gmock/gmock.h>
 
-#include "app/check/advise.h"
+#include "app/check/check.h"
 #include "core/base/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/measure/felt_apart.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/frame_force.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/seen_measure.h"
 #include "trial/measure/touch_measure.h"
 #include "trial/precision/precision.h"
-#include "trial/trackers/jittered_tracker.h"
+#include "trial/trackers/threaded_tracker.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

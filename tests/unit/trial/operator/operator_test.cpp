@@ -26,9 +26,8 @@
 #include "models/setup/scene_file.h"
 #include "tests/support/refusal.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/operator/standard_error.h"
-#include "trial/steered/faults.h"
-#include "trial/steered/steering_log.h"
+#include "trial/operator/terminal.h"
+#include "trial/steered/steering.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

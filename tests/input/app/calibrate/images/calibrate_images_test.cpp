@@ -12,7 +12,7 @@
 
 #include "core/base/image.h"
 #include "hw_drivers/images/files/image_file.h"
-#include "models/setup/stereo_file.h"
+#include "models/setup/calibration_files.h"
 #include "sim/picture/picture.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"

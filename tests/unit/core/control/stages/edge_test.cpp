@@ -7,10 +7,10 @@
 
 #include "core/base/error.h"
 #include "core/control/safety/inside.h"
-#include "core/control/scene/room.h"
+#include "core/control/scene/press_check.h"
 #include "core/control/stages/guard.h"
 #include "models/setup/scene_file.h"
-#include "models/shapes/hare.h"
+#include "models/shapes/shapes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
 #include "tests/unit/trial/runs.h"

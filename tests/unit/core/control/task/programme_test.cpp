@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/control/carry.h"
+#include "core/control/step.h"
 #include "core/control/task/carry/travel.h"
 #include "core/control/task/measure/probe.h"
 #include "tests/support/scenes.h"

@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/control/track/minimum_jerk.h"
 #include "sim/truth/random.h"
 
 namespace enc {

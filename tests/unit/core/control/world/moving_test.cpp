@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/control/step.h"
-#include "tests/support/finger_bench.h"
+#include "tests/support/by_hand.h"
 
 namespace enc {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/shape/surface/mesh_normals.h"
+#include "core/shape/surface/mesh.h"
 #include "core/shape/surface/mesh_tree.h"
 #include "core/shape/surface/triangle.h"
 #include "models/shapes/shapes.h"

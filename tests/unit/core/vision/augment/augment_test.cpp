@@ -7,10 +7,8 @@
 #include "core/base/error.h"
 #include "core/machine/arm_shape.h"
 #include "core/vision/augment/augmented_view.h"
-#include "core/vision/augment/clean_background.h"
-#include "core/vision/augment/facets.h"
-#include "core/vision/augment/part_mask.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/augment/view_parts.h"
+#include "core/vision/stereo/rectify.h"
 
 namespace enc::augment {
 namespace {

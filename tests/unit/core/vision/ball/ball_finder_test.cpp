@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/spec/vision/vision_check.h"
+#include "core/spec/vision_check.h"
 #include "sim/camera/sensor.h"
 #include "sim/truth/random.h"
 

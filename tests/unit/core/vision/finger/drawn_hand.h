@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/devices/stereo_camera.h"
-#include "core/spec/vision/stereo_rig.h"
+#include "core/devices/device.h"
+#include "core/spec/optics_rig.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/vision/finger/cap_fit.h"
+#include "core/vision/finger/cap.h"
 #include "core/vision/finger/triplet_filter.h"
 #include "sim/truth/random.h"
 

@@ -7,12 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/vision/finger/cap_fit.h"
-#include "core/vision/finger/cap_match.h"
-#include "core/vision/finger/exchanged.h"
-#include "core/vision/finger/silhouette.h"
-#include "core/vision/finger/tangent.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/finger/cap.h"
+#include "core/vision/finger/fingertip.h"
+#include "core/vision/stereo/match.h"
+#include "core/vision/stereo/rectify.h"
 #include "tests/unit/core/vision/finger/drawn_hand.h"
 
 namespace enc {

@@ -7,11 +7,11 @@
 
 #include "core/vision/finger_tracker.h"
 #include "core/vision/hand/certainty.h"
+#include "core/vision/hand/hand_form.h"
 #include "core/vision/hand/hand_scene.h"
-#include "core/vision/hand/palm.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/stereo/rectify.h"
 #include "tests/support/built.h"
-#include "tests/support/vision/hand_sequences.h"
+#include "tests/support/vision/painter.h"
 #include "tests/unit/core/vision/finger/drawn_hand.h"
 
 namespace enc {

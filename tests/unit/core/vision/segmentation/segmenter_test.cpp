@@ -16,9 +16,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/vision/segmentation/background.h"
 #include "core/vision/segmentation/light.h"
-#include "core/vision/segmentation/roc.h"
+#include "core/vision/segmentation/skin.h"
+#include "core/vision/segmentation/tiles.h"
 
 namespace enc::segmentation {
 namespace {

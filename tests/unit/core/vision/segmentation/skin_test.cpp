@@ -12,9 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/vision/segmentation/hueless.h"
-#include "core/vision/segmentation/kernels/arc.h"
-#include "core/vision/segmentation/roc.h"
+#include "core/vision/segmentation/change.h"
+#include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/tiles.h"
 
 namespace enc::segmentation {

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/vision/stereo/disparity_map.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/stereo/rectify.h"
 #include "tests/unit/core/vision/finger/drawn_hand.h"
 
 namespace enc {

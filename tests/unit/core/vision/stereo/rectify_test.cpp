@@ -8,9 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/vision/stereo/lens.h"
-#include "core/vision/stereo/smoothed.h"
-#include "core/vision/stereo/triangulate.h"
+#include "core/vision/stereo/grey.h"
 #include "sim/truth/random.h"
 
 namespace enc {

@@ -9,7 +9,7 @@
 #include "hw_drivers/gcs/drive/conversation.h"
 #include "hw_drivers/gcs/drive/inspect.h"
 #include "hw_drivers/gcs/fake/controller.h"
-#include "tests/support/devices/following_machine.h"
+#include "tests/support/devices.h"
 #include "tests/support/refusal.h"
 
 namespace enc::gcs {

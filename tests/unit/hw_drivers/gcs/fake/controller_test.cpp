@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hw_drivers/gcs/fake/commands.h"
-#include "tests/support/devices/following_machine.h"
+#include "tests/support/devices.h"
 
 namespace enc::gcs {
 namespace {

@@ -7,12 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "hw_drivers/gcs/wire/answer.h"
-#include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/coordinates.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 #include "hw_drivers/gcs/wire/text.h"
-#include "hw_drivers/gcs/wire/travel.h"
 
 namespace enc::gcs {
 namespace {

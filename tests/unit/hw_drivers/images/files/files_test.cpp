@@ -1,4 +1,6 @@
 // Decoders: what is whole comes out as it was, what is not is one line with the file's name.
+#include "tests/support/files.h"
+
 #include <filesystem>
 #include <fstream>
 
@@ -11,7 +13,6 @@
 #include "hw_drivers/images/files/pair_list.h"
 #include "sim/picture/picture.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::images {
 namespace {

@@ -16,8 +16,8 @@
 #include "hw_drivers/images/play/frame_source.h"
 #include "hw_drivers/images/play/image_camera.h"
 #include "sim/picture/picture.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::images {
 namespace {

@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "hw_drivers/images/files/pair_list.h"
-#include "models/identify/stereo/rectify.h"
 #include "tests/support/built.h"
 #include "tests/support/refusal.h"
 #include "tests/support/vision/chessboard.h"

@@ -11,7 +11,6 @@
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
-#include "models/identify/tip/pivot_doubts.h"
 #include "models/identify/tip/pivot_fit.h"
 #include "models/identify/tip/pivot_log.h"
 #include "models/identify/tracker/tracker_log.h"

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "sim/truth/random.h"
-#include "tests/support/ball_pushes.h"
+#include "tests/support/plant_loop.h"
 
 namespace enc::bench {
 namespace {

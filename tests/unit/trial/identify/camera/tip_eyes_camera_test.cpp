@@ -2,7 +2,7 @@
 // The name ends so because it needs vision.
 #include <gtest/gtest.h>
 
-#include "trial/identify/camera/tip_eyes.h"
+#include "trial/identify/camera/registration_rig.h"
 
 namespace enc::trial {
 namespace {

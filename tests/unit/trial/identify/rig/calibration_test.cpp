@@ -12,14 +12,12 @@
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
-#include "core/control/guide.h"
+#include "core/control/step.h"
 #include "models/identify/rig/turn.h"
 #include "tests/support/built.h"
 #include "tests/support/refusal.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/identify/camera/driven_arm.h"
 #include "trial/identify/camera/registration_rig.h"
-#include "trial/identify/rig/carried_tool.h"
 #include "trial/identify/rig/machine_calibration.h"
 #include "trial/trial.h"
 

@@ -1,8 +1,8 @@
 #include "tests/unit/trial/identify/shadow/shadow_runs.h"
 
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/trial/runs.h"
-#include "trial/assemble/prepare.h"
+#include "trial/assemble/assemble.h"
 #include "trial/trial.h"
 
 namespace enc::test {

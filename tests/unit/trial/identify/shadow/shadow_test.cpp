@@ -10,10 +10,8 @@
 
 #include "core/base/error.h"
 #include "tests/support/built.h"
-#include "tests/support/bytes_of.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
-#include "tests/support/replaced.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/unit/trial/identify/shadow/shadow_runs.h"
 #include "trial/identify/shadow/channels.h"
 

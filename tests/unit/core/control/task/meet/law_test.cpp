@@ -15,9 +15,8 @@
 
 #include "core/base/rotation.h"
 #include "core/control/safety/certificate/certificate.h"
-#include "core/control/task/meet/arm_loop.h"
 #include "core/control/task/meet/impedance.h"
-#include "tests/support/finger_bench.h"
+#include "tests/support/by_hand.h"
 
 namespace enc {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/finger_bench.h"
+#include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"
 #include "tests/unit/trial/runs.h"
 

@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/vision/segmentation/kernels/arc.h"
 #include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/kernels/majority.h"
 
