@@ -139,7 +139,7 @@ TEST_F(AnyTick, SaysWhoAskedForSomething) {
   const std::string said = words(with([] { kept = std::realloc(kept, 24); }).tally);
   EXPECT_NE(said.find("1 heap call in 1000 ticks"), std::string::npos) << said;
   EXPECT_NE(said.find("tick 500: heap call realloc"), std::string::npos) << said;
-  EXPECT_NE(said.find("tally_test.cpp"), std::string::npos) << said;
+  EXPECT_NE(said.find("tick_test.cpp"), std::string::npos) << said;
 }
 
 // Where they are not, ctest lists this test as skipped.
