@@ -16,6 +16,7 @@
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
 #include "tests/unit/trial/runs.h"
+#include "trial/ledger/arm_ledger.h"
 #include "trial/ledger/ledger.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
