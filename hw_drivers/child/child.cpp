@@ -23,7 +23,8 @@ namespace enc {
 
 Child::Child(const std::vector<std::string>& words, Pipe pipe) : writes_(pipe == Pipe::write) {
   std::array<int, 2> ends{-1, -1};
-  errors_ = memfd_create("errors", MFD_CLOEXEC);  // of any length: a full pipe would stop the child
+  // Memory file without a size limit: a full pipe would stop the child.
+  errors_ = memfd_create("errors", MFD_CLOEXEC);
   if (errors_ < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
     throw Error(fmt::format("{} cannot be started: {}",
                             std::filesystem::path(words.front()).filename().string(), std::strerror(errno)));
@@ -33,7 +34,8 @@ Child::Child(const std::vector<std::string>& words, Pipe pipe) : writes_(pipe ==
   posix_spawn_file_actions_adddup2(&actions, childs, writes_ ? 0 : 1);
   posix_spawn_file_actions_addopen(&actions, writes_ ? 1 : 0, "/dev/null", writes_ ? O_WRONLY : O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, errors_, 2);
-  // A group of its own: signals that a terminal sends to all reach this process alone, which ends the child.
+  // The child gets its own process group. A terminal's signals then reach only this process, which ends the
+  // child.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -52,7 +54,8 @@ Child::Child(const std::vector<std::string>& words, Pipe pipe) : writes_(pipe ==
   throw Error(fmt::format("{} cannot be started: {}", words.front(), std::strerror(failed)));
 }
 
-// The child is reaped here alone: until then its number is its own, and kill() hits no other process.
+// Only this destructor reaps the child. Until then its process number stays its own, and kill() hits no other
+// process.
 Child::~Child() {
   kill();
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
@@ -82,7 +85,7 @@ bool Child::write(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// The whole group: what the child has started may hold the pipe, too.
+// Kill the whole group, because processes that the child started may also hold the pipe.
 void Child::kill() noexcept { ::kill(-pid_, SIGKILL); }
 
 Child::End Child::wait() {

@@ -1,5 +1,4 @@
-// A child process at the other end of a pipe: started, read or written, and killed and reaped with this
-// object.
+// A child process behind a pipe. This object starts it, reads or writes it, and kills and reaps it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ namespace enc {
 
 class Child {
  public:
-  // Whether this process reads the child's standard output, or writes its standard input.
+  // Direction of the pipe: this process reads the child's standard output or writes its standard input.
   enum class Pipe : std::uint8_t { read, write };
   struct End {
     bool success;
@@ -30,11 +29,11 @@ class Child {
 
   // Waits for that many bytes; returns fewer only at the end.
   std::size_t read(char* into, std::size_t size);
-  // Waits until the child has all of them; false: it takes no more.
+  // Waits until the child has taken all bytes; returns false if it takes no more.
   bool write(std::span<const std::uint8_t> bytes);
   // Call from another thread: kills the process and all that it has started, and read() reaches the end.
   void kill() noexcept;
-  // Ends the input of a child that is written to, and waits for its end.
+  // Ends the child's input if the pipe writes, and waits for the child to end.
   [[nodiscard]] End wait();
 
  private:

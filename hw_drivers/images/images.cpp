@@ -1,5 +1,5 @@
-// A stereo camera out of files: a folder of PNG or JPEG images, or a video through ffmpeg. What was recorded
-// comes back frame by frame at a rate, the same in every run.
+// A stereo camera that plays files: a folder of PNG or JPEG images, or a video through ffmpeg. It plays the
+// recorded frames at a set rate, identically in every run.
 #include "core/devices/module.h"
 #include "hw_drivers/images/play/image_camera.h"
 

@@ -23,7 +23,8 @@ bool BadLine::happens(Kind kind) {
   return share && uniform() < *share;
 }
 
-// What ends in a line feed still does: the listener is told nonsense, and not kept waiting for an end.
+// Garbage keeps a final line feed. The receiver then gets invalid data instead of waiting for the end of a
+// line.
 void BadLine::spoil(std::vector<std::byte>& bytes) {
   const bool line = !bytes.empty() && bytes.back() == std::byte{'\n'};
   for (std::byte& byte : bytes) byte = static_cast<std::byte>(random_() & 0xffU);
@@ -31,18 +32,18 @@ void BadLine::spoil(std::vector<std::byte>& bytes) {
 }
 
 void BadLine::put(Time now, std::span<const std::byte> message) {
-  if (now < now_) begin(now);  // its world has begun anew
+  if (now < now_) begin(now);  // the simulation was restarted
   now_ = now;
   if (message.empty() || dead() || happens(Kind::loss)) return;
   const std::optional<double>& start = of(Kind::slow_start);
   const Time ready = start ? begun_ + from_seconds(*start) : now;
-  if (now < ready && wire_ == Wire::datagrams) return;  // nobody has begun to send
+  if (now < ready && wire_ == Wire::datagrams) return;  // the device does not send yet
   Message next{std::max(now, ready), {message.begin(), message.end()}};
   if (happens(Kind::garbage)) spoil(next.bytes);
   if (happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
   if (of(Kind::jitter)) next.due += from_seconds(*of(Kind::jitter) * uniform());
   if (wire_ == Wire::stream) next.due = last_ = std::max(next.due, last_);
-  // One at a time: where all waited for another, none would come.
+  // Only one message waits at a time: if all waited for another one, no message would leave.
   const bool one_waits =
       std::any_of(on_the_way_.begin(), on_the_way_.end(), [](const Message& other) { return other.waits; });
   next.waits = !one_waits && happens(Kind::reorder);

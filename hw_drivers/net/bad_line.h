@@ -46,7 +46,7 @@ class BadLine {
   struct Message {
     Time due;
     std::vector<std::byte> bytes;
-    bool waits = false;  // until another message has left
+    bool waits = false;  // holds this message until another one has left
   };
   [[nodiscard]] std::optional<double>& of(Trouble::Kind kind) noexcept {
     return shares_[static_cast<std::size_t>(kind)];

@@ -15,11 +15,11 @@ Duration steady_now() noexcept {
 
 namespace {
 
-constexpr double kBin = 0.5e9;  // ns of a bin
-constexpr double kSpan = 32e9;  // ns that count
+constexpr double kBin = 0.5e9;  // ns, width of a bin
+constexpr double kSpan = 32e9;  // ns, length of the valid history
 constexpr double kSteepest =
-    200e-6;  // s/s, of two crystals, each wrong by 100 ppm; slewing (500 ppm) is not for a run
-constexpr double kSet = 20e6;        // ns: no delay is so much shorter than the shortest before
+    200e-6;                    // s/s, two crystals, each wrong by 100 ppm; no slewing (500 ppm) during a run
+constexpr double kSet = 20e6;  // ns: no delay is so much shorter than the shortest earlier one
 constexpr std::size_t kFewest = 10;  // bins, for a drift: after five seconds 1 ms of jitter leaves some 6 ppm
 
 }  // namespace
@@ -57,7 +57,7 @@ Time ClockTie::here(std::int64_t stamp_ns, Time now) noexcept {
   }
   if (gap < open_.gap) open_ = {stamp, gap};
   const double above = gap - line(stamp);
-  if (above < 0.0) level_ += above;  // nothing lies under it
+  if (above < 0.0) level_ += above;  // no message lies below the line
   return Time(Duration(stamp_ns + first_gap_ + static_cast<std::int64_t>(line(stamp)))) - least_;
 }
 
@@ -67,11 +67,11 @@ void ClockTie::close_bin() noexcept {
   fit();
 }
 
-// Without those that lie so far above a later one that no clock has come down from there: they were late, or
-// the clock has been set forward since. No line that counts touches them.
+// Excludes bins that lie too far above a later one: no clock falls that steeply. Such messages were late, or
+// the clock was set forward since. The lower bound line never touches them.
 ClockTie::Kept ClockTie::kept() const noexcept {
   Kept of;
-  double ceiling = std::numeric_limits<double>::infinity();  // of gap + kSteepest * stamp
+  double ceiling = std::numeric_limits<double>::infinity();  // limit for gap + kSteepest * stamp
   for (std::size_t i = end_; i > begin_; --i) {
     const Quickest& one = bin(i - 1);
     const double height = one.gap + kSteepest * one.stamp;
@@ -83,15 +83,15 @@ ClockTie::Kept ClockTie::kept() const noexcept {
   return of;
 }
 
-// Of all lines under the points the one that lies closest, which is highest above their mean: an edge of
-// their lower hull, where it is no steeper than clocks are.
+// Slope of the closest line below all points, the one highest above their mean. It is an edge of their lower
+// hull, limited to the steepest clock drift.
 double ClockTie::steepness(const Kept& bins, double mean) noexcept {
   std::array<Quickest, kBins> hull{};
   std::size_t size = 0;
   for (std::size_t i = 0; i < bins.count; ++i) {
     const Quickest& next = bins.bins[i];
     if (size > 0 && next.stamp <= hull[size - 1].stamp) continue;
-    const auto over = [&](const Quickest& a, const Quickest& b) {  // b is, of the way from a to the next
+    const auto over = [&](const Quickest& a, const Quickest& b) {  // b lies on or above the line a-next
       return (b.gap - a.gap) * (next.stamp - a.stamp) >= (next.gap - a.gap) * (b.stamp - a.stamp);
     };
     while (size > 1 && over(hull[size - 2], hull[size - 1])) --size;
@@ -104,7 +104,7 @@ double ClockTie::steepness(const Kept& bins, double mean) noexcept {
   return std::clamp((b.gap - a.gap) / (b.stamp - a.stamp), -kSteepest, kSteepest);
 }
 
-// A drift that is known stays while there is too little for another.
+// A known drift stays valid while there are too few bins for a new one.
 void ClockTie::fit() noexcept {
   const Kept of = kept();
   double mean = 0.0;
@@ -114,7 +114,7 @@ void ClockTie::fit() noexcept {
   double level = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < of.count; ++i)
     level = std::min(level, of.bins[i].gap - slope * (of.bins[i].stamp - now));
-  const double parted = level_ + kSteepest * (now - from_);  // as high as clocks may have
+  const double parted = level_ + kSteepest * (now - from_);  // highest level that the clocks' drift allows
   level_ = std::min(level, parted);
   slope_ = slope;
   lowest_ = end_ > 1 ? std::min(lowest_ - kSteepest * (now - from_), level_) : level_;

@@ -45,9 +45,9 @@ class Arrival {
 // late.
 //
 // A lasting delay is not a clock error: the line rises by 200 ppm at most, the relative drift of two poor
-// crystals. A forward step of the clock is followed at once, because no message arrives before it is sent. It
-// is counted as a step if it exceeds 20 ms plus 200 ppm of the observed time. A backward step looks like a
-// delay, and makes its stamps too old: a caller that sees stamps go back must call forget().
+// crystals. The estimate follows a forward step of the clock at once, because no message arrives before it is
+// sent. It counts as a step if it exceeds 20 ms plus 200 ppm of the observed time. A backward step looks like
+// a delay, and makes its stamps too old: a caller that sees stamps go back must call forget().
 
 // The device's clock against the loop's: it is `ahead` of the loop's time, and gains `drift` each second.
 struct ClockEstimate {

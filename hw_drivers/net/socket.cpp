@@ -50,7 +50,7 @@ void switch_on(int descriptor, int level, int option) {
   const int on = 1;
   setsockopt(descriptor, level, option, &on, sizeof on);
 }
-// A set-point does not wait for more.
+// Small messages such as set-points are sent at once, not collected.
 void send_at_once(int descriptor) { switch_on(descriptor, IPPROTO_TCP, TCP_NODELAY); }
 
 void forget_after(int descriptor, Duration time) {
@@ -67,8 +67,8 @@ int open_for(const addrinfo& address) {
   return descriptor;
 }
 
-// How long it has been here, by the clock that the kernel stamps with; wrong where that was set meanwhile
-// (take()).
+// Time since the kernel received the message, by the kernel's stamp clock. It is wrong if that clock was set
+// meanwhile; see take().
 Duration waited(const msghdr& message) {
   constexpr std::int64_t kSecond = 1'000'000'000, kMost = 60 * kSecond;
   for (cmsghdr* word = CMSG_FIRSTHDR(&message); word != nullptr;
@@ -85,7 +85,7 @@ Duration waited(const msghdr& message) {
 
 bool waits(int error) { return error == EAGAIN || error == EINTR; }
 
-// 0: something came; ETIMEDOUT; or what went wrong.
+// Returns 0 if data came, ETIMEDOUT, or the error.
 int wait_for(int descriptor, short events, Duration most) {
   const Duration until = steady_now() + most;
   for (;;) {
@@ -126,7 +126,7 @@ int connected(int descriptor, const addrinfo& address, Duration timeout) {
 
 class Opener {
  public:
-  // The first of the name's addresses that takes us; where none does, why the last one did not.
+  // Connects to the first address of the name that accepts. If all fail, reports the last reason.
   static Socket connect_to(const std::string& host, std::uint16_t port, int type, Duration timeout) {
     const Addresses all = resolve(host, port, type, 0);
     int error = 0;
@@ -192,7 +192,7 @@ std::size_t Socket::send(std::span<const std::byte> bytes) noexcept {
   return 0;
 }
 
-// As recvfrom(), and when it came.
+// Works as recvfrom(), and notes the arrival time.
 std::ptrdiff_t Socket::take(std::span<std::byte> into, void* sender, std::uint32_t& sender_size) noexcept {
   iovec place{into.data(), into.size()};
   alignas(cmsghdr) std::array<char, 128> words{};
@@ -224,7 +224,7 @@ std::size_t Socket::receive(std::span<std::byte> into) noexcept {
   return 0;
 }
 
-// One that is empty, and an error of an earlier one, are not the end of what has come.
+// Skips empty datagrams and errors of earlier ones: further data may follow them.
 std::size_t Socket::receive_datagram(std::span<std::byte> into) noexcept {
   static_assert(sizeof sender_ >= sizeof(sockaddr_storage));
   constexpr int kMostEmpty = 64;

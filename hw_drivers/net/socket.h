@@ -72,9 +72,9 @@ class Socket {
 // Fakes only: opens a port at an address of this machine. Port 0: a free one, reported by port().
 [[nodiscard]] Socket listen_tcp(const std::string& address, std::uint16_t port);
 [[nodiscard]] Socket bind_udp(const std::string& address, std::uint16_t port);
-// What another device sent, for a message of one line: at most 100 characters, each printable or '?'.
+// Received text for a message of one line: at most 100 characters, each printable or '?'.
 [[nodiscard]] std::string printable(std::string_view text);
-// "192.168.0.20:50000", "[::1]:50000"
+// Looks like "192.168.0.20:50000" or "[::1]:50000".
 [[nodiscard]] std::string place(const std::string& host, std::uint16_t port);
 
 }  // namespace enc::net

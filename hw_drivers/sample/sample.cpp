@@ -1,9 +1,9 @@
-// The driver to copy: a machine that is at the next read where it was told to be, and a force sensor that
-// feels nothing. A real driver replaces what stands under "wire"; what is checked, clamped and said stays.
+// The driver to copy: a machine that reaches each commanded pose by the next read, and a force sensor that
+// always reports zero. A real driver replaces the parts marked "wire". Keep its checks, limits and messages.
 #include <cstdint>
 #include <string>
 
-#include "core/base/error.h"  // for what a constructor throws
+#include "core/base/error.h"  // needed by a constructor that throws
 #include "core/devices/module.h"
 
 namespace enc::sample {
@@ -20,7 +20,7 @@ struct Wire {
   }
   explicit Wire(const Offer& offer) {
     declare(offer.table);
-    // wire: connect; throw Error(..., {}, ErrorKind::device) with a way out where nobody answers
+    // wire: connect; if no device answers, throw Error(..., {}, ErrorKind::device) with a remedy
   }
   Wire() = default;
   [[nodiscard]] std::string words() const { return "sample " + address + ":" + std::to_string(port); }
@@ -33,19 +33,19 @@ class SampleManipulator final : public Manipulator {
 
   [[nodiscard]] std::string describe() const override { return wire_.words() + ", answered (no wire)"; }
   [[nodiscard]] Reach reach() const override { return reach_; }
-  // A device without a clock of its own stamps what it read with the cycle in which it came.
+  // A device without its own clock stamps a reading with the time of the cycle that received it.
   Stamped<TipSample> read(Time now) noexcept override {
-    // wire: take the newest datagram if there is one; never wait for it
+    // wire: take the newest datagram, if any; never wait for it
     return {{pose_, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, health_};
   }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override {
-    health_ = Health::fault;  // not a number, or not a rotation: refused, and said
+    health_ = Health::fault;  // not a number, or not a rotation: refuse and report it
     if (!X_RH.valid()) return;
     health_ = reach_.contains(X_RH) ? Health::ok : Health::out_of_range;
     pose_ = clamped(reach_, pose_, X_RH);
     // wire: send pose_
   }
-  void stop() noexcept override {}  // wire: tell it to stand; this one stands already
+  void stop() noexcept override {}  // wire: send a stop; this machine already stands
 
  private:
   Wire wire_;

@@ -1,4 +1,4 @@
-// Settings for models/rigs/fakes.toml, of tests and benchmarks.
+// Settings for models/rigs/fakes.toml, used by tests and benchmarks.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace enc::wires {
 
-// Ports that are free at present, as settings for the fakes of models/rigs/fakes.toml, because tests and
-// benchmarks run beside each other.
+// Free ports as settings for the fakes of models/rigs/fakes.toml, because tests and benchmarks run in
+// parallel.
 
 inline std::vector<std::string> free_ports() {
   std::vector<std::string> set;
@@ -26,8 +26,8 @@ inline std::vector<std::string> free_ports() {
   return set;
 }
 
-// The time limits of a real rig, as settings. models/rigs/fakes.toml allows ten times as much, because on the
-// wall clock fakes share the processor with the run; in virtual time and in lockstep no data are late.
+// The time limits of a real rig, as settings. models/rigs/fakes.toml allows ten times as much, because fakes
+// on the wall clock share the processor with the run. In virtual time and in lockstep no data are late.
 
 inline std::vector<std::string> tight_times(std::vector<std::string> more = {}) {
   std::vector<std::string> set{"rig.loop.late_cycles=5", "rig.force.stale_ms=5"};

@@ -1,4 +1,4 @@
-// A link to a controller by a string: an answer within send() is received at once.
+// A link that passes text to a controller directly: the answer to send() is received at once.
 #pragma once
 
 #include <algorithm>

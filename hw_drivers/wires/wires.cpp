@@ -13,7 +13,7 @@
 namespace enc::wires {
 namespace {
 
-// A driver's table with the ports of a fake that has taken any.
+// A driver's settings with the actual ports of a fake.
 class Ported final : public Settings {
  public:
   Ported(Settings& table, std::int64_t port, std::int64_t http_port = 0)
@@ -36,7 +36,7 @@ class Ported final : public Settings {
   std::int64_t port_, http_port_;
 };
 
-// Answers while a driver asks in its constructor. Time stands.
+// Answers a driver's queries during its construction. Time does not advance.
 class Answering {
  public:
   explicit Answering(Fake& fake)
@@ -62,7 +62,7 @@ class Wires::Link final : public StringLink {
   explicit Link(Wires& of) : of_(of) {}
   std::size_t send(std::string_view bytes) noexcept override {
     if (closed()) return 0;
-    if (of_.machine.cut) return bytes.size();  // into a buffer of this side
+    if (of_.machine.cut) return bytes.size();  // the data stay in a buffer on this side
     std::string answers(of_.controller_->take(bytes));
     Spoilt& spoilt = of_.machine;
     if (!spoilt.instead.empty() && !answers.empty()) answers = std::exchange(spoilt.instead, {});
@@ -84,7 +84,7 @@ class Wires::Link final : public StringLink {
   Wires& of_;
 };
 
-// The rig's own, and what is behind the wires goes on with it.
+// The rig's clock, which also advances the devices behind the fakes.
 class Wires::Clock final : public enc::Clock {
  public:
   Clock(Wires& of, std::unique_ptr<enc::Clock> clock) : of_(of), clock_(std::move(clock)) {}

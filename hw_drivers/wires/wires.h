@@ -1,6 +1,6 @@
-// The devices of a rig over their protocols in virtual time, for tests and benchmarks: the laboratory's
-// drivers on one side, and on the other their fakes in front of the earlier roles. The machine's connection
-// is a string; force and tool data go over loopback, where a datagram arrives as soon as it is sent.
+// The devices of a rig over their protocols in virtual time, for tests and benchmarks. The laboratory's
+// drivers talk to fakes in front of the rig's earlier devices. The machine's connection is a string. Force
+// and tool data use loopback, where a datagram arrives as soon as it is sent.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace enc::wires {
 
-// Faults of the machine's connection. For force and tool data use the faults of their fakes
+// Faults of the machine's connection. The faults of force and tool data are those of their fakes
 // (core/devices/fake.h).
 struct Spoilt {
   bool silent = false;   // receives no answer, though data are taken
@@ -47,8 +47,8 @@ class Wires {
   ~Wires();
 
   // Puts drivers into the roles, and the earlier devices behind fakes. Time advances with the rig's clock,
-  // whose ticks come through here. The rig must be destroyed before this object. `tools`: names of the
-  // scene's, by index.
+  // which this object wraps. Destroy the rig before this object. `tools`: names of the scene's tools, by
+  // index.
   void fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
                Log& log, Which which = {true, true, true});
 
@@ -56,8 +56,8 @@ class Wires {
   [[nodiscard]] gcs::Controller& controller() { return *controller_; }
   [[nodiscard]] netft::Server& box() { return *box_; }
   [[nodiscard]] igtl::ToolServer& tools() { return *tools_; }
-  // Delays the next tick by this time, and its clock misses that many cycles. Until then the loop stands
-  // still. The thread of the machine's driver goes on, or stands too, as if the process were stopped.
+  // Delays the next tick by this time, and its clock misses that many cycles. The loop stands still until
+  // then. The thread of the machine's driver continues, or also stops if `process` is true.
   void stand(Duration how_long, bool process) {
     standing_ = how_long;
     process_stands_ = process;
@@ -71,7 +71,7 @@ class Wires {
   void pass(Time now);
   // Puts the machine's driver into its role, and the earlier device behind a fake.
   void put_machine(Rig& rig, const Offer& offer, Settings& table);
-  // The earlier tracker answers on loopback, by the tools' names.
+  // Serves the earlier tracker's data on loopback, by the tools' names.
   void serve_tools(Rig& rig, Settings& table, std::span<const std::string> tools);
 
   std::uint64_t seed_;

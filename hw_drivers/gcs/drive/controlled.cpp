@@ -12,7 +12,8 @@
 namespace enc::gcs {
 namespace {
 
-constexpr Duration kAnswer{1'000'000'000};  // to a question before the run: some take the controller longer
+// Answer time before the run: the controller is slow with some queries.
+constexpr Duration kAnswer{1'000'000'000};
 constexpr Duration kPause{1'000'000};
 
 ServoLaw law_of(const ManipulatorRig& rig) {
@@ -34,7 +35,7 @@ Controlled::Controlled(const Offer& offer, const GcsSettings& settings, std::uni
              settings_.step, offer.reach.machine.zero().p()) {
   reach_.speed = found_.velocity;
   stand();
-  // Who was stopped, as at the end of each run, has error 10 until somebody asks.
+  // Each run ends with a stop, which leaves error 10 until the next ERR?. This is not worth a message.
   if (found_.left_over != kNoError && found_.left_over != kStopped)
     say(fmt::format(": an error of before this run: {}", error_words(found_.left_over)));
 }

@@ -11,9 +11,9 @@ namespace enc::gcs {
 namespace {
 
 constexpr int kMostWaiting = 2;                 // points in the controller's buffer
-constexpr Duration kNever{-3'600'000'000'000};  // so long ago that everything is due
+constexpr Duration kNever{-3'600'000'000'000};  // long ago, so that everything is due
 
-// What the core is to believe of a machine that answered with this number.
+// Health to report to the core for this error number of the controller.
 Health health_of(int error) noexcept {
   if (error == kNoError) return Health::ok;
   return error == kOutOfLimits || error == kVelocityOutOfLimits ? Health::out_of_range : Health::fault;
@@ -70,8 +70,8 @@ std::string_view Conversation::send(Duration now) noexcept {
   return out_.view();
 }
 
-// Also while an answer is awaited: a stop waits for nobody. One that overtook a set-point on the way goes
-// once more when that is answered.
+// A stop also goes out while an answer is pending. A stop that may have overtaken a set-point is sent again
+// after that set-point's answer.
 void Conversation::add_stop(Duration now) noexcept {
   const bool asked = order_.stops != report_.stops;
   const bool silent = moving_ && now - order_.given >= watchdog_;
@@ -89,7 +89,7 @@ void Conversation::add_stop(Duration now) noexcept {
   after_stop_ = false;
 }
 
-// The velocity is told and read back before the first set-point goes.
+// Before the first set-point, set the velocity and the path source and read both back.
 void Conversation::add_question(Duration now) noexcept {
   carries_move_ = false;
   if (ask_servos_) return ask("SVO?", Awaiting::servos, now);
@@ -103,22 +103,23 @@ void Conversation::add_question(Duration now) noexcept {
     by_points_ ? add_points(out_, seconds(cycle_)) : add_own_path(out_);
     return ask("SPA? X 0x19001900", Awaiting::path, now);
   }
-  // Points that wait make it late: while some do, the newest waits here, where it is overtaken.
+  // Points in the controller's buffer add delay. While some are pending, keep the newest set-point here,
+  // where a later one replaces it.
   const bool full = by_points_ && room_ < most_room_ - kMostWaiting;
   if (move && !full) {
     point_ = next_point();
     carries_move_ = add_move(out_, point_);
     moving_ = moving_ || carries_move_;
     sent_ = order_.number;
-    // One each cycle in the mean, whenever questions go; what was missed is not made up for.
+    // On average one set-point goes each cycle, whatever the query times. Missed cycles are not made up for.
     due_ = now - due_ < cycle_ ? due_ + cycle_ : now + cycle_;
   }
   if (by_points()) out_.add(kRoomByte);
   ask("POS?", by_points() ? Awaiting::room : Awaiting::position, now);
 }
 
-// On the way to the set-point, as far as it gets in a cycle: for each point the controller takes one, however
-// late it comes.
+// The next point towards the set-point, no farther than the speed limit allows in one cycle; without points,
+// the set-point itself. The controller executes each point in one cycle, however late it arrives.
 Coordinates Conversation::next_point() const noexcept {
   if (!by_points_) return order_.to;
   const Coordinates& from = moving_ ? point_ : at_;
@@ -141,7 +142,7 @@ bool Conversation::take(std::string_view bytes, Duration now) noexcept {
   bool news = false;
   while (!bytes.empty() && loss_ == Loss::none) {
     bytes.remove_prefix(reader_.take(bytes));
-    if (reader_.overflown() || awaiting_ == Awaiting::nothing) {  // too long, or to no question
+    if (reader_.overflown() || awaiting_ == Awaiting::nothing) {  // too long, or an answer without a query
       lose(Loss::garbled);
       break;
     }
@@ -179,7 +180,7 @@ void Conversation::take_position(Duration now) noexcept {
   at_ = from_wire_units(wire);
   report_.X_RH = pose_of(at_, stand_);
   report_.t = asked_ + (now - asked_) / 2;
-  // Over a cycle at least: between two questions the time itself is not known well enough.
+  // Measure the velocity over at least one cycle. Between two queries the time itself is too uncertain.
   if (report_.t - from_t_ >= cycle_) {
     report_.velocity = Vec<'R'>(Vec3((report_.X_RH.p() - from_) / seconds(report_.t - from_t_)));
     from_ = report_.X_RH.p();
@@ -203,7 +204,7 @@ void Conversation::take_room() noexcept {
   awaiting_ = Awaiting::position;
 }
 
-// "X 0x19001900=1"
+// The answer looks like "X 0x19001900=1".
 void Conversation::take_path() noexcept {
   const std::string_view said = reader_.answer();
   double source = kUnset;
@@ -223,8 +224,8 @@ void Conversation::take_servos() noexcept {
   awaiting_ = Awaiting::error;
 }
 
-// Who was stopped by another hand, or by a strut, moves no more in this run: what is cured meanwhile is cured
-// by a person, who may still be within reach. What is out of range stays so until a set-point is taken again.
+// A stop by somebody else, or a fault of a strut, ends the motion for this run: a person who clears the fault
+// may still be within reach. An out-of-range error stays until the controller accepts a set-point again.
 void Conversation::take_error() noexcept {
   int error = 0;
   if (!read_error(reader_.answer(), error)) return lose(Loss::garbled);
@@ -233,7 +234,8 @@ void Conversation::take_error() noexcept {
   if (ours || after_stop_) stopped_us_ = false;
   if (ours) {
     error = kNoError;
-    ask_servos_ = true;  // a fault between would have switched them off, and its number is gone
+    // A fault before our stop would have switched the servos off, and our stop replaced its error number.
+    ask_servos_ = true;
   }
   if (error != kNoError) {
     report_.error = error;

@@ -39,8 +39,8 @@ struct Report {
 
 class Conversation {
  public:
-  // `fastest`: speed limit of the platform, m/s. No point is farther from the last one than it allows,
-  // however the loop jumps.
+  // `fastest`: speed limit of the platform, m/s. It limits the distance between two points, however far the
+  // loop's set-points jump.
   Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now,
                double fastest = std::numeric_limits<double>::infinity());
 
@@ -59,8 +59,8 @@ class Conversation {
   [[nodiscard]] Duration longest_answer() const noexcept { return longest_; }
   [[nodiscard]] std::int64_t answers() const noexcept { return answers_; }
   [[nodiscard]] std::int64_t watchdogs() const noexcept { return watchdogs_; }
-  // True if no stop must be sent again: no stop is pending, or the controller has answered whatever could
-  // follow it.
+  // True if all stops are sent and none needs repeating: the controller has answered every command that a
+  // stop may have overtaken.
   [[nodiscard]] bool stopped() const noexcept {
     return order_.stops == report_.stops && !overtaken_ && awaiting_ == Awaiting::nothing;
   }
@@ -83,7 +83,7 @@ class Conversation {
 
   Duration timeout_, cycle_, poll_, watchdog_;
   double fastest_;   // m/s
-  double velocity_;  // velocity to command once, m/s; 0: no, or already done
+  double velocity_;  // velocity to command once, m/s; 0: not set, or done
   bool by_points_;
   bool path_told_ = false;  // commanded and read back
   // Free places in the point buffer at the last query; its capacity.
@@ -96,7 +96,7 @@ class Conversation {
   std::int64_t sent_ = 0;       // number of the last set-point sent
   Duration due_, asked_;        // due time of the next set-point, and time of the last query
   bool moving_ = false;
-  // Our own stop will cause an error 10 that is still to come.
+  // Our own stop will cause an error 10 that has not come yet.
   bool stopped_us_ = false;
   bool carries_move_ = false;  // the pending query carries a move
   bool overtaken_ = false;     // a stop was sent during that query: the move may be executed after it

@@ -21,12 +21,13 @@
 namespace enc::gcs {
 namespace {
 
-constexpr Duration kTurn{1'000'000};  // of the thread, where nothing comes
+constexpr Duration kTurn{1'000'000};  // longest wait of the thread for data
 constexpr Duration kStopTime{100'000'000};
-constexpr Duration kAgain{20'000'000};  // between the stops of a link that was lost
+constexpr Duration kAgain{20'000'000};  // interval between repeated stops after a lost link
 constexpr int kStops = 3;
 
-// Before the loop, whose watchdog it has: a loop that runs away does not keep it from its turn.
+// Gives the thread a higher priority than the loop, because it is the loop's watchdog: a runaway loop cannot
+// starve it.
 void come_first() noexcept {
   int policy = SCHED_OTHER;
   sched_param priority{};
@@ -47,7 +48,7 @@ GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, 
     : machine_(offer, settings, std::move(link)),
       conversation_(settings, machine_.found().stand, machine_.found().at, machine_.link().now(),
                     machine_.found().velocity) {
-  constexpr double kCycles = 3.0;  // with fewer it stops at each that is late, and goes on
+  constexpr double kCycles = 3.0;  // fewer cycles would stop the machine at each late cycle
   if (settings.watchdog < kCycles * seconds(offer.period) - 1e-9)
     throw Error(fmt::format("{}: watchdog_ms is {:g}, and the loop's cycle takes {:g} ms; expected at least "
                             "{:g} of them",
@@ -75,7 +76,7 @@ GcsManipulator::~GcsManipulator() {
   if (thread_.joinable()) thread_.join();
   if (!conversation_.by_points() || !linked_) return;
   Text text;
-  add_own_path(text);  // as it was found
+  add_own_path(text);  // restore the controller's own path
   static_cast<void>(machine_.link().send(text.view()));
 }
 
@@ -83,7 +84,7 @@ Stamped<TipSample> GcsManipulator::read(Time now) noexcept {
   tick_ = machine_.link().now();
   if (!thread_.joinable()) turn();
   if (reports_.read(report_) || !read_) {
-    // How old it is is taken off once, when it is new; it never is from the time to come.
+    // Subtract the report's age once, when the report is new. A report never comes from the future.
     const Duration old = std::max(Duration{}, machine_.link().now() - report_.t);
     stamp_ = read_ ? std::max(stamp_, now - old) : now - old;
     read_ = true;
@@ -120,7 +121,7 @@ void GcsManipulator::talk() noexcept {
   come_first();
   while (!end_ && turn()) machine_.link().wait(kTurn);
   if (conversation_.loss() != Loss::none) return;
-  // A stop that was asked for while this thread had no turn still goes.
+  // Send a pending stop that this thread has not handled yet.
   if (orders_.read(newest_)) conversation_.told(newest_);
   if (unsent_.empty()) unsent_ = conversation_.send(machine_.link().now());
   static_cast<void>(machine_.link().send(unsent_));
@@ -129,12 +130,12 @@ void GcsManipulator::talk() noexcept {
 bool GcsManipulator::turn() noexcept {
   if (!linked_) return false;
   Link& link = machine_.link();
-  // What has come is taken first: after a pause of the process it is no late answer.
+  // Take received data first, so that a pause of the process does not look like a late answer.
   const std::size_t got = link.receive(bytes_);
   if (conversation_.take({bytes_.data(), got}, link.now())) publish();
   if (got == 0 && link.closed()) conversation_.closed();
   if (orders_.read(newest_)) conversation_.told(newest_);
-  // Only when all is gone, so that a line is never cut by the next one.
+  // Ask for new data only after all earlier data are sent, so that lines stay whole.
   if (unsent_.empty()) unsent_ = conversation_.send(link.now());
   unsent_.remove_prefix(link.send(unsent_));
   if (unsent_.empty() && conversation_.stopped()) stops_sent_ = conversation_.report().stops;
@@ -153,8 +154,9 @@ void GcsManipulator::publish() noexcept {
   if (error != kNoError) said_ = error;
 }
 
-// For good. Where it still hears us it is told to stand: behind whatever line was cut, and again, as a
-// set-point that it had not read yet may come behind the first.
+// The link is lost for the rest of the run. While it can still be written to, send stops: first after the
+// rest of a cut line, then again, because a set-point that the controller had not read yet may follow the
+// first stop.
 void GcsManipulator::lose(Loss loss, bool told) noexcept {
   linked_ = false;
   Link& link = machine_.link();
@@ -163,7 +165,7 @@ void GcsManipulator::lose(Loss loss, bool told) noexcept {
     if (unsent_.empty()) static_cast<void>(link.send(std::string_view(&kStopByte, 1)));
     for (const Duration until = link.now() + kAgain; thread_.joinable() && link.now() < until;) {
       link.wait(kTurn);
-      while (link.receive(bytes_) > 0) {  // of before: nobody believes it any more
+      while (link.receive(bytes_) > 0) {  // discard earlier answers
       }
       if (link.closed()) break;
     }
@@ -207,7 +209,7 @@ Stamped<TipSample> LockstepManipulator::read(Time now) noexcept {
   return {sample_, now, linked_ ? health : Health::fault};
 }
 
-// What is no pose is not sent: the last aim is told again, so that time goes on.
+// An invalid pose is not sent. The last aim is sent again instead, so that time advances.
 void LockstepManipulator::command(const Pose<'R', 'H'>& X_RH) noexcept {
   Text text;
   if (!add_move(text, machine_.aim(X_RH).to)) return;

@@ -45,7 +45,7 @@ class GcsManipulator final : public Manipulator {
  private:
   void talk() noexcept;  // the thread's function
   void publish() noexcept;
-  // told: the machine may be moving, so send it a stop.
+  // The second parameter is true if a set-point was sent: the machine may be moving and gets a stop.
   void lose(Loss loss, bool told) noexcept;
 
   Controlled machine_;

@@ -23,7 +23,7 @@ struct Inspector {
   const Ask& ask;
   const GcsSettings& settings;
   const Reach& promised;
-  std::string name = settings.place();  // of the controller, once it is known
+  std::string name = settings.place();  // later: the controller's identity
 
   template <std::size_t kCount>
   [[nodiscard]] std::array<double, kCount> axes(std::string_view line, std::string_view names) const {
@@ -56,7 +56,7 @@ struct Inspector {
   Travel far_enough(const Stand& stand) const;
 };
 
-// "X=MM \n ... W=DEG\n"
+// Expects "X=MM \n ... W=DEG\n".
 bool has_units(std::string_view answer) {
   for (const char axis : kAxisNames) {
     const std::size_t at = answer.find(std::string{axis, '='});
@@ -67,7 +67,7 @@ bool has_units(std::string_view answer) {
   return true;
 }
 
-// -1: older, 1: newer; parts that are no numbers count as 0.
+// Compares two versions: -1: older, 1: newer; parts that are not numbers count as 0.
 int compared(std::string_view is, std::string_view least) {
   const auto part = [](std::string_view& text) {
     const std::size_t end = std::min(text.find('.'), text.size());
@@ -81,7 +81,7 @@ int compared(std::string_view is, std::string_view least) {
   return 0;
 }
 
-// "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119012345, 2.10.0.1"
+// The answer looks like "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119012345, 2.10.0.1".
 void Inspector::identify(Found& found) {
   const std::string answer = ask("*IDN?");
   if (answer.find(settings.identity) == std::string::npos)
@@ -109,8 +109,8 @@ void Inspector::identify(Found& found) {
     refuse(fmt::format("{} speaks GCS '{}', not 2.0; another driver is needed", name, shown(said)));
 }
 
-// What is said in mm and degrees, along the axes that the controller has by itself, to a profile generator of
-// its own.
+// Requires units of mm and degrees, the default coordinate system, and the controller's own profile
+// generator.
 void Inspector::plain() const {
   if (const std::string said = ask("CST?"); said.find(settings.stage) == std::string::npos)
     refuse(
@@ -152,8 +152,8 @@ void Inspector::ready() const {
     refuse(fmt::format("{}: the servo of {} is off; switch it on (SVO {} 1)", name, axes, axes.substr(0, 1)));
 }
 
-// What it can do on each axis, to both sides, against what the rig's machine can. What is not a number is
-// never enough.
+// Compares the controller's range on each axis, in both directions, with the range of the rig's machine. A
+// limit that is not a number fails.
 Travel Inspector::far_enough(const Stand& stand) const {
   const Travel can{from_wire_units(axes<kAxes>("TMN?", kAxisNames)),
                    from_wire_units(axes<kAxes>("TMX?", kAxisNames))};

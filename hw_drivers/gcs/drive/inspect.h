@@ -1,4 +1,4 @@
-// Inspects a controller before any command. Moves nothing.
+// Inspects a controller before any command, without a motion.
 #pragma once
 
 #include <functional>

@@ -121,7 +121,7 @@ bool Commands::names_axes(Controller& of, std::string_view rest) {
   return true;
 }
 
-// Any axis references all. The way to zero is the reference move of this one.
+// Any axis references all. The fake's reference move is a move to zero.
 void Commands::reference(Controller& of, std::string_view rest) {
   ++of.told_;
   if (!names_axes(of, rest)) return;
@@ -166,7 +166,7 @@ void Commands::pivot(Controller& of, std::string_view rest) {
     of.stand_.pivot = {metres(values[0]), metres(values[1]), metres(values[2])};
 }
 
-// Of all parameters it has one: whose path it is.
+// The fake has one parameter: the source of the path.
 bool Commands::names_parameter(Controller& of, std::string_view axis, std::string_view number) {
   constexpr std::string_view kPathSource = "0x19001900";
   if (of.wrong(number.empty(), kMissing) || of.is_none(axis, kAxisNames)) return false;

@@ -10,7 +10,7 @@ namespace enc::gcs {
 namespace {
 
 constexpr Duration kCycle{1'000'000};
-constexpr Duration kCaughtUp{100'000'000};  // what is missed beyond that is not made up for
+constexpr Duration kCaughtUp{100'000'000};  // a longer backlog is not made up for
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void Controller::forget_line() noexcept {
   long_ = false;
 }
 
-// What is unknown is an error and has no answer. Lower case is taken, too.
+// An unknown command sets an error and gets no answer. Lower case is accepted.
 void Controller::line(std::string_view text) {
   std::string_view rest = text;
   std::string word(next_word(rest));
@@ -126,7 +126,7 @@ void Controller::stop(double hardness) noexcept {
 }
 
 void Controller::cycle(Time now) noexcept {
-  if (!begun_ || now < now_) {  // its world has begun anew
+  if (!begun_ || now < now_) {  // the simulation was restarted
     if (begun_) error_ = kNoError;
     begun_ = true;
     now_ = now - kCycle;
@@ -159,7 +159,7 @@ void Controller::measure(Time now) noexcept {
 
 void Controller::go(const Coordinates& to) {
   if (!settings_.advance && by_points_) {
-    // A point is a cycle away, and no farther than its velocity allows.
+    // The client must send points that are at most one cycle apart at the set velocity.
     constexpr double kRounding = 1.0 + 1e-6;
     const double way = distance(points_.last(profile_.at()), to);
     if (wrong(way > velocity_ * points_cycle_ * kRounding, kVelocityOutOfLimits)) return;
@@ -174,7 +174,7 @@ void Controller::go(const Coordinates& to) {
 }
 
 bool Controller::within(const Coordinates& to) const noexcept {
-  constexpr double kRounding = 1e-9;  // m or rad: what twelve digits of a wire leave over
+  constexpr double kRounding = 1e-9;  // m or rad: rounding of numbers with twelve digits
   for (std::size_t i = 0; i < kAxes; ++i)
     if (!(to[i] >= travel_.low[i] - kRounding && to[i] <= travel_.high[i] + kRounding)) return false;
   return reach_.contains(pose_of(to, stand_));
@@ -196,7 +196,7 @@ std::array<bool, kAxes> Controller::on_target() const noexcept {
   return on;
 }
 
-// Bits 12: servo on, 13: in motion, 14: referencing, 15: on target.
+// Status bits: 12 servo on, 13 in motion, 14 referencing, 15 on target.
 unsigned Controller::status() const noexcept {
   return (all_on() ? 1U << 12U : 0U) | (at_rest() ? 0U : 1U << 13U) | (referencing_ ? 1U << 14U : 0U) |
          (on_target()[0] ? 1U << 15U : 0U);

@@ -1,5 +1,5 @@
-// A C-887 as its clients see it: GCS 2 in, GCS 2 out, in front of any machine of the core. It uses neither
-// sockets nor clocks.
+// Simulated C-887 controller for any machine of the core: GCS 2 text in and out. It uses neither sockets nor
+// clocks.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ class Controller {
   // Stores the error if `bad`; returns `bad`.
   bool wrong(bool bad, int error) noexcept;
   bool is_none(std::string_view word,
-               std::string_view names) noexcept;  // true if the word is not one of these axes
+               std::string_view names) noexcept;  // true if the word names none of these axes
   void go(const Coordinates& to);
   void measure(Time now) noexcept;
   void stop(double hardness) noexcept;
@@ -87,7 +87,7 @@ class Controller {
   Travel travel_;
   Profile profile_;
   Points points_;
-  bool by_points_ = false;           // the client gives the path by points
+  bool by_points_ = false;           // the path is made of the client's points
   double points_cycle_ = 0.010;      // s
   Coordinates measured_{}, seen_{};  // now, and at the last #6
   std::array<bool, kAxes> servo_{true, true, true, true, true, true};

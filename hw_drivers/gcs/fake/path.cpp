@@ -33,7 +33,7 @@ void Profile::step(double dt, const ProfileLimits& limits) noexcept {
   Coordinates way{}, change{};
   for (std::size_t i = 0; i < kAxes; ++i) way[i] = hardness_ > 0.0 ? 0.0 : to_[i] - at_[i];
   const double far = norm(way);
-  // As fast as it can still brake from, in steps.
+  // Highest speed from which the platform can still brake in time, in steps of dt.
   const double braking = std::sqrt(0.25 * most * most + 2.0 * limits.acceleration * far) - 0.5 * most;
   const double speed = std::min({limits.velocity, braking, far / dt});
   for (std::size_t i = 0; i < kAxes; ++i) change[i] = (far > 0.0 ? way[i] / far * speed : 0.0) - velocity_[i];

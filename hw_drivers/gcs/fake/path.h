@@ -9,7 +9,7 @@
 
 namespace enc::gcs {
 
-// The path of a platform to its commanded position: all six coordinates start and end together, within
+// The path of a platform to its commanded position. All six coordinates start and end together, within
 // velocity and acceleration limits. A new command during motion bends the path.
 struct ProfileLimits {
   double velocity = 0.0, acceleration = 0.0;  // m/s, m/s^2; a degree counts as a millimetre
@@ -17,7 +17,7 @@ struct ProfileLimits {
 
 class Profile {
  public:
-  void reset(const Coordinates& at) noexcept;  // it stands there
+  void reset(const Coordinates& at) noexcept;  // sets it to rest there
   void go(const Coordinates& to) noexcept;
   // Brakes on its path, `hardness` times as hard as its acceleration limit, and stays where that ends.
   void halt(double hardness) noexcept;
@@ -33,8 +33,8 @@ class Profile {
   bool moving_ = false;
 };
 
-// A path of points, one for each cycle (parameter 0x19001900 = 1, SCT): straight from one to the next, each
-// in a cycle or at the speed limit. When no point is left, it stands at the last one.
+// A path of points, one for each cycle (parameter 0x19001900 = 1, SCT). The platform moves straight from one
+// point to the next, in one cycle or at the speed limit. Without a further point it stands at the last one.
 class Points {
  public:
   static constexpr std::size_t kMost = 64;

@@ -14,7 +14,7 @@
 namespace enc::gcs {
 namespace {
 
-constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing is let go
+constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that does not read is disconnected
 constexpr int kUsualError = 504;                // a strut does not follow
 
 }  // namespace
@@ -33,23 +33,24 @@ std::string Server::describe() const { return "C-887 at " + net::place(address_,
 
 void Server::serve(Time now) {
   if (line_.suffers(Trouble::Kind::stall)) return;
-  if (accept(now)) return;  // the world has begun anew, and `now` is of the one before
+  if (accept(now)) return;  // the simulation was restarted, so `now` is no longer valid
   while (client_.is_open() && answer(now)) {
   }
-  if (client_.is_open()) send(now);  // what was late
+  if (client_.is_open()) send(now);  // send delayed data
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
-  if (line_.suffers(Trouble::Kind::stall)) return;  // what is not taken would wake us for ever
+  if (line_.suffers(Trouble::Kind::stall)) return;  // unread data would wake the server without end
   descriptors.push_back(listener_.descriptor());
   if (client_.is_open()) descriptors.push_back(client_.descriptor());
 }
 
-// A second client is sent away at once, as there is one controller for one.
+// The controller serves one client. A second client is refused at once.
 bool Server::accept(Time now) {
   net::Socket next = listener_.accept();
   if (!next.is_open() || line_.suffers(Trouble::Kind::disconnect)) return false;
-  // Who came later may have waited for the first to go: what that one still said comes first.
+  // The new client may have waited for the first one to leave. Handle the first one's remaining data before
+  // that.
   while (client_.is_open() && answer(now)) {
   }
   if (client_.is_open()) {

@@ -30,10 +30,10 @@ class Server final : public Fake {
   void heal(Trouble::Kind kind) override;
 
  private:
-  bool accept(Time now);  // true: a client connected, and its world was restarted
-  bool answer(Time now);  // true: data came
+  bool accept(Time now);  // returns true if a client connected and its simulation was restarted
+  bool answer(Time now);  // returns true if data came
   void send(Time now);
-  void leave();  // the client has left
+  void leave();  // handles the end of the connection
 
   Log& log_;
   bool lockstep_;  // time advances with its answers: none can be late or missing

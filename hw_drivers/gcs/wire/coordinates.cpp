@@ -38,7 +38,7 @@ Pose<'R', 'H'> pose_of(const Coordinates& at, const Stand& stand) noexcept {
 bool coordinates_of(const Pose<'R', 'H'>& X_RH, const Stand& stand, Coordinates& at) noexcept {
   if (!X_RH.valid()) return false;
   const Mat3 turn = X_RH.q().normalized().toRotationMatrix();
-  constexpr double kLeast = 1e-6;  // of the cosine of V
+  constexpr double kLeast = 1e-6;  // lower limit of cos V
   const double cosine = std::hypot(turn(0, 0), turn(0, 1));
   if (!(cosine > kLeast)) return false;
   const Vec3 centre = stand.origin + stand.pivot;
@@ -64,9 +64,9 @@ double distance(const Coordinates& from, const Coordinates& to) noexcept {
 
 namespace {
 
-constexpr double kFarthest = 1.0;  // m or rad: no machine of this kind gets there
+constexpr double kFarthest = 1.0;  // m or rad: beyond the range of any machine of this kind
 
-// The farthest coordinate on one axis, to a billionth of kFarthest.
+// The largest reachable coordinate on one axis, by bisection to a billionth of kFarthest.
 double farthest(const Reach& reach, const Stand& stand, std::size_t axis, double side) noexcept {
   double low = 0.0, high = kFarthest;
   for (int i = 0; i < 30; ++i) {

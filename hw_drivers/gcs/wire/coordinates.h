@@ -43,7 +43,7 @@ struct Stand {
 struct Travel {
   Coordinates low{}, high{};
 
-  [[nodiscard]] Coordinates both_sides() const noexcept;  // the smaller of the two on each axis
+  [[nodiscard]] Coordinates both_sides() const noexcept;  // the smaller of both directions on each axis
   // Limits `at` to the range; returns true if that changed it.
   bool clamp(Coordinates& at) const noexcept;
 };

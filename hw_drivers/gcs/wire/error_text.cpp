@@ -12,7 +12,7 @@ constexpr std::string_view kLook =
     "look at the machine, then switch the controller off and on and reference it";
 constexpr std::string_view kSystem = "disable the coordinate system (KEN ZERO)";
 
-// Numbers of GCS 2.
+// Error numbers of GCS 2.
 constexpr std::array kMeanings = std::to_array<ErrorMeaning>({
     {0, "none", ""},
     {1, "parameter syntax", kReport},

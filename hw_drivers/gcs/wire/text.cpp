@@ -13,7 +13,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 template <class Number>
 bool read(std::string_view text, Number& number) noexcept {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);  // from_chars knows only minus
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);  // from_chars only takes minus
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
@@ -120,7 +120,7 @@ void AnswerReader::next() noexcept {
 }
 
 bool read_axes(std::string_view answer, std::string_view axes, std::span<double> values) noexcept {
-  std::uint32_t seen = 0;  // a bit for each axis
+  std::uint32_t seen = 0;  // one bit for each axis
   while (!answer.empty()) {
     const std::size_t end = std::min(answer.find('\n'), answer.size());
     const std::string_view line = trimmed(answer.substr(0, end));

@@ -11,20 +11,20 @@
 
 namespace enc::gcs {
 
-// The longest text of either side; six axes with a number of 20 characters each are far shorter.
+// The longest text in either direction. Six axes with numbers of 20 characters are far shorter.
 inline constexpr std::size_t kMostText = 4096;
 
 class Text {
  public:
   Text& add(std::string_view part) noexcept;
   Text& add(char character) noexcept { return add(std::string_view(&character, 1)); }
-  // Twelve significant digits, as "%.12g" in the C locale; zero has no sign.
+  // Writes twelve significant digits, as "%.12g" in the C locale; zero has no sign.
   Text& add(double number) noexcept;
   Text& add(int whole) noexcept;
 
   void clear() noexcept { size_ = 0, cut_ = false; }
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-  [[nodiscard]] bool cut() const noexcept { return cut_; }  // something did not fit and was left out
+  [[nodiscard]] bool cut() const noexcept { return cut_; }  // true if a part did not fit and was left out
   [[nodiscard]] std::string_view view() const noexcept { return {bytes_.data(), size_}; }
 
  private:
@@ -37,13 +37,13 @@ class Text {
 [[nodiscard]] bool read_number(std::string_view text, double& number) noexcept;
 [[nodiscard]] bool read_number(std::string_view text, int& whole) noexcept;
 
-// Removes and returns the next word of a text, by blanks. Empty if no word is left.
+// Removes and returns the next word of a text; blanks separate words. Empty: no word is left.
 [[nodiscard]] std::string_view next_word(std::string_view& text) noexcept;
 
-// The text without blanks and line ends at both ends.
+// The text without leading and trailing blanks and line ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
-// Commands to a controller: lines, and single bytes that need no end of line.
+// Commands to a controller: lines, and single bytes without an end of line.
 
 inline constexpr char kStopByte = '\x18';  // #24: stop at once
 inline constexpr char kRoomByte = '\x0b';  // #11: free places in the point buffer
@@ -61,7 +61,7 @@ void add_servo(Text& text, bool on) noexcept;
 // own path.
 void add_points(Text& text, double cycle) noexcept;
 void add_own_path(Text& text) noexcept;
-// A command and the end of its line: "POS?", "ERR?", "FRF".
+// Adds a command and its end of line: "POS?", "ERR?", "FRF".
 void add_line(Text& text, std::string_view words) noexcept;
 
 // Reads answers from a stream of bytes that may be cut anywhere. Each inner line ends with a blank and a line
@@ -76,19 +76,20 @@ class AnswerReader {
   // from then on.
   [[nodiscard]] bool overflown() const noexcept { return answer_.cut(); }
   [[nodiscard]] std::string_view answer() const noexcept { return answer_.view(); }  // with its line feeds
-  void next() noexcept;                                                              // forgets this answer
+  void next() noexcept;                                                              // discards the answer
 
  private:
   Text answer_;
   bool complete_ = false;
 };
 
-// "X=1.5 \nY=0\n": one number for each axis. False if one is missing, doubled, unknown or not a number.
+// Reads "X=1.5 \nY=0\n": one number for each axis. Returns false if one is missing, doubled, unknown or not a
+// number.
 [[nodiscard]] bool read_axes(std::string_view answer, std::string_view axes,
                              std::span<double> values) noexcept;
-// One number, "20.5\n".
+// Reads one number, "20.5\n".
 [[nodiscard]] bool read_single(std::string_view answer, double& number) noexcept;
-// The answer to ERR?: "0\n".
+// Reads the answer to ERR?: "0\n".
 [[nodiscard]] bool read_error(std::string_view answer, int& number) noexcept;
 
 }  // namespace enc::gcs

@@ -20,7 +20,7 @@ Line::Line(const IgtlSettings& settings)
 
 std::span<const std::byte> Line::next() noexcept {
   if (!streams_) return std::span(datagram_).first(socket_.receive(datagram_));
-  constexpr int kMost = 32;  // pieces of a picture that are passed over at once: 2 MiB
+  constexpr int kMost = 32;  // chunks of a skipped picture read at once: 2 MiB
   for (int i = 0; i < kMost; ++i) {
     const std::span<const std::byte> message = stream_.next();
     if (!message.empty() || stream_.lost()) return message;
@@ -40,13 +40,13 @@ void Line::say(const Written& message) noexcept {
 
 namespace {
 
-constexpr int kMostMessages = 64;      // of a poll: a flood does not hold up the loop
-constexpr int kMostWaiting = 4096;     // before the first: more than a socket holds
-constexpr int kFew = 8;                // messages of a poll in which nothing old is left,
-constexpr int kSettled = 3;            // so many times running
-constexpr std::int32_t kEachPose = 1;  // ms, the shortest interval that can be asked for: every pose
+constexpr int kMostMessages = 64;      // per poll: a flood of messages cannot block the loop
+constexpr int kMostWaiting = 4096;     // before the run: more than a socket buffer holds
+constexpr int kFew = 8;                // a poll with at most this many messages holds no old ones,
+constexpr int kSettled = 3;            // after this many such polls in a row the stream is current
+constexpr std::int32_t kEachPose = 1;  // ms, the shortest interval that a client can request: every pose
 
-// Why what a server sends is no message.
+// Describes why the server's data are not a valid message.
 const char* fault(Wrong why) {
   switch (why) {
     case Wrong::no_checksum:
@@ -86,13 +86,13 @@ IgtlTracker::IgtlTracker(const Offer& offer, const IgtlSettings& settings)
   first_answer();
 }
 
-// And who it is of: its STATUS says that. Not every server sends one, so a little later nothing more is
-// expected.
+// Waits for the first message, and for the STATUS that identifies the server. Not every server sends one, so
+// the wait for it ends after kStatus.
 void IgtlTracker::first_answer() {
   constexpr Duration kAgain{50'000'000};  // a datagram may be lost
   constexpr Duration kStatus{100'000'000};
   bool answered = false;
-  Wrong why = Wrong::nothing;  // the last message was none
+  Wrong why = Wrong::nothing;  // fault of the last message
   for (Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
     Message answer;
     const std::span<const std::byte> bytes = line_.next();
@@ -137,18 +137,20 @@ bool IgtlTracker::take_next(Time now) noexcept {
   if (message.empty()) return false;
   const Time came = arrival_.of(now, line_.came());
   news_ = reception_.take(message, came, newest_) || news_;
-  // When it was read, not when it came: a tick that was held up is no silence of the server.
+  // The silence counts from the time of reading, not of arrival. A delayed tick is then not taken for a
+  // silent server.
   if (reception_.heard() && reception_.last() == came) heard_ = arrival_.of(now, net::steady_now());
   return true;
 }
 
-// What came before the run is old. In lockstep nothing did: time goes on with the run's.
+// Discards messages from before the run. Lockstep has none, because time advances with the run.
 void IgtlTracker::begin_run(Time now) noexcept {
   if (!polled_) begun_ = asked_ = now;
   polled_ = true;
   int count = 0;
   while (!lockstep_ && count < kMostWaiting && !line_.next().empty()) ++count;
-  // Of a stream what the server could not send before comes behind what waited here.
+  // A stream has settled only after several short polls: messages that the server could not send earlier
+  // follow the ones in this buffer.
   settled_ = count <= kFew ? settled_ + 1 : 0;
   begun_run_ = lockstep_ || !settings_.streams() || settled_ >= kSettled;
 }
@@ -166,7 +168,7 @@ bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   arrival_.begin(now, net::steady_now());
   if (!begun_run_) begin_run(now);
   bool came = linked_ && begun_run_ && take_next(now);
-  if (!first && lockstep_) {  // one for each period, in however many pieces
+  if (!first && lockstep_) {  // one message for each period, in any number of pieces
     const Duration until = net::steady_now() + from_seconds(settings_.timeout);
     while (!came && linked_ && !line_.closed() && !line_.lost() && net::steady_now() < until) {
       line_.wait(until - net::steady_now());
@@ -180,7 +182,7 @@ bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   if (linked_ && !lockstep_) keep_awake(now);
   if (!news_) return false;
   newest = newest_;
-  newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
+  newest.t = std::min(newest.t, now);  // the message may be newer than the time of a delayed tick
   return true;
 }
 

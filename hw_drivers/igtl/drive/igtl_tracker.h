@@ -39,7 +39,7 @@ class Line {
   [[nodiscard]] std::int64_t skipped() const noexcept { return stream_.skipped(); }
 
  private:
-  bool streams_, stuck_ = false;  // stuck_: it took only half of a message
+  bool streams_, stuck_ = false;  // `stuck_`: it took only half of a message
   net::Socket socket_;
   Stream stream_;
   std::array<std::byte, kMostBytes> datagram_{};
@@ -51,7 +51,7 @@ class IgtlTracker final : public PoseTracker {
   IgtlTracker(const Offer& offer, const IgtlSettings& settings);
   IgtlTracker(const IgtlTracker&) = delete;
   IgtlTracker& operator=(const IgtlTracker&) = delete;
-  ~IgtlTracker() override;  // asks the server to stop
+  ~IgtlTracker() override;  // requests the server to stop
 
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool is_fake() const override { return fake_; }
@@ -61,7 +61,7 @@ class IgtlTracker final : public PoseTracker {
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
 
  private:
-  void ask() noexcept;  // asks the server to send
+  void ask() noexcept;  // requests data from the server
   void first_answer();
   // Stream only: queries the status of a silent server, because one whose tools are out of view still
   // answers.
@@ -76,7 +76,7 @@ class IgtlTracker final : public PoseTracker {
   net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
   Time begun_{}, asked_{}, heard_{};
-  bool fake_ = false;  // known by the name in its STATUS
+  bool fake_ = false;  // identified by the name in its STATUS
   bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;
   int settled_ = 0;
 };

@@ -1,5 +1,6 @@
-// Decides which of several visible tools a person holds. It stays the same tool until another one is picked
-// up while this one lies still or is out of view. A tool on the table is visible all the time and is ignored.
+// Decides which of several visible tools a person holds. The held tool changes only when another one is
+// picked up while this one lies still or is out of view. A tool on the table is visible all the time and is
+// ignored.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ class InHand {
  public:
   explicit InHand(std::size_t tools) : seen_(tools) {}
 
-  // True if this tool is the held one, at its position at that time of the tracker's clock (ns). A tool that
-  // is the only visible one is held from its first pose on.
+  // True if this tool is the held one. Call it with the tool's position and the time of the tracker's clock
+  // (ns). The only visible tool counts as held from its first pose on.
   [[nodiscard]] bool is(std::size_t tool, std::int64_t stamp_ns, const Vec3& place_C) noexcept {
     Seen& one = seen_[tool];
     note(one, stamp_ns, place_C);
@@ -28,7 +29,7 @@ class InHand {
     if (gone ? came_after || !rests(one) : rests(held) && picked_up) held_ = tool;
     return tool == held_;
   }
-  void forget() noexcept {  // the tracker's clock has changed
+  void forget() noexcept {  // call this when the tracker's clock has changed
     for (Seen& one : seen_) one.last = one.moved = kNever;
   }
 
@@ -43,7 +44,7 @@ class InHand {
     return one.moved == kNever || one.last - one.moved > kRests.count();
   }
   static void note(Seen& one, std::int64_t stamp_ns, const Vec3& place_C) noexcept {
-    if (one.last == kNever || stamp_ns - one.last > kGone.count()) {  // it comes into view
+    if (one.last == kNever || stamp_ns - one.last > kGone.count()) {  // the tool comes into view
       one.since = stamp_ns;
       one.place = one.lay = place_C;
     }
@@ -54,12 +55,12 @@ class InHand {
     one.place = place_C;
   }
 
-  static constexpr double kMoved = 5e-3;  // m: more than noise, tremor, and a knock at the table
-  // m: more than a push of a tool on the table.
+  static constexpr double kMoved = 5e-3;  // m: more than noise, tremor, or a knock on the table
+  // m: more than a push that slides a tool on the table.
   static constexpr double kPickedUp = 50e-3;
   static constexpr Duration kGone{
-      100'000'000};  // as lost_age_ms ships: by then a run with this tool is in a hold
-  static constexpr Duration kRests{2'000'000'000};  // longer than a moving hand stands still
+      100'000'000};  // default of lost_age_ms: a run with this tool is in a hold by then
+  static constexpr Duration kRests{2'000'000'000};  // longer than any pause of a moving hand
   std::vector<Seen> seen_;
   std::size_t held_ = std::numeric_limits<std::size_t>::max();
 };

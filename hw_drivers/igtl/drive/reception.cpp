@@ -7,28 +7,28 @@ namespace enc::igtl {
 namespace {
 
 constexpr std::int64_t kNoStamp = std::numeric_limits<std::int64_t>::min();
-// ns: a stamp that is earlier by more is of a clock that was set back. Two sources of a tool may differ by a
-// frame; a datagram without a number may be late.
+// ns: an earlier stamp by more than this means that the clock was set back. Two sources of a tool may differ
+// by one frame; a datagram without a number may be late.
 constexpr std::int64_t kTwoSources = 50'000'000, kOvertaken = 1'000'000'000;
 
-// PLUS writes the first letter large.
+// PLUS capitalises the first letter.
 bool same_name(std::string_view a, std::string_view b) noexcept {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return a.size() == b.size() && !a.empty() && small(a[0]) == small(b[0]) && a.substr(1) == b.substr(1);
 }
 
-// What is said twice, once in single precision.
+// Compares a pose with its copy in single precision.
 bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
   constexpr double kShare = 1e-6, kAngle = 1e-5;
   return (a.p() - b.p()).norm() <= kShare * (1.0 + a.p().norm()) && a.q().angularDistance(b.q()) <= kAngle;
 }
 
-// To the last bit: a tracker that measures never gives the same pose twice.
+// Bitwise equal: a measuring tracker never gives equal poses twice.
 bool equal(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
   return a.xyz == b.xyz && a.xyzw == b.xyzw;
 }
 
-// To the last bit, where the metadata have it. False where they say something else.
+// Replaces the pose by the exact one from the metadata, if present. Returns false if the two disagree.
 bool sharpen(const Message& message, Pose<'C', 'T'>& X_CT) noexcept {
   const std::string_view text = value_of(message.metadata, kPoseKey);
   if (text.empty()) return true;
@@ -68,7 +68,7 @@ void Reception::count_wrong(Wrong why) noexcept {
   ++(none || why == Wrong::checksum ? counts_.checksum : counts_.wrong);
 }
 
-// One stamp that comes twice is a message that comes twice. A stamp that comes a third time stands still.
+// A stamp that comes twice is a repeated message. A stamp that comes a third time stands still.
 void Reception::count_old(std::size_t tool, std::int64_t stamp_ns) noexcept {
   const bool stands = stamp_ns == stamps_ns_[tool] && again_[tool]++ > 0;
   ++(stands ? counts_.standing : counts_.old);
@@ -83,9 +83,9 @@ void Reception::set_back() noexcept {
   newest_ns_ = kNoStamp;
 }
 
-// A stamp that is not newer than the last of its tool. A message that was overtaken, or came from a second
-// source that is a little behind, is followed by a newer one; where they are known to be in order and two go
-// forward from an earlier time on, the clock does.
+// Called for a stamp that is not newer than the last one of its tool. A newer stamp follows after an
+// overtaken message, or after one from a second source that lags a little. If the order is known, two
+// increasing stamps in the past mean that the clock was set back.
 bool Reception::goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept {
   std::int64_t& behind = behind_ns_[tool];
   const bool again = behind != kNoStamp && stamp_ns > behind && stamp_ns < stamps_ns_[tool];
@@ -95,7 +95,7 @@ bool Reception::goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept {
 
 bool Reception::is_newer(const Message& message) noexcept {
   if (!message.numbered) return true;
-  // Numbers go round: what is less than half a round ahead is newer.
+  // Message numbers wrap around: less than half the range ahead counts as newer.
   const std::uint32_t ahead = message.number - number_;
   if (numbered_ && (ahead == 0 || ahead >= 0x80000000U)) {
     ++counts_.old;
@@ -115,7 +115,7 @@ bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<Tracked
   }
   heard_ = true;
   last_ = now;
-  // Of a stream nothing is lost or overtaken; servers number its messages as they please.
+  // A stream loses and reorders nothing, and its servers number messages arbitrarily.
   if (!ordered_ && !is_newer(message)) return false;
   if (int code = 0; message.type.view() == "STATUS" && read_status(message.content, code) && code != 1)
     counts_.status = code;
@@ -135,7 +135,7 @@ bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<Tracked
   return take_one(told, now, newest);
 }
 
-// Of a frame: one at most is in the hand.
+// Takes all tools of one frame; at most one of them is in the hand.
 bool Reception::take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept {
   const std::size_t count = elements_of(message.content);
   if (count == 0 && !message.content.empty()) ++counts_.wrong;

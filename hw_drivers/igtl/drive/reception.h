@@ -29,14 +29,14 @@ struct Counts {
   std::int64_t unseen = 0;       // poses of a tool that is out of view by the server's own report
   // Poses of a visible tool that is not in the hand.
   std::int64_t aside = 0;
-  std::int64_t steps = 0;  // backward steps of the other clock
+  std::int64_t steps = 0;  // backward steps of the tracker's clock
   int status = 0;          // last status of the server other than 1 (all is well)
   Name<20> stranger;       // the first device that the scene does not name
 };
 
 class Reception {
  public:
-  // The names of the scene's tools, by index. Lockstep: the other clock is this one.
+  // `tools`: names of the scene's tools, by index. In lockstep the tracker's clock equals the run's.
   Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep);
 
   // Returns true if `newest` is new.
@@ -54,12 +54,12 @@ class Reception {
     Pose<'C', 'T'> X_CT;
     std::int64_t stamp_ns = 0;
   };
-  [[nodiscard]] bool is_newer(const Message& message) noexcept;  // by its number
+  [[nodiscard]] bool is_newer(const Message& message) noexcept;  // compares message numbers
   [[nodiscard]] bool take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept;
   bool take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept;
   [[nodiscard]] bool goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept;
   void count_old(std::size_t tool, std::int64_t stamp_ns) noexcept;
-  void set_back() noexcept;  // the other clock was set back
+  void set_back() noexcept;  // the tracker's clock was set back
   void count_wrong(Wrong why) noexcept;
 
   std::vector<Name<20>> devices_, tools_;

@@ -16,7 +16,7 @@ namespace enc::igtl {
 
 namespace {
 
-constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing is let go
+constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that does not read is disconnected
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Door::Door(Transport transport, const std::string& address, std::uint16_t port, 
       socket_(transport == Transport::tcp ? net::listen_tcp(address, port) : net::bind_udp(address, port)),
       line_(transport == Transport::tcp ? net::BadLine::Wire::stream : net::BadLine::Wire::datagrams, seed) {}
 
-// What is not taken would wake us for ever.
+// A stalled line does not wait on its sockets, because unread data would wake the server without end.
 void Door::wait_on(std::vector<int>& descriptors) const {
   const bool stands = line_.suffers(Trouble::Kind::stall);
   if (stands || (transport_ == Transport::udp && line_.dead())) return;
@@ -35,12 +35,12 @@ void Door::wait_on(std::vector<int>& descriptors) const {
 
 bool Door::open(Time now) {
   if (transport_ == Transport::udp || line_.suffers(Trouble::Kind::stall)) return false;
-  if (client_.is_open()) {  // that it has gone is known when something is read
+  if (client_.is_open()) {  // only a read reveals that the client has gone
     stream_.came(client_.receive(stream_.room()));
     if (client_.closed()) client_ = {};
   }
   net::Socket who = socket_.accept();
-  if (!who.is_open() || line_.dead() || client_.is_open()) return false;  // and hung up
+  if (!who.is_open() || line_.dead() || client_.is_open()) return false;  // refused: the connection closes
   client_ = std::move(who);
   stream_.begin();
   unsent_.clear();
@@ -88,8 +88,8 @@ void Door::suffer(const Trouble& trouble) noexcept {
 
 namespace {
 
-constexpr std::uint16_t kUsualError = 18;                 // of a STATUS: the hardware fails
-constexpr std::array<std::byte, 1> kTaken{std::byte{0}};  // RTS_TDATA
+constexpr std::uint16_t kUsualError = 18;                 // STATUS code: hardware failure
+constexpr std::array<std::byte, 1> kTaken{std::byte{0}};  // content of RTS_TDATA
 
 Duration resolution(std::span<const std::byte> content) {
   if (content.size() < 4) return {};
@@ -110,7 +110,7 @@ std::string ToolServer::describe() const {
 }
 
 void ToolServer::serve(Time now) {
-  if (door_.open(now)) {  // as a server does that streams to whoever is there, in words that all know
+  if (door_.open(now)) {  // a streaming server sends to every client, in the oldest message type
     asked_ = true;
     tdata_ = knows_two_ = false;
     apart_ = {};
@@ -138,7 +138,7 @@ void ToolServer::answer(Time now, const Message& message) {
 }
 
 void ToolServer::publish(Time now) {
-  if (now < sent_) sent_ = posed_ = now;  // its world has begun anew
+  if (now < sent_) sent_ = posed_ = now;  // the simulation was restarted
   Stamped<TrackedTool> newest;
   const bool seen = tracker_.poll(now, newest) && newest.health == Health::ok && newest.value.tool >= 0 &&
                     static_cast<std::size_t>(newest.value.tool) < devices_.size();

@@ -1,6 +1,7 @@
-// The server of tool data [VHMR 2]: a client that asks gets each pose of a tracker in a datagram, numbered
-// and stamped; while no tool is visible, a status "all is well". Or a tracker's own server, such as PLUS: a
-// client that connects gets each pose in a stream, as TRANSFORM or, on request, as TDATA.
+// The server of tool data [VHMR 2]. A client that asks gets each pose of a tracker in a numbered and stamped
+// datagram. While no tool is visible, it gets a status "all is well". The server can also act as a tracker's
+// own server, such as PLUS. A connected client then gets each pose in a stream, as TRANSFORM or, on request,
+// as TDATA.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ class Door {
 
   [[nodiscard]] std::uint16_t port() const { return socket_.port(); }
   void wait_on(std::vector<int>& descriptors) const;
-  // Accepts a new client. True: a new client is there.
+  // Accepts a new client; returns true if one connected.
   bool open(Time now);
   // The next received message; empty: no message. Valid until the next call.
   [[nodiscard]] std::span<const std::byte> next();
@@ -60,8 +61,8 @@ struct ToolServerSettings {
   Transport transport = Transport::udp;
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: any free port
-  // After this time without a pose it reports over UDP that all is well. 0, in lockstep: in each period, for
-  // every transport.
+  // After this time without a pose the server reports over UDP that all is well. 0: it reports in each
+  // period, with every transport (lockstep).
   Duration alive = kServerPeriod;
   std::uint64_t seed = 1;
 };
@@ -94,10 +95,10 @@ class ToolServer final : public Fake {
   ToolServerSettings settings_;
   Door door_;
   std::uint16_t status_ = 1;
-  // Set by the last request:
-  bool asked_ = false;      // asked to send, and not to stop
-  bool tdata_ = false;      // asked for TDATA
-  bool knows_two_ = false;  // supports headers of version 2
+  // The last request sets:
+  bool asked_ = false;      // the client wants data
+  bool tdata_ = false;      // the client wants TDATA
+  bool knows_two_ = false;  // the client supports headers of version 2
   Duration apart_{};        // shortest interval between messages
   std::uint32_t number_ = 0;
   Time sent_{}, posed_{};

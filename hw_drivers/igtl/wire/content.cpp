@@ -15,8 +15,9 @@ namespace {
 using net::put;
 using net::take;
 
-constexpr double kRounding = 1e-5;               // of single precision, and of who computed with it
-constexpr std::size_t kType = 20, kMatrix = 22;  // of an element: where they are
+// Rounding of single precision and of the sender's arithmetic.
+constexpr double kRounding = 1e-5;
+constexpr std::size_t kType = 20, kMatrix = 22;  // offsets in an element
 constexpr std::byte kSixDegrees{2};
 
 double single(std::span<const std::byte> content, std::size_t index) noexcept {

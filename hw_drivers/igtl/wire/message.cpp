@@ -98,7 +98,7 @@ Written::Written(std::string_view type, std::string_view device, std::int64_t st
   finish(1, type, device, stamp_ns);
 }
 
-// The header, in front of a body that stands.
+// Writes the header in front of the finished body.
 void Written::finish(std::uint16_t version, std::string_view type, std::string_view device,
                      std::int64_t stamp_ns) noexcept {
   const std::span<std::byte> all(bytes_.data(), size_), body = all.subspan(kHeader);
@@ -132,7 +132,8 @@ std::string_view value_of(std::span<const std::byte> metadata, std::string_view 
 
 namespace {
 
-// Of any version: its first byte is 0, and the name of its type is letters, digits or '_' and then zeros.
+// Accepts headers of any version: the first byte is 0, and the type's name holds letters, digits or '_',
+// padded with zeros.
 bool is_header(std::span<const std::byte> bytes) noexcept {
   const auto name = take_name<12>(bytes, 2);
   const std::string_view type = name.view();

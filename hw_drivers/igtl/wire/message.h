@@ -1,6 +1,6 @@
-// Messages of OpenIGTLink: 58 bytes of header, then the content, all big-endian. With a header of version 2
-// (protocol 3), 12 bytes of extended header with the message's number come first, and metadata last. Each
-// message is a datagram, or follows the last one in a stream.
+// Messages of OpenIGTLink: 58 bytes of header, then the content, all big-endian. A header of version 2
+// (protocol 3) adds 12 bytes of extended header with the message's number before the content, and metadata
+// after it. Each message is a datagram, or follows the last one in a stream.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Name {
   std::array<char, kLength> letters{};
   Name() = default;
   explicit Name(std::string_view text) noexcept { text.copy(letters.data(), kLength); }
-  std::string_view view() const&& = delete;  // it would outlive the letters
+  std::string_view view() const&& = delete;  // the view would outlive the letters
   [[nodiscard]] std::string_view view() const& noexcept {
     const std::string_view all(letters.data(), kLength);
     return all.substr(0, all.find('\0'));
@@ -64,11 +64,11 @@ enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum, no_chec
 // A message to send, in a buffer that never grows.
 class Written {
  public:
-  // Version 2, numbered, with a pair of words.
+  // Version 2, numbered, with one key and its value.
   Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
           std::span<const std::byte> content, std::string_view key = {},
           std::string_view value = {}) noexcept;
-  // Version 1, for peers that support no other.
+  // Version 1, for peers that support only this version.
   Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
           std::span<const std::byte> content) noexcept;
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {bytes_.data(), size_}; }
@@ -81,7 +81,7 @@ class Written {
   std::size_t size_ = 0;
 };
 
-// The value of a key in metadata; empty: no such key.
+// The value of a key in metadata; empty: the key is missing.
 [[nodiscard]] std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept;
 
 // Extracts messages from a stream of bytes, in any pieces. It skips messages longer than any message of a
@@ -91,7 +91,7 @@ class Stream {
   static constexpr std::size_t kMost = 1U << 13U;  // largest message: some hundred tools
 
   void begin() noexcept { *this = Stream(std::move(bytes_)); }  // starts another stream, with no data yet
-  // Space for the next bytes, never empty unless lost(); then the number of bytes that came.
+  // Space for the next bytes; it is empty only if lost(). Call came() with the number of bytes received.
   [[nodiscard]] std::span<std::byte> room() noexcept;
   void came(std::size_t count) noexcept { end_ += count; }
   // The next message, header and body; empty: not complete yet. Valid until room() is called.

@@ -18,14 +18,14 @@ namespace enc::images {
 namespace {
 
 constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xff\xd8\xff";
-constexpr std::size_t kHeader = 1U << 16U;       // bytes, in which nearly every header stands
+constexpr std::size_t kHeader = 1U << 16U;       // bytes: nearly every header fits
 constexpr std::size_t kLongestFile = 1U << 28U;  // bytes
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& way_out) {
   throw Error(fmt::format("{}: {}; expected a whole PNG or JPEG image; {}", name, what, way_out));
 }
 
-// Nothing but a file: a named pipe would be waited for.
+// Reads only regular files: opening a named pipe would block.
 std::string bytes_of(const std::string& path, std::size_t most) {
   std::error_code none;
   if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
@@ -65,7 +65,7 @@ const unsigned char* as_bytes(std::string_view text) {
   return reinterpret_cast<const unsigned char*>(text.data());
 }
 
-// Nothing in a size, where the header is longer than what is given.
+// Returns an empty size if the header is longer than the given bytes.
 ImageSize jpeg_size(std::string_view bytes, const std::string& name, const JpegReader& reader) {
   int width = 0, height = 0, sampling = 0, colours = 0;
   if (tjDecompressHeader3(reader.handle, as_bytes(bytes), bytes.size(), &width, &height, &sampling,
@@ -74,7 +74,7 @@ ImageSize jpeg_size(std::string_view bytes, const std::string& name, const JpegR
   return checked(width, height, name);
 }
 
-// IHDR is always first: its length and name, then width and height, the highest byte first.
+// IHDR is always first: its length and name, then width and height in big-endian order.
 ImageSize png_size(std::string_view bytes, const std::string& name) {
   if (bytes.size() < 24 || bytes.substr(12, 4) != "IHDR")
     refuse(name, "is cut off or damaged in its header", "make or copy it again");
@@ -91,7 +91,7 @@ void make_room(const ImageSize& size, Image& into) {
 }
 
 void decode_png(std::string_view bytes, const std::string& name, Image& into) {
-  const ImageSize size = png_size(bytes, name);  // before libpng sees it
+  const ImageSize size = png_size(bytes, name);  // check the size before libpng does
   // libpng stops reading at the last pixel.
   if (bytes.rfind("IEND\xae\x42\x60\x82") == std::string_view::npos)
     refuse(name, "is cut off before its end", "make or copy it again");
@@ -109,7 +109,7 @@ void decode_png(std::string_view bytes, const std::string& name, Image& into) {
   if (png_image_finish_read(&image, &black, into.rgb.data(), 0, nullptr) == 0) fail();
 }
 
-// A JPEG has no checksum. What libjpeg only warns of, such as an early end, is an error here.
+// A JPEG has no checksum. Warnings of libjpeg, such as an early end, count as errors here.
 void decode_jpeg(std::string_view bytes, const std::string& name, Image& into) {
   const JpegReader reader;
   const ImageSize size = jpeg_size(bytes, name, reader);

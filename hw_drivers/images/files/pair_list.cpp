@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 // ---- the names of images
 
 // Finds the part of a name that states the camera of an image, in any case: left01 and right01, L1 and R1,
-// cam0_1 and cam1_1. Names are those of files without their ending, or of folders.
+// cam0_1 and cam1_1. A name is that of a folder, or of a file without its ending.
 enum class Eye : std::uint8_t { left, right };
 
 // Kinds of marks, the plainest first. A letter stands alone or after a small one: L1, 01_l, camL. A number
@@ -58,7 +58,7 @@ std::string small_letters(std::string_view text) {
   return small;
 }
 
-// A name whose part from `at` on says the side, and what the other side has in its place.
+// A name whose part at `at` states the side; the partner's name has `other` in its place.
 Marked marked(std::string_view name, std::size_t at, std::size_t length, std::string_view other) {
   Marked out{std::string(name), small_letters(name)};
   out.rest.erase(at, length);
@@ -66,7 +66,7 @@ Marked marked(std::string_view name, std::size_t at, std::size_t length, std::st
   return out;
 }
 
-// Whether what begins at `at` is the end or the beginning of a word that says no side.
+// True if the letters at `at` end or begin a word that states no side.
 bool of_other_word(std::string_view small, std::size_t at) {
   constexpr std::array<std::string_view, 5> kEnd{"bright", "upright", "wright", "copyright", "cleft"};
   const std::string_view word = small.substr(at, small[at] == 'l' ? 4 : 5);
@@ -99,7 +99,7 @@ std::vector<Marked> letters_in(std::string_view name, Eye eye) {
   return found;
 }
 
-// Whether the word before a number is one for a camera. A number of a file that counts images is none.
+// True if the word before a number means a camera. A file needs a second number that counts its images.
 bool numbers_cameras(std::string_view before, std::string_view behind, Named named) {
   constexpr std::array<std::string_view, 2> kCameras{"cam", "camera"};
   constexpr std::array<std::string_view, 14> kFolders{"c",      "eye",    "image", "images", "img",
@@ -120,7 +120,7 @@ bool numbers_cameras(std::string_view before, std::string_view behind, Named nam
 }
 
 std::vector<Marked> numbers_in(std::string_view name, Eye eye, Named named) {
-  constexpr std::size_t kLongest = 2;  // digits: longer numbers count images or are of a maker
+  constexpr std::size_t kLongest = 2;  // digits: longer numbers count images or belong to a maker
   const std::string small = small_letters(name);
   std::vector<Marked> found;
   for (std::size_t at = 0, end = 0; at < small.size(); at = end + 1) {
@@ -135,7 +135,7 @@ std::vector<Marked> numbers_in(std::string_view name, Eye eye, Named named) {
   return found;
 }
 
-// Without leading zeros; leaves `at` behind it.
+// The number without leading zeros; moves `at` behind it.
 std::string_view number_at(const std::string& text, std::size_t& at) {
   while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
   const std::size_t begin = at;
@@ -188,7 +188,7 @@ std::vector<fs::path> images_in_folder(const fs::path& folder, std::error_code& 
   return found;
 }
 
-// By name, in small letters and without the ending.
+// Files by name, in small letters and without the ending.
 using Files = std::map<std::string, fs::path, NaturalOrder>;
 
 Files by_name(const std::vector<fs::path>& files) {
@@ -223,7 +223,7 @@ std::vector<PairFiles> in_order(std::vector<std::pair<std::string, PairFiles>> n
 
 struct EyeFolder {
   std::string name;
-  fs::path path;  // where its images are: in it, or in the only folder in it that has any
+  fs::path path;  // the folder that holds its images: itself, or its only subfolder with images
   std::vector<fs::path> images;
 };
 
@@ -239,7 +239,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return folders;
 }
 
-// Of a folder that cannot be read: none.
+// Empty if the folder cannot be read.
 std::vector<fs::path> readable_images(const fs::path& folder) {
   std::error_code failed;
   return images_in_folder(folder, failed);
@@ -295,8 +295,8 @@ std::optional<FolderPair> two_folders(const fs::path& folder) {
   return {};
 }
 
-// Names that an image in the folder of its eye may have for its partner: as it is, or without what says the
-// side and what joined that to the rest.
+// Names that may match an image with its partner in the other eye's folder: the whole name, or the name
+// without its side and the joint before or after it.
 std::vector<std::string> shared_names(const fs::path& file, Eye eye) {
   constexpr const char* kJoints = "_-. ";
   const std::string name = file.stem().string();
@@ -314,7 +314,7 @@ std::vector<std::string> shared_names(const fs::path& file, Eye eye) {
 std::vector<PairFiles> pairs_of(const FolderPair& folders) {
   const Files left = by_name(folders.left.images), right = by_name(folders.right.images);
   std::map<std::string, fs::path> partners;
-  for (const auto& [name, file] : right)  // a whole name stands above one without its side
+  for (const auto& [name, file] : right)  // a whole name takes precedence over one without its side
     partners.emplace(name, file);
   for (const auto& [name, file] : right)
     for (const std::string& shared : shared_names(file, Eye::right)) partners.emplace(shared, file);
@@ -344,7 +344,7 @@ bool says(const fs::path& file, Mark mark, Eye eye) {
 
 struct Flat {
   std::vector<std::pair<std::string, PairFiles>> pairs;
-  std::map<fs::path, Eye> eyes;  // of those in pairs
+  std::map<fs::path, Eye> eyes;  // eyes of the images in pairs
 };
 
 Flat paired(const Files& files, Mark mark) {
@@ -377,7 +377,7 @@ void refuse_singles(const Files& files, const Flat& flat, Mark mark) {
         refuse_single(file, eye, left, right);
 }
 
-// The first that makes pairs; else words, where one is there, and letters, where all images have one.
+// The first mark that makes pairs. Otherwise words, if any image has one, or letters, if all images have one.
 std::optional<Mark> mark_of(const std::vector<fs::path>& images) {
   Files files;
   for (const fs::path& image : images) files.emplace(small_letters(image.stem().string()), image);
@@ -411,7 +411,7 @@ std::vector<fs::path> found_in(const fs::path& folder) {
   return found;
 }
 
-// True if any name in the folder states a side, or if it contains only folders: then its images are not side
+// True if any name in the folder states a side, or if it contains only folders. Its images are then not side
 // by side.
 bool has_sides(const fs::path& folder) {
   const std::vector<fs::path> images = found_in(folder);
@@ -492,7 +492,7 @@ ImageSize half_of(const ImageSize& both, const std::string& path) {
                   contents.empty() ? "" : ", only ", contents));
 }
 
-// The first pair as an example of all.
+// Describes the first pair as an example.
 std::string words_for(const PairList& list, const std::string& folder, std::size_t others) {
   const auto short_name = [&](const std::string& path) {
     return fs::path(path).lexically_relative(folder).string();

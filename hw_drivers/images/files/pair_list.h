@@ -32,8 +32,8 @@ struct PairList {
 // side_by_side if no name of a file or folder states a side.
 [[nodiscard]] Layout layout_of(const std::string& folder);
 
-// Reads all headers. Throws Error in one line that names the file: no folder, no images in it, one without
-// its partner, one of another size, one that is not an image.
+// Reads all headers. Throws Error in one line that names the file: no folder, no images in it, an image
+// without its partner, of another size, or of another format.
 [[nodiscard]] PairList list_pairs(const std::string& folder, Layout layout);
 
 // The pixels of a pair; the memory is reused. Throws Error: damaged, or no longer of the list's size.

@@ -43,8 +43,8 @@ class FolderSource final : public FrameSource {
   std::size_t next_ = 0;
 };
 
-// A video of two images side by side, through ffmpeg, where there is one. It writes each frame as PPM, which
-// is RGB as it is behind a line with its size: so nobody has to be asked for the size beforehand.
+// Command to decode a video of side-by-side images with ffmpeg. ffmpeg writes each frame as PPM: RGB bytes
+// after a header with the size. So the size need not be queried first.
 std::vector<std::string> command(const std::string& path) {
   return {"ffmpeg",     "-nostdin", "-v",  "error",    "-i",    "file:" + path, "-map",        "0:v:0", "-f",
           "image2pipe", "-c:v",     "ppm", "-pix_fmt", "rgb24", "-vsync",       "passthrough", "-"};
@@ -55,7 +55,7 @@ std::string last_words(Child& ffmpeg) {
   Child::End end = ffmpeg.wait();
   std::string& line = end.error;
   if (const std::size_t part = line.find("] "); line.starts_with('[') && part != std::string::npos)
-    line.erase(0, part + 2);  // which part of ffmpeg says it, and where that is in memory
+    line.erase(0, part + 2);  // removes the name and address of the part of ffmpeg
   if (!line.empty()) return line;
   return end.success ? "" : end.how;
 }
@@ -122,7 +122,7 @@ class VideoSource final : public FrameSource {
     throw Error(fmt::format("{}: ffmpeg finds no frame in it ({}); expected a video or a folder of images",
                             reel_.path, words.empty() ? "no error told" : words));
   }
-  // "P6\n1280 480\n255\n". False at the end.
+  // Reads "P6\n1280 480\n255\n"; returns false at the end.
   bool read_header() {
     std::string header;
     for (int lines = 0; lines < 3;) {
@@ -153,11 +153,11 @@ class VideoSource final : public FrameSource {
   }
 
   Reel reel_;
-  std::mutex child_changes_;  // against stop()
+  std::mutex child_changes_;  // guards against stop()
   std::unique_ptr<Child> child_;
   std::atomic<bool> stopped_ = false;
   bool waiting_ = false;  // a header has been read
-  ImageSize size_;        // of both images
+  ImageSize size_;        // size of both images together
   Image both_;
 };
 

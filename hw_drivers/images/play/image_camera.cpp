@@ -36,10 +36,10 @@ void Playback::wake() noexcept {
   calls_.notify_all();
 }
 
-// A place is free once the frame in it is no longer in use.
+// Reads frames ahead. A slot is free once its frame is no longer in use.
 void Playback::read_ahead() {
   while (!over_) {
-    const int calls = calls_;  // before anything is looked at: a call that comes meanwhile is not missed
+    const int calls = calls_;  // read first, so that a later call is not missed
     if (stop_) return;
     const int frame = read_;
     if (frame - taken_ == kSlots)
@@ -60,7 +60,8 @@ bool Playback::read(std::int64_t frame) {
   return true;
 }
 
-// Each once, and the end only when it has been reached: frames are read before they are due.
+// Reports each event once. The end is reported only when playback reaches it, because frames are read before
+// they are due.
 void Playback::tell() {
   bool late_told = false;
   for (State told = State::playing;;) {
@@ -91,7 +92,7 @@ bool Playback::take(Time now) noexcept {
     begun_ = true;
     frames_.phase = now.time_since_epoch();
   }
-  constexpr double kPatience = 0.5;  // s, and some frames
+  constexpr double kPatience = 0.5;  // s, plus some frames
   bool newer = false;
   for (; frames_.next() <= now; ++frames_.n) {
     if (!there()) {
@@ -132,7 +133,7 @@ ImageCamera::ImageCamera(const Reel& reel, Log& log, bool waits) {
 
 bool ImageCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   using State = Playback::State;
-  // The end comes after the last frame, though both may be known at once.
+  // The end comes after the last frame, even if both are known at once.
   const bool newer = playback_->take(now);
   const State state = newer ? State::playing : playback_->state();
   if (!newer && state == told_) return false;

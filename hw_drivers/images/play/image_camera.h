@@ -14,12 +14,12 @@
 
 namespace enc::images {
 
-// Plays a source at a rate. One thread reads ahead, so that the loop never waits for a file; another one
+// Plays a source at a rate. One thread reads ahead, so that the loop never waits for a file. Another thread
 // reports events, because the first may hang in a file.
 //
-// The due frame depends only on the time: in every run equal frames come at equal times, however fast it
-// runs. A run without a wall clock (`--pace free`) waits for a frame that is due but not read yet. So it can
-// be repeated to the bit. A run on the wall clock never waits: the frame is then late, and that is reported.
+// The due frame depends only on the time: equal frames come at equal times in every run, at any speed. A run
+// without a wall clock (`--pace free`) waits for a frame that is due but not read yet. So it can be repeated
+// to the bit. A run on the wall clock never waits: it reports the late frame instead.
 class Playback {
  public:
   enum class State : std::uint8_t { playing, stalled, ended, failed };
@@ -32,7 +32,7 @@ class Playback {
   Playback(const Playback&) = delete;
   Playback& operator=(const Playback&) = delete;
 
-  // Goes to the newest frame that is due; returns false if that is the present one.
+  // Goes to the newest due frame; returns false if that is the present one.
   bool take(Time now) noexcept;
   // The present frame, valid until the next take().
   [[nodiscard]] const ImagePair& frame() const { return slots_[slot(frames_.n - 1)]; }

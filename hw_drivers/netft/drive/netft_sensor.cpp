@@ -77,7 +77,7 @@ std::vector<std::byte> ask_calibration(const NetftSettings& settings) {
 
 void agree(std::span<const std::byte> answer, const Configuration& page, const NetftSettings& settings) {
   Calibration says;
-  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * b; };  // NaN is like nothing
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * b; };  // NaN equals nothing
   if (read(answer, says) && same(says.per_force / force_of_code(says.force_unit), page.per_newton) &&
       same(says.per_torque / torque_of_code(says.torque_unit), page.per_newton_metre))
     return;
@@ -130,7 +130,7 @@ Configuration inspect(const std::string& xml, const NetftSettings& settings, Dur
 
 namespace {
 
-constexpr int kMostRecords = 4096;  // of a read: more than a socket holds
+constexpr int kMostRecords = 4096;  // per read: more than a socket buffer holds
 
 }  // namespace
 
@@ -150,7 +150,7 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
     }
   first_record();
   if (wall_clock_) find_counter_rate();
-  if (!lockstep_) ask(Command::stop);  // until the run begins: what fills the socket before is old then
+  if (!lockstep_) ask(Command::stop);  // until the run begins; records before it are discarded
 }
 
 NetftSensor::~NetftSensor() { ask(Command::stop); }
@@ -171,12 +171,13 @@ void NetftSensor::first_record() {
   }
 }
 
-// Watches records until the rate is known. Where the run does not keep the wall clock, the box is our fake.
+// Watches records until the rate is known. Only called on the wall clock, since other runs use our fake with
+// its known rate.
 void NetftSensor::find_counter_rate() {
   constexpr double kLeast = 0.4, kMost = 3.0;  // s
   constexpr Duration kTurn{10'000'000};
   CounterRate rate(settings_.counter);
-  double watched = 0.0;  // s, when the rate was last looked for
+  double watched = 0.0;  // s, when the rate was last checked
   for (const Duration until = net::steady_now() + from_seconds(kMost); net::steady_now() < until;) {
     socket_.wait(kTurn);
     for (Record record; receive();)
@@ -218,21 +219,23 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   if (first) begun_ = now;
   if (first && lockstep_) session_.take(std::span(datagram_).first(size_), now);
   if (first && !lockstep_) {
-    while (receive()) {  // of before
+    while (receive()) {  // discard old records
     }
     ask(Command::start);
-    // Nothing has moved yet, and without a record the first tick would hold: no reading but this one waits.
+    // Only the first read waits. The machine has not moved yet, and without a record the first tick would
+    // hold.
     socket_.wait(period_);
   }
-  if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
+  if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one record for each period
   const std::int64_t before = session_.counts().records;
   for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)
     session_.take(std::span(datagram_).first(size_), arrival_.of(now, socket_.came()));
-  // When it was read, not when it came: what a tick that was held up has lost in a full socket is no silence.
+  // The silence counts from the time of reading, not of arrival. Records lost in a full socket during a
+  // delayed tick are not silence.
   if (session_.counts().records > before) heard_ = arrival_.of(now, net::steady_now());
   Stamped<Wrench> newest = session_.newest();
-  newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
-  if (linked_) read_ = now;            // afterwards nobody listens
+  newest.t = std::min(newest.t, now);  // the record may be newer than the time of a delayed tick
+  if (linked_) read_ = now;            // after a lost link, the silence no longer grows
   if (silence() > settings_.silent + 1e-9) linked_ = false;
   if (!linked_) newest.health = Health::fault;
   return newest;
@@ -251,7 +254,7 @@ std::vector<std::string> NetftSensor::remarks() const {
                   1e3 * std::max(counts.longest_gap, silence()));
   if (counts.beyond > 0) line += fmt::format("; {} beyond the rating of an axis (cfgmr)", counts.beyond);
   if (counts.status != 0) line += "; " + status_words(counts.status);
-  // Two quartzes differ by a tenth of this share of the rate.
+  // Two quartz clocks differ by a tenth of this share of the rate.
   constexpr double kRight = 1e-3;
   const double counted = wall_clock_ ? session_.counted() : kUnset;
   if (std::abs(counted - counter_rate_) > kRight * counter_rate_)

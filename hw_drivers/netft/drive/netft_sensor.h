@@ -54,8 +54,8 @@ class NetftSensor final : public ForceSensor {
   void ask(Command command) noexcept;
   void first_record();
   void find_counter_rate();
-  bool receive() noexcept;  // into datagram_
-  // s, from the last record to the last read; in lockstep there is no silence.
+  bool receive() noexcept;  // receives into datagram_
+  // s, from the last record to the last read; always 0 in lockstep.
   [[nodiscard]] double silence() const noexcept;
 
   NetftSettings settings_;

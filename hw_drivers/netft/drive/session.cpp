@@ -12,11 +12,11 @@ namespace enc::netft {
 
 namespace {
 
-// A Net Box, and the ADC rates of an Axia: 3906.25 Hz and what halves or doubles it (its manual, 9620-05-C,
-// table 5.5, has them rounded).
+// Rates of a Net Box and of the ADC of an Axia: 3906.25 Hz times powers of two (its manual, 9620-05-C, table
+// 5.5, gives them rounded).
 constexpr std::array<double, 6> kRates{kNetBoxRate, 488.28125, 976.5625, 1953.125, 3906.25, 7812.5};
-// The share of a known rate by which a measured one may differ. A quartz is within 0.0001; the quickest
-// records of 0.4 s tell the rate to some 0.001 where the network is busy, and those of 3 s yet better.
+// Tolerance to a known rate, as a share of it. A quartz is within 0.0001. The quickest records of 0.4 s give
+// the rate to some 0.001 on a busy network, and those of 3 s give it more precisely.
 constexpr double kWithin = 0.003;
 constexpr std::size_t kFewest = 20;
 
@@ -33,8 +33,8 @@ void CounterRate::take(std::uint32_t sample, Duration came) {
 
 double CounterRate::watched() const noexcept { return seen_.empty() ? 0.0 : seen_.back().came; }
 
-// A record may be late and is never early. So the quickest record of the first quarter and that of the last
-// tell the rate; which ones are the quickest depends on the rate, so it is found again with each better rate.
+// A record may be late but never early. So the quickest records of the first and of the last quarter give the
+// rate. Which records are the quickest depends on the rate, so the search repeats with each better rate.
 double CounterRate::measured() const noexcept {
   if (seen_.size() < kFewest || !(watched() > 0.0)) return kUnset;
   double rate = seen_.back().sample / watched();
@@ -70,9 +70,9 @@ std::string grouped(double rate) {
 
 namespace {
 
-constexpr std::int32_t kMost = 70'000;  // samples from one record to the next: ten seconds
+constexpr std::int32_t kMost = 70'000;  // samples between two records: ten seconds
 
-// The counter of samples goes round.
+// Difference of two counter values; the sample counter wraps around.
 std::int32_t ahead(std::uint32_t sample, std::uint32_t of) noexcept {
   return static_cast<std::int32_t>(sample - of);
 }
@@ -97,13 +97,13 @@ bool Session::believed(const Record& record) noexcept {
     ++counts_.wrong;
     return false;
   }
-  tie_.forget();  // another box, or this one began anew
+  tie_.forget();  // another box, or this one was restarted
   begun_anew_ = true;
   number_ = record.number;
   return true;
 }
 
-// Beyond its rating a transducer is not linear, and nothing of its calibration holds.
+// Beyond its rating a transducer is not linear, and its calibration is not valid.
 bool Session::within_rating(const Record& record) const noexcept {
   for (std::size_t i = 0; i < kAxes; ++i)
     if (std::abs(record.counts[i] / (i < 3 ? of_.per_newton : of_.per_newton_metre)) > of_.ratings[i])
@@ -145,7 +145,7 @@ void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
 }
 
 double Session::counted() const noexcept {
-  // One record that came 10 ms late changes the rate of so many seconds by 0.03 %.
+  // A record that comes 10 ms late changes the rate over this time by 0.03 %.
   constexpr double kLeast = 30.0;
   const double lasts = begun_ ? age(last_, since_) : 0.0;
   return lasts >= kLeast ? static_cast<double>(samples_ - since_samples_) / lasts : kUnset;

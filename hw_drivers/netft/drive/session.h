@@ -62,12 +62,12 @@ struct Counts {
 
 class Session {
  public:
-  // counter_rate: of the box's own sample counter, Hz. Lockstep: a record has the time of its arrival.
+  // counter_rate: rate of the box's own sample counter, Hz. In lockstep a record has the time of its arrival.
   Session(const Configuration& of, Duration least_delay, bool lockstep, double counter_rate = kNetBoxRate)
       : of_(of), tie_(least_delay), counter_rate_(counter_rate), lockstep_(lockstep) {}
 
-  // A record has no checksum. A record whose counter is far from the expected value is accepted only when the
-  // next one continues from there, as after a restart of the box.
+  // A record has no checksum. A record whose counter is far from the expected value counts only if the next
+  // one continues from there, as after a restart of the box.
   void take(std::span<const std::byte> datagram, Time now) noexcept;
   // absent before the first record
   [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }

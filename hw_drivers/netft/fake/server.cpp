@@ -32,7 +32,7 @@ bool Box::take(std::span<const std::byte> bytes) noexcept {
   if (!read(bytes, request)) return false;
   switch (request.command) {
     case Command::start:
-    case Command::start_buffered:  // of one record each
+    case Command::start_buffered:  // sends one record per datagram
       streams_ = true;
       number_ = 0;
       left_ = request.samples;
@@ -63,7 +63,7 @@ Record Box::record(Time now) noexcept {
     record.counts[i] =
         static_cast<std::int32_t>(std::llround(std::clamp(counts_[i] - bias_[i], -kMost, kMost)));
   }
-  // The counter goes on where the world has begun anew, and never stands.
+  // The counter continues after a restart of the simulation, and always advances.
   const auto at = [&] {
     return first_ + static_cast<std::uint32_t>(
                         static_cast<std::uint64_t>(seconds(now.time_since_epoch()) * counter_rate_ + 1e-6));
@@ -80,7 +80,7 @@ Record Box::record(Time now) noexcept {
 
 std::vector<std::byte> Box::answer(std::span<const std::byte> question, Time now) {
   const auto bytes = [](const auto& all) { return std::vector<std::byte>(all.begin(), all.end()); };
-  constexpr std::uint16_t kScale = 16384;  // so that the ratings fit into 16 bits
+  constexpr std::uint16_t kScale = 16384;  // makes the ratings fit into 16 bits
   Ask ask;
   if (!read(question, ask)) return {};
   if (ask.question == Question::calibration) {
@@ -123,7 +123,7 @@ std::string Server::describe() const {
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
-  if (line_.dead()) return;  // what is not taken would wake us for ever
+  if (line_.dead()) return;  // unread data would wake the server without end
   descriptors.push_back(records_.descriptor());
   descriptors.push_back(listener_.descriptor());
   descriptors.push_back(commands_.descriptor());
@@ -137,7 +137,7 @@ void Server::serve(Time now) {
   for (std::size_t got = records_.receive(bytes); got > 0; got = records_.receive(bytes)) {
     const bool streamed = box_.streams();
     if (!box_.take(std::span(bytes).first(got))) continue;
-    records_.answer_sender();  // who asked for records gets them
+    records_.answer_sender();  // the client that requested records receives them
     if (!streamed) line_.begin(now);
     send(now);
   }
@@ -155,7 +155,7 @@ void Server::send(Time now) {
 }
 
 bool Server::knows(const Trouble& trouble) const {
-  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();  // its codes are status words
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();  // error codes are status words
   if (trouble.kind == Trouble::Kind::error_code) return !(trouble.value < 0.0 || trouble.value > kMost);
   return trouble.kind == Trouble::Kind::saturate || line_.knows(trouble.kind);
 }
@@ -183,7 +183,7 @@ void Server::accept(net::Socket& listener, std::vector<Reader>& readers) {
   }
 }
 
-// Questions of 20 bytes, one behind the other.
+// Answers queries of 20 bytes, which may follow each other without a gap.
 void Server::serve_commands(Time now) {
   accept(commands_, askers_);
   for (Reader& asker : askers_) {

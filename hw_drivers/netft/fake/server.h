@@ -1,4 +1,4 @@
-// The fake of a Net Box: what its clients see of it, and its ports.
+// The fake of a Net Box: its data and its ports.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,7 @@
 
 namespace enc::netft {
 
-// A Net Box as its clients see it, in front of any force sensor of the core. It uses neither sockets nor
-// clocks.
+// Simulated Net Box for any force sensor of the core. It uses neither sockets nor clocks.
 
 // A Gamma SI-130-10 on a box that sends a record each millisecond.
 [[nodiscard]] Configuration gamma();
@@ -89,7 +88,7 @@ class Server final : public Fake {
   Box box_;
   std::string address_;
   net::Socket records_, listener_, commands_;
-  net::BadLine line_;  // records only; page and commands are only available or not
+  net::BadLine line_;  // used for records; page and commands either work or do not
   std::vector<Reader> readers_, askers_;
 };
 

@@ -19,7 +19,7 @@ struct Bit {
   unsigned bit;
   const char* words;
 };
-// Of the Net F/T; an Axia has another table.
+// Status bits of the Net F/T; an Axia uses another table.
 constexpr Bit kBits[] = {
     {30, "CPU or RAM"},
     {29, "digital board"},

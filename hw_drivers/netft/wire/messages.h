@@ -39,7 +39,7 @@ struct Record {
 [[nodiscard]] std::array<std::byte, kRecord> bytes_of(const Record& record) noexcept;
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Record& record) noexcept;
 
-inline constexpr std::uint32_t kError = 1U << 31U;      // any of the others
+inline constexpr std::uint32_t kError = 1U << 31U;      // any other fault
 inline constexpr std::uint32_t kSaturated = 1U << 17U;  // transducer or its converter
 inline constexpr std::uint32_t kMonitor = 1U << 16U;    // a threshold set by the user was met: not a fault
 
@@ -60,7 +60,7 @@ struct Ask {
   bool bias = false, clear_latch = false;  // READFT only: sysCommands
 };
 [[nodiscard]] std::array<std::byte, kAskSize> bytes_of(const Ask& ask) noexcept;
-// Returns false if the bytes are not a request, or one of another command.
+// Returns false if the bytes are not a request, or are a request of another command.
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Ask& ask) noexcept;
 
 struct Reading {

@@ -48,7 +48,7 @@ void HttpAnswer::take(std::string_view bytes) {
     wrong_ = fmt::format("answered with more than {} bytes", kMostHttp);
     return;
   }
-  // What was looked through is not looked through again, or small pieces cost the square of their sum.
+  // Search only the new bytes for the end of the head. Repeated searches would cost the square of the length.
   const std::size_t from = all_.size() - std::min(all_.size(), kEnd.size() - 1);
   all_.append(bytes);
   if (head_ == 0) read_head(from);
@@ -141,9 +141,9 @@ double number(std::string_view text) {
 
 struct Page {
   pugi::xml_node root;
-  std::string wrong{};  // the first of it
+  std::string wrong{};  // first problem
 
-  // A tag that must be there once; what is there twice is not to be believed either way.
+  // Text of a tag that must occur once. If it occurs twice, neither value can be trusted.
   std::optional<std::string> text(const char* tag, bool needed) {
     const pugi::xml_node first = root.child(tag);
     if (first && first.next_sibling(tag)) say(fmt::format("has two <{}>", tag));
@@ -163,7 +163,7 @@ struct Page {
   }
 };
 
-// Three forces and three torques, in the units of the page.
+// Reads three forces and three torques, in the units of the page.
 void read_ratings(std::string_view rest, double newtons, double newton_metres, Configuration& read) {
   for (std::size_t i = 0; i < read.ratings.size(); ++i) {
     const std::size_t end = std::min(rest.find(';'), rest.size());

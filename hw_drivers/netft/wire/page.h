@@ -21,13 +21,13 @@ inline constexpr std::size_t kMostHttp = 80'000;  // bytes of an answer, head an
 class HttpAnswer {
  public:
   void take(std::string_view bytes);
-  void closed();  // the other side has sent everything
+  void closed();  // call this when the other side has sent everything
   [[nodiscard]] bool complete() const { return complete_ || !wrong_.empty(); }
   [[nodiscard]] const std::string& wrong() const { return wrong_; }  // empty: no fault
   [[nodiscard]] std::string_view body() const { return std::string_view(all_).substr(head_); }
 
  private:
-  // Its end is at `from` or later, or has not come.
+  // The end of the head lies at `from` or later, or has not come yet.
   void read_head(std::size_t from);
 
   std::string all_, wrong_;
@@ -36,7 +36,7 @@ class HttpAnswer {
   bool complete_ = false;
 };
 
-// "/netftapi2.xml" for "GET /netftapi2.xml HTTP/1.1"; empty: not complete yet, or not a request.
+// Returns "/netftapi2.xml" for "GET /netftapi2.xml HTTP/1.1"; empty: not complete yet, or not a request.
 [[nodiscard]] std::string_view requested_path(std::string_view request);
 
 // The configuration that a Net F/T reports over HTTP: netftapi2.xml.
@@ -56,8 +56,8 @@ struct Configuration {
   int filter = 0;       // setuserfilter
 };
 
-// Newtons, or newton metres, of a unit in the numbering of the command interface; unset: no unit has that
-// number.
+// Newtons, or newton metres, of a unit in the numbering of the command interface; unset: the number has no
+// unit.
 [[nodiscard]] double force_of_code(int code) noexcept;   // 1 lbf, 2 N, 3 klbf, 4 kN, 5 kg, 6 g
 [[nodiscard]] double torque_of_code(int code) noexcept;  // 1 lbf-in, 2 lbf-ft, 3 N-m, 4 N-mm, 5 kg-cm, 6 kN-m
 
