@@ -89,7 +89,7 @@ std::string parts_text(const models::Setup& setup) {
 std::string devices_text(const std::vector<trial::DeviceWords>& devices) {
   std::string text;
   for (const trial::DeviceWords& d : devices) {
-    std::string words = d.words;  // of a driver: one line, whatever it says
+    std::string words = d.words;  // a driver's text, made into one line
     std::replace_if(
         words.begin(), words.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     text += fmt::format("device      {}: {}{}\n", d.role, d.there ? "" : "NOT THERE: ", words);

@@ -11,17 +11,17 @@
 
 namespace enc::app {
 
-// The words in which a hexapod and an arm differ, chosen once for a scene.
+// Words that differ between a hexapod and an arm, chosen once for a scene.
 struct MachineWords {
-  std::size_t row;        // of the machine in tables of functions
-  const char* tip;        // what the machine moves, and whence its place is known
-  const char* tracked;    // what the tracker follows
-  const char* tool;       // what meets the objects, in a picture
-  const char* met;        // what does not happen in an empty contact
-  const char* section;    // of the rig file, with the machine's law
-  const char* law;        // what the law gives
-  const char* held_back;  // by the passivity controller
-  const char* energy_by;  // what measures the energy of a contact
+  std::size_t row;        // row of the machine in tables of functions
+  const char* tip;        // the machine's moving part, and the source of its position
+  const char* tracked;    // the tracked part
+  const char* tool;       // the part that touches the objects, in a picture
+  const char* met;        // word for a real contact
+  const char* section;    // section of the rig file with the machine's law
+  const char* law;        // quantity that the machine's law gives
+  const char* held_back;  // quantity that the passivity controller limits
+  const char* energy_by;  // instrument that measures the energy of a contact
   PassivityForm (*passivity)(const RigSpec& rig);
 };
 
@@ -74,8 +74,8 @@ struct SeenParts {
 // Prints repairs of meshes, one line each, on standard error.
 void print_notes(const std::vector<std::string>& notes);
 
-// One line for each object rendered less deep than it asks, because the machine cannot carry its force; or
-// empty.
+// One line for each object that is rendered less deep than its file asks, because the machine cannot carry
+// its force; or empty.
 [[nodiscard]] std::string weak_text(const models::Setup& setup, const Scene& scene);
 
 }  // namespace enc::app

@@ -36,14 +36,14 @@ struct Doctor {
   }
 };
 
-// Opened and closed again: nothing stays mapped.
+// Opens the library and closes it again, so that it does not stay mapped.
 bool library_there(const char* name) {
   void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
   if (handle != nullptr) dlclose(handle);
   return handle != nullptr;
 }
 
-// Tried, and given back: whether a limit and a right suffice is the kernel's to say.
+// Requests real-time priority and releases it, because only the kernel decides whether they suffice.
 void say_real_time(Doctor& doctor) {
   const trial::RealTime tried(true);
   doctor.say(tried.granted(), Need::may,
@@ -64,7 +64,7 @@ class Keys final : public Settings {
   void add(const Setting& key) { names.emplace_back(key.name); }
 };
 
-// Which roles a driver fills, and with which keys of its own.
+// Prints the roles that a driver fills, and its keys.
 void say_driver(Doctor& doctor, const std::string& name) {
   try {
     const ModuleInfo& module = load_module(name);
@@ -87,7 +87,7 @@ void say_driver(Doctor& doctor, const std::string& name) {
   }
 }
 
-// Of a module that is there: why it cannot be loaded, if so.
+// Reason why an existing module cannot be loaded; empty: it loads.
 std::string module_problem(const std::string& name) {
   try {
     (void)load_module(name);
@@ -111,7 +111,7 @@ void say_vision(Doctor& doctor) {
              "apt-get install ffmpeg; folders of images do without");
 }
 
-// ": llvmpipe (LLVM 15.0.6, 256 bits), in software".
+// Looks like ": llvmpipe (LLVM 15.0.6, 256 bits), in software".
 std::string words_of(const std::string& renderer) {
   if (renderer.empty()) return {};
   const bool software = renderer.find("llvmpipe") != std::string::npos ||
@@ -120,7 +120,7 @@ std::string words_of(const std::string& renderer) {
   return ": " + renderer + (software ? ", in software" : "");
 }
 
-// What the twin's camera can draw with: one of them is enough.
+// Prints the available renderers for the twin's camera; one is enough.
 void say_renderers(Doctor& doctor) {
   if (!module_there("camera")) return;
   try {

@@ -1,5 +1,5 @@
-// A record as a table or as MCAP, for programs that know nothing of Encounter (docs/guide/rig.md). Tick by
-// tick: a long record is never in memory as a whole.
+// Exports a record as a table or as MCAP, for other programs (docs/guide/rig.md). It works tick by tick, so a
+// long record is never in memory as a whole.
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -52,7 +52,7 @@ class Output {
   std::string buffer_;
 };
 
-// What is of a table is not of a world, and the other way round.
+// Refuses options of a table for a world, and options of a world for a table.
 void refuse_others(const ExportOptions& options) {
   const auto refuse = [](bool there, const std::string& option, const char* of, const char* instead) {
     if (there) throw Error(option + ": only of " + of + "; expected " + instead + "; leave it out");
@@ -88,7 +88,7 @@ void refuse_others(const ExportOptions& options) {
                 "record as a table with --csv");
 }
 
-// The world at its start, with all that is only looked at.
+// Writes the world at its start, including the parts that are only for show.
 int export_world(const ExportOptions& options) {
   const models::Setup setup = models::load(options.record, options.rig, options.set);
   print_notes(setup.notes);
@@ -100,7 +100,7 @@ int export_world(const ExportOptions& options) {
   return 0;
 }
 
-// As the run had it: it is of the truth, and nothing in a record's ticks says it again.
+// The energy balance as the run computed it. It is ground truth, which the record's ticks do not contain.
 std::string ledger_of(const RecordReader& record, const std::string& path) {
   const auto ledger = record.end_texts().find("ledger");
   if (ledger != record.end_texts().end()) {
@@ -119,7 +119,8 @@ std::string ledger_of(const RecordReader& record, const std::string& path) {
               ", or leave out --ledger");
 }
 
-// Gives all ticks away; false where a signal came before the last: half a file is none.
+// Passes all ticks to `take`; returns false if a signal came before the last tick, because half a file is
+// useless.
 template <class Take>
 bool take_all(RecordReader& record, bool stoppable, const Take& take) {
   for (RecordedTick frame; record.next(frame);) {
@@ -166,7 +167,7 @@ int export_record(const ExportOptions& options) {
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
   const std::string ledger = options.ledger ? ledger_of(record, options.record) : "";
-  // A pipe without a reader ends this as it ends others.
+  // Without signal handling, a pipe without a reader ends this process as usual.
   std::optional<trial::Signals> signals;
   if (mcap || csv != "-") signals.emplace().begin();
   std::string lack;

@@ -1,4 +1,5 @@
-// `encounter params`: each name that --set takes. `encounter scenes`: the shipped scenes, a line each.
+// `encounter params`: lists all names that --set takes. `encounter scenes`: lists the shipped scenes, one
+// line each.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 namespace enc::app {
 namespace {
 
-// RFC 4180: quoted where it must be.
+// Quotes a field where RFC 4180 requires it.
 std::string csv(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";

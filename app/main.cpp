@@ -1,4 +1,4 @@
-// Everything but this is a library, so that tests can link it.
+// All other code is in a library, so that tests can link it.
 #include "app/common/options.h"
 #include "app/process.h"
 

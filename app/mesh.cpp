@@ -1,5 +1,4 @@
-// `encounter mesh`: closed meshes made by rule, to try things with. `encounter nearest`: distances to a
-// surface.
+// `encounter mesh`: makes simple closed meshes for experiments. `encounter nearest`: distances to a surface.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +25,7 @@ namespace {
 struct Maker {
   std::string_view name;
   Mesh (*make)(int fine);
-  int fine;  // where --fine is not given
+  int fine;  // default of --fine
 };
 constexpr auto kMakers = std::to_array<Maker>({
     {"ball", [](int n) { return models::geodesic_ball(n); }, 71},
@@ -58,7 +57,7 @@ int mesh(const MeshOptions& options) {
 
 namespace {
 
-// A surface and where it stands: in its own axes, or in W.
+// A surface and its pose: in its own axes, or in W.
 struct Placed {
   Surface surface;
   Pose<'W', 'O'> X_WO = Pose<'W', 'O'>::identity();
@@ -88,7 +87,7 @@ Placed placed(const std::string& what) {
 }  // namespace
 
 int nearest(const NearestOptions& options) {
-  // All is read before anything is printed, so that a bad line gives no half answer.
+  // Read all points before printing, so that a bad line leaves no partial output.
   const std::vector<Vec3> all = models::parse_places(
       models::csv_text(options.points, "list of points", "a CSV file with the header x_m,y_m,z_m"),
       options.points);

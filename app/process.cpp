@@ -22,7 +22,7 @@
 namespace enc::app {
 
 void fill_streams() {
-  // The lowest that is free is given out.
+  // open() returns the lowest free descriptor.
   int fd = 0;
   while (fd >= 0 && fd <= STDERR_FILENO) fd = open("/dev/null", O_RDONLY);
   if (fd > STDERR_FILENO) close(fd);
@@ -56,7 +56,7 @@ int thread_count() {
 }
 
 double peak_memory_mb() {
-  // Not getrusage(): that of a child begins with what its parent had.
+  // Do not use getrusage(): a child's maximum begins with that of its parent.
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
     if (word == "VmHWM:") {

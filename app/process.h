@@ -1,5 +1,5 @@
-// This process: its resources by the kernel's account, so that "left out" can be checked, checks that its
-// output was written, and the programs that it can start.
+// This process: its resources as the kernel reports them, so that "left out" can be checked. Also checks that
+// output was written, and finds programs to start.
 #pragma once
 
 #include <string>

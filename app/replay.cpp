@@ -31,7 +31,7 @@ struct SeenAgain {
   std::vector<std::string> said;  // messages of the driver that plays the folder, if there is a difference
 };
 
-// The record's rig with a driver that plays the folder.
+// Gives the record's rig a driver that plays the folder.
 void play(models::Setup& setup, const std::string& folder) {
   setup.rig.camera.driver = "images";
   const DriverTable table{"images",
@@ -50,7 +50,8 @@ bool same(const std::array<double, N>& a, const std::array<double, N>& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-// A link that was lost is the run's affair: then the record says fault, whatever vision told.
+// A link lost during the run does not count as a difference: the record then reports a fault, whatever vision
+// reported.
 std::string difference(const Stamped<TrackedTool>& recorded, const Stamped<TrackedTool>& seen) {
   if (recorded.value.tool != seen.value.tool)
     return fmt::format("the tool: recorded {}, seen {}", recorded.value.tool, seen.value.tool);
@@ -77,7 +78,7 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
   std::unique_ptr<PoseTracker> vision = [&] {
     try {
       return trial::make_vision(setup, load_module, {.log = heard, .waits = true, .kept = folder});
-    } catch (const Error& e) {  // the folder is what was given, not a device
+    } catch (const Error& e) {  // the error is in the given folder, not in a device
       throw Error(fmt::format("--frames: {}", e.what()), e.key());
     }
   }();
@@ -91,7 +92,7 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
     result.first_difference = frame.tick.index;
     break;
   }
-  vision.reset();  // with its threads: now all is said
+  vision.reset();  // ends its threads, so that all messages are complete
   if (result.first_difference >= 0) result.said = heard.lines();
   return result;
 }
@@ -105,7 +106,7 @@ int replay(const ReplayOptions& options) {
   if (record.ticks() == 0)
     throw Error(fmt::format("{}: holds no whole tick{}; there is nothing to run again; record it again",
                             options.record, record.damage().empty() ? "" : " (" + record.damage() + ")"));
-  std::optional<SeenAgain> again;  // before all else: nothing is said of what is refused
+  std::optional<SeenAgain> again;  // first, so that a refused input prints no result
   if (!options.frames.empty()) again = see_again(setup, record, options.frames);
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {

@@ -14,7 +14,7 @@ namespace {
 
 using trial::Certified;
 
-// A line for each class that there is.
+// One line for each existing class.
 std::string class_lines(const std::vector<Certified>& all, const char* before) {
   Said said;
   for (const Certified& one : all) said.emplace_back(trial::name_of(one), trial::class_text(one));
@@ -24,7 +24,7 @@ std::string class_lines(const std::vector<Certified>& all, const char* before) {
   return text;
 }
 
-// The least margin of what makes it unstable.
+// The smallest margin to instability.
 double margin_of(const Certified& one) {
   double least = INFINITY;
   for (const certificate::Row& row : one.certificate.rows)
@@ -45,17 +45,17 @@ std::string bound_text(const certificate::Row& row) {
                                  : "to " + in(row.bound);
 }
 
-// What begins somewhere below has a larger margin.
+// The sign flips: a limit below the value of the row means a larger margin.
 std::string margin_text(const certificate::Row& row) {
   if (!std::isfinite(row.margin)) return {};
   const Side other = row.side == Side::below ? Side::above : row.side == Side::above ? Side::below : Side::at;
   return fmt::format("{}{:.3g} x", certificate::sign_of(other), row.margin);
 }
 
-// Of an arm: a certificate is of one place.
+// The place of an arm's certificate, which holds for one place only.
 std::string place_text(const Certified& one) {
   if (!one.place.finite() || one.free_tip()) return {};
-  const auto rounded = [](double metres) { return std::round(metres * 1e4) * 0.1 + 0.0; };  // mm, no -0
+  const auto rounded = [](double metres) { return std::round(metres * 1e4) * 0.1 + 0.0; };  // mm, avoids -0
   return fmt::format(" at [{:.1f}, {:.1f}, {:.1f}] mm, {},", rounded(one.place.xyz[0]),
                      rounded(one.place.xyz[1]), rounded(one.place.xyz[2]),
                      one.pressed ? "where it is pressed" : "the worst place tried");

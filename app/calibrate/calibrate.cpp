@@ -105,7 +105,7 @@ void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
   });
 }
 
-// Any signal or key stops a machine that moves.
+// Any signal or key stops a moving machine.
 int run_rig(const RigOptions& options) {
   std::optional<trial::Operator> person;
   bool halted = false;

@@ -23,8 +23,8 @@ struct CalibrateWords {
 // code: receives the exit code of the subcommand that runs.
 void add_calibrate(CLI::App& app, CalibrateWords& words, int& code);
 
-// words: the words after `calibrate`. Throws Error if they do not begin with a subject. `calibrate WHAT` was
-// the command before it had subjects, so the message names the command that replaces it.
+// words: the words after `calibrate`. Throws Error if they do not begin with a subject. The earlier command
+// was `calibrate WHAT`, without subjects. The message names the command that replaces it.
 void check_subject(const std::vector<std::string>& words);
 
 }  // namespace enc::app

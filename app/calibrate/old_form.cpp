@@ -1,5 +1,5 @@
-// `calibrate WHAT` was the command until it had subjects: which subject those words meant, and the command
-// that says so.
+// Handles `calibrate WHAT`, the command before it had subjects: finds the subject that the words meant, and
+// names the command that replaces it.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -29,7 +29,7 @@ bool is_subject(const std::string& word) {
   return std::find(kSubjects.begin(), kSubjects.end(), word) != kSubjects.end();
 }
 
-// "--set" of "--set=a=1"
+// Returns "--set" for "--set=a=1".
 std::string option_of(const std::string& word) {
   return word.starts_with("--") ? word.substr(0, word.find('=')) : std::string();
 }
@@ -40,7 +40,7 @@ bool has(const Words& words, std::initializer_list<const char*> options) {
   });
 }
 
-// The first word that is neither an option nor the value of one; the end where there is none.
+// The first word that is neither an option nor the value of one; else end().
 Words::const_iterator what_in(const Words& words) {
   const std::initializer_list<const char*> valued{"--rate-Hz",   "--out",     "--pairs",   "--frames",
                                                   "--seed",      "--set",     "--scene",   "--poses",
@@ -53,7 +53,7 @@ Words::const_iterator what_in(const Words& words) {
   return words.end();
 }
 
-// The beginning of a table, as long as its header is.
+// The first bytes of a file, long enough for a table's header.
 std::string begin_of(const std::string& file) {
   std::string text(4096, '\0');
   std::ifstream stream(file, std::ios::binary);
@@ -75,11 +75,11 @@ std::string subject_of_rig(const std::string& rig) {
   try {
     return models::load_rig(rig).arm.driver != "none" ? "camera" : "rig";
   } catch (const Error&) {
-    return "rig";  // whose mistakes that command names
+    return "rig";  // the new command reports the mistakes in this rig
   }
 }
 
-// Of what is not there, or cannot be looked into; empty where nothing tells.
+// Subject of an input that does not exist or cannot be read, judged by the options; empty: unknown.
 std::string subject_of_options(const std::string& what, const Words& words) {
   if (has(words, {"--square-mm", "--corners", "--picture"})) return "stereo";
   if (has(words, {"--through-images", "--pairs", "--frames"})) return "camera";
@@ -95,7 +95,7 @@ std::string subject_of(const std::string& what, const Words& words) {
   if (has(words, {"--skin"})) return "skin";
   if (has(words, {"--pivot"})) return "tip";
   std::error_code none;
-  // A rig by its name, though a folder may have it.
+  // The name of a rig takes precedence over a folder with that name.
   if (std::find(rigs.begin(), rigs.end(), what) != rigs.end()) return subject_of_rig(what);
   if (fs::is_directory(what, none)) return "stereo";
   if (what.ends_with(".toml") && fs::is_regular_file(what, none)) return subject_of_rig(what);
@@ -103,7 +103,7 @@ std::string subject_of(const std::string& what, const Words& words) {
   return subject_of_options(what, words);
 }
 
-// The same words in the new form.
+// The words as a command in the new form.
 std::string command_of(const std::string& subject, const Words& words, const Words::const_iterator& what) {
   std::string text = "encounter calibrate " + subject;
   if (*what != subject) text += " " + shell_word(*what);

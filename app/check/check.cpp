@@ -37,7 +37,7 @@ namespace {
 // ---- frames
 
 std::string in_mm(const Vec3& p) {
-  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-3 + 0.0; };  // no -0
+  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-3 + 0.0; };  // avoids -0
   return fmt::format("[{:.3f}, {:.3f}, {:.3f}] mm", rounded(p.x()), rounded(p.y()), rounded(p.z()));
 }
 std::string constant(const char* name, const Vec3& p, const std::string& what) {
@@ -59,7 +59,7 @@ std::string object_frames(const models::Setup& setup, const Scene& scene) {
   return text;
 }
 
-// The edges of [VHMR Fig 4] that this scene has.
+// The edges of [VHMR Fig 4] in this scene.
 std::string frames_text(const models::Setup& setup, const Scene& scene) {
   const SceneSpec& s = setup.scene;
   const FramesRig& rig = setup.rig.frames;
@@ -93,7 +93,7 @@ std::string lines_of(const Said& said) {
   return text;
 }
 
-// Where an object has no room for the tip under its surface, the tip waits as near as it has room.
+// Reports thin parts of an object, where the tip does not fit under the surface and waits as near as it can.
 std::string thin_text(const Scene& scene, const Object& object) {
   const double margin = room_margin(scene);
   const Room room = room_in(object, margin, true);
@@ -149,7 +149,7 @@ std::string strength_text(const trial::ArmStrength& at) {
   return text;
 }
 
-// Of many objects: the least of each, and where.
+// Many objects: only the least of each value, with its object.
 std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
   const auto least = [&](double trial::ArmStrength::*of) {
     const auto at = std::min_element(strengths.begin(), strengths.end(),
@@ -160,8 +160,8 @@ std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
                      least(&trial::ArmStrength::lasting));
 }
 
-// A line for each object that somebody presses to a depth, or that is beyond the arm; for all where they are
-// few.
+// One line for each object with a requested depth, or beyond the arm's strength. A few objects all get a
+// line.
 std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
   constexpr std::size_t kMost = 4;
   const bool few = strengths.size() <= kMost;
@@ -196,13 +196,13 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
              law.rig.peak, law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
 }
 
-constexpr std::array kLimits{hexapod_limits, arm_limits};  // by MachineWords::row
+constexpr std::array kLimits{hexapod_limits, arm_limits};  // indexed by MachineWords::row
 
 // ---- costs
 
-constexpr double kRun = 0.25;  // s, of experiment
+constexpr double kRun = 0.25;  // s of experiment time
 
-// The parts of the engine that are off because this scene has no use for them.
+// The parts of the engine that are off because this scene does not need them.
 std::string not_looked_for(const mjModel& model) {
   constexpr std::array<std::pair<int, const char*>, 3> kOff{
       {{mjDSBL_CONTACT, "contacts"}, {mjDSBL_CONSTRAINT, "constraints"}, {mjDSBL_ISLAND, "islands"}}};
@@ -227,7 +227,7 @@ bool among(const std::vector<std::string>& libraries, const std::string& part) {
 std::string process_text() {
   const std::vector<std::string> libraries = mapped_libraries();
   std::vector<std::string> loaded, left;
-  for (const std::string& library : libraries)  // in whichever folder it stood
+  for (const std::string& library : libraries)  // the folder does not matter
     if (const std::string name = module_name(library); !name.empty()) loaded.push_back(name);
   for (const std::string& name : modules_there())
     if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) left.push_back(name);
@@ -282,7 +282,7 @@ std::string row(const trial::PrecisionPoint& point) {
                      1.0 / point.cpu, point.shipped ? "  as it is" : "");
 }
 
-// Those of the two that were asked for: "0.0518 N", "12.30 um", or both.
+// Joins the requested values: "0.0518 N", "12.30 um", or both.
 std::string both(const trial::Accuracy& asked, const std::string& force, const std::string& way) {
   if (std::isnan(asked.way)) return force;
   return std::isnan(asked.force) ? way : force + " and " + way;
@@ -365,7 +365,7 @@ trial::Accuracy accuracy_of(const CheckOptions& options) {
 }
 
 int advise(const CheckOptions& options, const trial::Accuracy& asked) {
-  std::fflush(stdout);  // it takes its time
+  std::fflush(stdout);  // print so far: this takes a while
   trial::PrecisionOptions how;
   how.seed = options.seed;
   how.cpu = cpu_seconds;
@@ -393,7 +393,7 @@ int check(const CheckOptions& options) {
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
   std::optional<trial::Accuracy> asked;
-  if (options.advise) asked = accuracy_of(options);  // refused before it takes its time
+  if (options.advise) asked = accuracy_of(options);  // refuse wrong options before the long work
   if (options.resolved) {
     std::string made =
         fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);

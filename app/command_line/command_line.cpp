@@ -25,7 +25,7 @@
 namespace enc::app {
 namespace {
 
-// Of a view that draws into a file.
+// Options of a view that draws into a file.
 void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* record) {
   CLI::Option* shot = command->add_option("--shot", options.shot, "PNG file to write; no window is opened")
                           ->check(unnamed)
@@ -304,14 +304,14 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
   return command;
 }
 
-// A subcommand with its options, which live as long as the command line does.
+// Adds a subcommand with its options, which live as long as the command line.
 template <class Options>
 void add(CLI::App& app, CLI::App* (*adds)(CLI::App&, Options&), int (*does)(const Options&), int& code) {
   const auto options = std::make_shared<Options>();
   adds(app, *options)->callback([options, does, &code] { code = does(*options); });
 }
 
-// CLI11 would only say that a subcommand is missing.
+// Gives a better message than CLI11, which only says that a subcommand is missing.
 void check_subcommand(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -349,13 +349,13 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   return code;
 }
 
-// After a signal whoever reads may be gone: stopped by the same Ctrl-C, or hung up.
+// After a signal the reader of the output may be gone too, so do not check the output.
 int whole(int code) {
   if (code <= 128) check_output();
   return code;
 }
 
-// Help and version are no errors, but are printed by them.
+// CLI11 reports help and version as errors; they are not errors here.
 int answered(CLI::App& app, int argc, char** argv) {
   try {
     return dispatch(app, argc, argv);
@@ -367,7 +367,7 @@ int answered(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int command_line(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of that file, not the end of the run
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is that file's error, not the end
   CLI::App app("Encounter: a digital twin of encounter-type haptic displays", "encounter");
   app.set_version_flag("--version", trial::program_words());
   app.require_subcommand(1);
@@ -388,7 +388,7 @@ int command_line(int argc, char** argv) {
     std::fprintf(stderr, "encounter: there is not enough memory for this; give it less to do\n");
     return 2;
   } catch (const std::exception& e) {
-    const bool output = std::ferror(stdout) != 0;  // fmt throws what it cannot print
+    const bool output = std::ferror(stdout) != 0;  // fmt throws if it cannot print
     std::fprintf(stderr, "encounter: %s%s\n", output ? "standard output: " : "",
                  enc::models::printable(e.what()).c_str());
     return 2;

@@ -6,7 +6,7 @@
 
 namespace enc::app {
 
-// CLI11 reads "-1" and numbers of 30 digits as some other number.
+// Checked here, because CLI11 reads "-1" and numbers of 30 digits as some other number.
 std::string bad_seed(const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -14,7 +14,7 @@ std::string bad_seed(const std::string& text) {
   return "expected a whole number from 0 to 18446744073709551615";
 }
 
-// "" is what a script gives whose variable is not set.
+// A script passes "" if its variable is not set.
 std::string unnamed(const std::string& text) {
   return text.empty() ? "expected a name, and this one is empty" : std::string();
 }

@@ -38,7 +38,7 @@ struct CameraOptions {
   std::string what;  // pairs of points, or a rig whose arm is driven
   std::optional<std::uint64_t> seed;
   bool json = false;
-  // Rig only.
+  // Used for a rig only.
   std::string out;
   bool force = false;
   std::optional<std::size_t> pairs, frames;

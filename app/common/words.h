@@ -17,7 +17,7 @@
 
 namespace enc::app {
 
-inline constexpr const char* kNames = "xyz";  // of the axes
+inline constexpr const char* kNames = "xyz";  // names of the axes
 
 // The word itself, or in quotes if a shell would split or interpret it.
 [[nodiscard]] inline std::string shell_word(const std::string& word) {
@@ -43,7 +43,7 @@ inline constexpr const char* kNames = "xyz";  // of the axes
   return {};
 }
 
-// The answer of all that needs a shipped scene where there is none.
+// The error of all commands that need a shipped scene if there are no scenes.
 [[nodiscard]] inline Error no_scenes() {
   return Error(fmt::format(
       "{}/scenes: there are no scenes; expected the models of Encounter; see to ENCOUNTER_MODELS, or "

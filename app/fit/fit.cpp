@@ -1,6 +1,5 @@
-// `encounter fit LOOP.csv`: a measured loop becomes a response file, with intervals. `encounter fit LOOP.csv
-// ...
-// --ball`: the ball that was pressed, how well it is known, and what the loops cannot show.
+// `encounter fit LOOP.csv`: turns a measured loop into a response file, with intervals. `encounter fit
+// LOOP.csv ... --ball`: fits the pressed ball, with intervals and the limits of these loops.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -79,7 +78,7 @@ std::string stops_text(const LoopFit& fit) {
   return text + fmt::format("  no weight {} mm\n", none.empty() ? "none of the radii" : none);
 }
 
-// More came back than was put in: no response can do that.
+// Warns if the release returns more energy than the press took: no passive response can do that.
 std::string energy_text(const models::LoopData& loop) {
   double in = 0.0, out = 0.0;  // J
   for (const auto& press : loop.presses)
@@ -88,7 +87,7 @@ std::string energy_text(const models::LoopData& loop) {
           0.5 * (press[k].force + press[k - 1].force) * (press[k].deflection - press[k - 1].deflection);
       (work > 0.0 ? in : out) += std::abs(work);
     }
-  constexpr double kNoise = 1.02;  // and what a lag of the force makes of a loop without loss
+  constexpr double kNoise = 1.02;  // covers noise and the lag of the force in a lossless loop
   if (!(out > kNoise * in)) return "";
   return fmt::format(
       "note        the release gives {:.2f} mJ back and the press took {:.2f} mJ: nothing passive does that; "
@@ -96,7 +95,7 @@ std::string energy_text(const models::LoopData& loop) {
       out * 1e3, in * 1e3);
 }
 
-// The constraints may make of the readings what nobody measured.
+// Warns if the constraints move the curve away from the readings.
 std::string moved_text(const LoopFit& fit) {
   // The curve may be moved by this share of the force at the limit.
   constexpr double kMost = 0.05;
@@ -164,7 +163,7 @@ int fit_loop(const FitOptions& options) {
   const models::LoopData loop = models::parse_loop(
       trial::read_table(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
       file_name, how.limit);
-  std::optional<models::OutFile> file;  // refused before the work, not after it
+  std::optional<models::OutFile> file;  // refuse it before the work
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   LoopFit fit;
   try {
@@ -233,7 +232,7 @@ BallFitOptions asked(const FitOptions& options) {
   return how;
 }
 
-// Seconds from one reading to the next, the middle one of all.
+// Median time between two readings, s.
 double usual_step(const trial::Pushes& pushes) {
   std::vector<double> steps;
   for (const auto& push : pushes)
@@ -242,7 +241,7 @@ double usual_step(const trial::Pushes& pushes) {
 }
 
 trial::Pushes read(const std::string& file, double limit, std::vector<std::string>& notes, bool& doubted) {
-  constexpr double kDeepest = 8e-3;  // m, of the law's table
+  constexpr double kDeepest = 8e-3;  // m, range of the law's table
   constexpr double kSlowest = 0.5;   // s: the ball's relaxation is over between two readings
   models::LoopData loop = models::parse_loop(
       trial::read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file, limit);
@@ -274,7 +273,7 @@ std::string line(const BallEstimate& e) {
                      known, number(e.tied).name, e.correlation);
 }
 
-// The three estimates that owe the most to it.
+// The held number, and the three estimates that depend on it most.
 std::string line(const BallFit& fit, const HeldNumber& held) {
   const BallNumber& n = number(held.number);
   std::string text = fmt::format("held        {} = {:.4g}", n.name, held.value / n.unit);
@@ -291,7 +290,7 @@ std::string line(const BallFit& fit, const HeldNumber& held) {
 }
 
 std::string remarks(const BallFit& fit) {
-  constexpr double kUsualWalk = 0.01;  // N / sqrt(s): five times a sensor's (sources/force_sensor 2)
+  constexpr double kUsualWalk = 0.01;  // N / sqrt(s): five times that of a sensor (sources/force_sensor 2)
   std::string text;
   for (const BallEstimate& e : fit.estimates)
     if (e.number != trial::kNearer && e.known() != trial::Known::well)

@@ -1,4 +1,4 @@
-// What the program finds in encounter_fit.so.
+// Entry point of encounter_fit.so.
 #include "core/devices/module.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// `encounter shadow RECORD`: a record of the laboratory beside its twin, channel by channel, and in words
-// what is off.
+// `encounter shadow RECORD`: compares a record of the laboratory with its twin, channel by channel, and
+// describes the differences in words.
 #include "trial/identify/shadow/shadow.h"
 
 #include <algorithm>
@@ -25,22 +25,22 @@ using OrderedJson = nlohmann::ordered_json;  // prints NaN as null
 
 struct Unit {
   const char* name;
-  const char* key;  // in JSON
-  double scale;     // of SI
+  const char* key;  // key in JSON
+  double scale;     // factor from SI
   int digits;
 };
 constexpr Unit kTime{"ms", "ms", 1e3, 2}, kLength{"mm", "mm", 1e3, 4}, kLengthRms{"mm rms", "mm", 1e3, 4},
     kForceRms{"N rms", "N", 1.0, 4}, kShare{"%", "percent", 1e2, 2};
 
-// How a quantity is shown, and what it means if the record is ahead of the twin or behind it.
+// Text for a quantity: its name, and the meaning if the record is ahead of the twin or behind it.
 struct Meaning {
   const char* name;
   Unit unit;
-  const char* more;  // {}: by how much
+  const char* more;  // {}: amount of the difference
   const char* less;
 };
 
-// In the order of Quantity.
+// The order is that of Quantity.
 constexpr std::array<Meaning, 11> kMeanings{{
     {"time", kTime, "the machine answers {} later than the twin's",
      "the machine answers {} earlier than the twin's"},
@@ -80,14 +80,14 @@ const Meaning& meaning_of(const Divergence& one) {
 
 std::string size_text(const models::Interval& off, const Unit& as, double sign) {
   double value = sign * off.value * as.scale;
-  if (std::abs(value) < 0.5 * std::pow(10.0, -as.digits)) value = 0.0;  // and not -0.00
+  if (std::abs(value) < 0.5 * std::pow(10.0, -as.digits)) value = 0.0;  // avoids -0.00
   if (std::isnan(value)) return "not known";
   const std::string half =
       std::isnan(off.half) ? "?" : fmt::format("{:.{}f}", off.half * as.scale, as.digits);
   return fmt::format("{:.{}f} +- {}", value, as.digits, half);
 }
 
-// "stiffness: the object is 5.00 +- 0.27 % stiffer than the twin's"
+// Looks like "stiffness: the object is 5.00 +- 0.27 % stiffer than the twin's".
 std::string sentence(const Divergence& one) {
   const Meaning& as = meaning_of(one);
   const bool more = one.off.value >= 0.0;

@@ -1,5 +1,5 @@
-// `encounter devices`: reads the devices of a rig without commanding them. Whether each device answers, how
-// often it sends a sample, how regularly and how late, and whether a run could use it.
+// `encounter devices`: reads the devices of a rig without commanding them. It reports whether each device
+// answers, how often, how regularly and how late it sends samples, and whether a run could use it.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -38,13 +38,13 @@ struct Probed {
 };
 
 struct Series {
-  Time last{}, came{};  // the newest sample: when it was true, and when it was read
+  Time last{}, came{};  // the newest sample: its time, and when it was read
   bool any = false, linked = true;
   Health health = Health::absent;
-  std::int64_t faults = 0;              // samples
-  std::int64_t repeated = 0;            // poses of a tracker that are equal to the one before, to the bit
-  std::int64_t equal = 0;               // of them those since the last that differed, which
-  Time differed{};                      // came then
+  std::int64_t faults = 0;              // number of samples
+  std::int64_t repeated = 0;            // poses of a tracker that equal the one before, to the bit
+  std::int64_t equal = 0;               // number of them since the last different pose
+  Time differed{};                      // time of that pose
   std::vector<double> intervals, ages;  // s
   void add(Time t, Time now) {
     if (any) intervals.push_back(age(t, last));
@@ -59,13 +59,13 @@ template <class Sample>
 bool repeats(const Stamped<Sample>&, const Stamped<Sample>&) {
   return false;
 }
-// A tracker that measures never gives the same pose twice.
+// A measuring tracker never gives equal poses twice.
 bool repeats(const Stamped<TrackedTool>& before, const Stamped<TrackedTool>& now) {
   return before.value.tool == now.value.tool && before.value.X_CT.xyz == now.value.X_CT.xyz &&
          before.value.X_CT.xyzw == now.value.X_CT.xyzw;
 }
 
-// Why a run could not use the device. `end`: when the reading ended; `refused`: Device::refused().
+// Reason why a run could not use the device. `end`: when the reading ended; `refused`: Device::refused().
 std::string unusable(const Series& of, Time end, const std::string& refused) {
   constexpr double kFrozen = 0.5;  // s; a hand that holds still moves by less than a tracker's noise
   const auto samples = static_cast<std::int64_t>(of.ages.size());
@@ -107,7 +107,7 @@ std::string words_of(const Stamped<Sample>&) {
   return "";
 }
 
-// In `all`, of each role; one beyond: none.
+// Index of each role in `all`; all.size() or kRoles: none.
 std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Probed>& all) {
   std::array<std::size_t, kRoles> place{};
   place.fill(kRoles);
@@ -120,7 +120,7 @@ std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Prob
   return place;
 }
 
-// What is new of each role in a reading at `now`, and what is wrong with it.
+// Collects the new sample of each role in a reading at `now`, and its faults.
 void listen(const Rig& rig, const Inputs& before, const Inputs& in, Time now,
             std::array<Series, kRoles>& series) {
   each_role([&](const auto& role) {

@@ -37,8 +37,8 @@ struct Named {
   const char* name;
   Trouble::Kind kind;
   Value value;
-  double usual;         // where none is given; unset: the fake's own
-  const char* example;  // of its value
+  double usual;         // value if none is given; unset: the fake's own
+  const char* example;  // example of a value
 };
 
 constexpr std::array<Named, 11> kNames{{
@@ -56,14 +56,14 @@ constexpr std::array<Named, 11> kNames{{
 }};
 
 constexpr double kMostTime = 1e6, kMostCode = 4294967295.0;  // s; a status word
-constexpr double kMostDecimal = 65535.0;                     // a greater code is shown as a status word
+constexpr double kMostDecimal = 65535.0;                     // a larger code is shown as a status word
 
-// "20" and "ms" of "20ms"; what is no number from 0 on is unset.
+// Splits "20ms" into 20 and "ms"; unset: not a number from 0 on.
 double number_of(std::string_view text, std::string_view& unit) {
   double number = kUnset;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   unit = text.substr(static_cast<std::size_t>(end - text.data()));
-  return error == std::errc{} && number >= 0.0 ? number : kUnset;  // NaN, too
+  return error == std::errc{} && number >= 0.0 ? number : kUnset;  // also refuses NaN
 }
 
 double time_of(std::string_view text) {
@@ -79,7 +79,7 @@ double share_of(std::string_view text) {
   return unit == "%" && number <= 100.0 ? 0.01 * number : kUnset;
 }
 
-// Decimal, or hexadecimal as status words are.
+// Reads a decimal code, or a hexadecimal one for status words.
 double code_of(std::string_view text) {
   if (text.starts_with("0x") || text.starts_with("0X")) {
     std::uint32_t code = 0;
@@ -95,7 +95,7 @@ const Named& named(Trouble::Kind kind) {
   return *std::find_if(kNames.begin(), kNames.end(), [kind](const Named& one) { return one.kind == kind; });
 }
 
-// Of a fault that has one; unset: the text is none of its kind.
+// Value of a fault that takes one; unset: the text is not of the right kind.
 double value_of(const Named& fault, std::string_view text) {
   switch (fault.value) {
     case Value::share:
@@ -109,7 +109,7 @@ double value_of(const Named& fault, std::string_view text) {
   }
 }
 
-// Cuts what stands behind the last `mark`, if there is one.
+// Cuts the text behind the last `mark`, if there is one.
 bool cut(std::string_view& text, char mark, std::string_view& behind) {
   const std::size_t at = text.rfind(mark);
   if (at == std::string_view::npos) return false;
@@ -183,8 +183,9 @@ Fault fault_of(const std::string& text, const std::string& where) {
 
 namespace {
 
-constexpr Duration kLongest{50'000'000};  // of a turn
-constexpr Duration kLate{5'000'000'000};  // what is later is not made up: a device goes on without us
+constexpr Duration kLongest{50'000'000};  // longest turn
+// A longer delay is not made up for: a real device would not wait for us.
+constexpr Duration kLate{5'000'000'000};
 
 Duration wall_now() {
   return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
@@ -232,13 +233,13 @@ std::vector<std::string> Fakes::describe() const {
   return lines;
 }
 
-// Who comes to tell the machine finds the world as it was at first, so that each run is the same.
+// Restores the initial world for a new client of the machine, so that all runs are equal.
 void Fakes::begin() {
   ++begun_;
   world_->restore(first_);
   std::erase_if(plans_, [](const Planned& plan) { return plan.by_hand && plan.over; });
   for (Planned& plan : plans_) {
-    if (plan.by_hand) {  // it lasts or is still to come, whoever comes
+    if (plan.by_hand) {  // a typed fault is not tied to a run: it stays active or scheduled
       plan.from -= now_.t.time_since_epoch();
       if (plan.to != Time::max()) plan.to -= now_.t.time_since_epoch();
       continue;
@@ -326,14 +327,14 @@ void Fakes::turn() {
   for (; due_ <= now; due_ += now_.dt) advance();
 }
 
-// ---- `encounter fake`: the wires of a rig that is not at hand, answered by the twin
+// ---- `encounter fake`: the twin answers on the connections of an absent rig
 
 namespace {
 
-// Lines of standard input, without waiting for one. In the background of a terminal there are none.
+// Reads lines of standard input without waiting. A background process of a terminal gets no lines.
 class Lines {
  public:
-  // Of what has come: each whole line, to `take`.
+  // Passes each complete line to `take`.
   template <class Take>
   void read(Take take) {
     pollfd ready{STDIN_FILENO, POLLIN, 0};
@@ -363,7 +364,7 @@ void by_hand(Fakes& fakes, const std::string& line) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return;
     fakes.suffer(fault_of(line, "standard input"), "standard input");
   } catch (const Error& e) {
-    fmt::print(stderr, "encounter: {}\n", models::printable(e.what()));  // who types may try again
+    fmt::print(stderr, "encounter: {}\n", models::printable(e.what()));  // the user may type it again
   }
 }
 
@@ -380,7 +381,7 @@ int fake(const LaboratoryOptions& options) {
   fmt::print("{}; ends with SIGINT or SIGTERM\n", options.lockstep
                                                       ? "time goes on by a period with each set-point"
                                                       : "time goes on with the wall clock");
-  std::fflush(stdout);  // whoever began us waits for it
+  std::fflush(stdout);  // the calling process waits for these lines
   check_output();
   Lines lines;
   while (trial::Signals::caught() == 0) {

@@ -1,5 +1,6 @@
-// The fakes of all drivers of a rig, over one twin: a command on one connection shows on the others. They
-// need one thread, which the owner provides. A fault of a fake has a text form: "netft:loss=5%@2s+500ms".
+// The fakes of all drivers of a rig, over one twin: a command on one connection affects the readings on the
+// others. They need one thread, which the owner provides. A fault of a fake has a text form:
+// "netft:loss=5%@2s+500ms".
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct Fault {
   double lasts = kUnset;  // s; unset: to the end
 };
 
-// DRIVER:KIND[=VALUE][@TIME][+TIME]. Throws Error (kind input) with what was expected. `where`: of the
-// message.
+// Reads DRIVER:KIND[=VALUE][@TIME][+TIME]. Throws Error (kind input) with the expected form. `where`: source
+// named in the message.
 [[nodiscard]] Fault fault_of(const std::string& text, const std::string& where);
 [[nodiscard]] std::string text_of(const Trouble& trouble);
 // The kinds, each with its value, for --help: "loss=5%, jitter=20ms, ..."
@@ -62,7 +63,7 @@ class Fakes {
     Fake* fake;
     Time from, to;
     bool begun = false, over = false;
-    bool by_hand = false;  // belongs to the present world, not to each run
+    bool by_hand = false;  // typed by hand: not tied to a run
   };
   [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
   void trouble();  // starts and ends the due faults

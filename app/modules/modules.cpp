@@ -35,7 +35,7 @@ bool fills(const std::string& driver, const trial::DrivenRole& role) {
   return module.driver != nullptr && role.filled_by(*module.driver);
 }
 
-// Of those that are there; one that cannot be loaded fills nothing.
+// The available drivers that fill a role. A driver that cannot be loaded fills no role.
 std::vector<std::string> who_fill(const trial::DrivenRole& role, const std::vector<std::string>& there) {
   std::vector<std::string> names{"sim"};
   for (const std::string& driver : there) {
@@ -82,7 +82,7 @@ constexpr std::string_view kSuffix = ".so";
   throw Error(fmt::format("{}: {}; {} (modules there: {})", file, why, advice, list), {}, ErrorKind::device);
 }
 
-// The linker's words begin with the file, which stands in front already.
+// The linker's message begins with the file name, which our message already has.
 std::string loader_words(const std::string& file) {
   const char* words = dlerror();
   std::string text = words != nullptr ? words : "unknown reason";
@@ -90,7 +90,8 @@ std::string loader_words(const std::string& file) {
   return text;
 }
 
-// A folder of one's own holds drivers; what belongs to the program is found beside it all the same.
+// The user's modules folder may hold only drivers. The program's own modules are always found beside the
+// program.
 std::string beside_program() {
   std::error_code none;
   return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
@@ -230,11 +231,11 @@ std::string cut_off(const std::string& path) {
   return cut_off(head, size);
 }
 
-// ---- the subcommands that live in modules, because few users need what those modules need
+// ---- the subcommands that live in modules, because few users need their libraries
 
 namespace {
 
-// One that was not built is no broken device: the words ask for something that is not there.
+// A module that was not built is not a broken device: the message names the command that builds it.
 const ModuleInfo& own_module(const std::string& name, const std::string& command) {
   try {
     return load_module(name);

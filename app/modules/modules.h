@@ -15,9 +15,9 @@
 
 namespace enc::app {
 
-// $ENCOUNTER_MODULES, else `modules` beside the program.
+// $ENCOUNTER_MODULES if set, else `modules` beside the program.
 [[nodiscard]] std::string modules_dir();
-// "view" for "encounter_view.so"; empty: not a module's file.
+// Returns "view" for "encounter_view.so"; empty: not a module's file.
 [[nodiscard]] std::string module_name(const std::string& file);
 // Names of the available modules ("sample", "view"), in order. Loads no module.
 [[nodiscard]] std::vector<std::string> modules_there();
@@ -29,7 +29,7 @@ namespace enc::app {
 
 // The available drivers, without the other modules of the program.
 [[nodiscard]] std::vector<std::string> drivers_there();
-// The options with the scene of the tennis ball if they name no scene.
+// Returns the options, with the scene of the tennis ball if they name no scene.
 [[nodiscard]] SceneOptions with_scene(const SceneOptions& options);
 // A set-up with the tables of its drivers read, as far as their modules are available. Throws Error (kind
 // input) for an unknown driver, or one that does not fill its role.

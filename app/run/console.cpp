@@ -29,7 +29,7 @@ std::size_t columns() {
 
 double in_s(Time t) { return seconds(t.time_since_epoch()); }
 
-// "2026-11-29T12:00:00.123Z"
+// UTC time as "2026-11-29T12:00:00.123Z".
 std::string stamp() {
   const auto now = std::chrono::time_point_cast<milliseconds>(std::chrono::system_clock::now());
   const auto day = std::chrono::floor<std::chrono::days>(now);
@@ -82,8 +82,8 @@ std::string status_text(const RunStatus& status, bool keys) {
                                  status.halted ? "STOPPED BY HAND"
                                  : why != 0    ? "HOLD: " + why_text(why)
                                                : std::string(mode_name(status.mode)));
-  if (keys) text += "  | space stops, r resumes, q ends |";  // first: a narrow terminal shows them
-  const double force = std::abs(status.force) < 0.005 ? 0.0 : status.force;  // without a sign
+  if (keys) text += "  | space stops, r resumes, q ends |";  // first, so that a narrow terminal shows them
+  const double force = std::abs(status.force) < 0.005 ? 0.0 : status.force;  // avoids -0.00
   if (std::isfinite(force)) text += fmt::format("  {:.2f} N", force);
   if (std::isfinite(status.gap)) text += fmt::format("  gap {:.2f} mm", 1e3 * status.gap);
   if (const Percentiles of = periods_of(status); !std::isnan(of.most))
@@ -125,7 +125,7 @@ void Console::show(const std::stop_token& stop) {
 }
 
 void Console::show_events() {
-  constexpr std::size_t kMostPending = 64 * 1024;  // bytes; what is more is dropped and counted
+  constexpr std::size_t kMostPending = 64 * 1024;  // bytes; further text is dropped and counted
   RunEvent event;
   std::string lines;
   while (pending_.size() + lines.size() < kMostPending && watch_.next(event)) {
@@ -150,7 +150,7 @@ void Console::show_status() {
   const std::size_t width = text.size();
   text.resize(std::max(width, shown_width_), ' ');
   text.insert(0, 1, '\r');
-  pending_ = text.substr(error_.write(text));  // the rest first, so that no line is cut
+  pending_ = text.substr(error_.write(text));  // write the rest first, so that no line is cut
   shown_width_ = width;
 }
 

@@ -17,8 +17,8 @@ namespace enc::app {
 
 class Console {
  public:
-  // `watch` must outlive this. `objects`: their names, by index. `reads_keys`: whether the run reads keys at
-  // present; called from another thread.
+  // `watch` must outlive this. `objects`: their names, by index. `reads_keys`: returns whether the run reads
+  // keys at present; called from another thread.
   Console(trial::RunWatch& watch, std::vector<std::string> objects, std::function<bool()> reads_keys);
   ~Console();  // shows the rest, for 0.2 s at most, and clears the status line
   Console(const Console&) = delete;
@@ -41,7 +41,7 @@ class Console {
   std::jthread thread_;
 };
 
-// Their texts, without a line break.
+// Texts of an event and of the status, without a line break.
 [[nodiscard]] std::string event_text(const trial::RunEvent& event, const std::vector<std::string>& objects);
 [[nodiscard]] std::string status_text(const trial::RunStatus& status, bool keys);
 

@@ -40,7 +40,8 @@ double pace_of(const std::string& text) {
   return factor;
 }
 
-// The report would be written into it. What throws away both is no harm.
+// Refuses standard output as the record's file, because the report would be written into it. /dev/null is
+// allowed.
 void refuse_output(const std::string& path) {
   struct stat output {
   }, there{};
@@ -50,18 +51,18 @@ void refuse_output(const std::string& path) {
   throw Error(path + ": is standard output, where the report goes; expected another file; choose one");
 }
 
-// A record, beside its place until it is sealed.
+// A record, written to a temporary file until it is sealed.
 struct Recording {
   models::OutFile file;
   RecordWriter writer;
   std::optional<trial::RecordThread> thread;
 
-  // beside: the run keeps the wall clock, and no tick may wait for a disk.
+  // beside: the run keeps the wall clock, so a separate thread writes to the disk and no tick waits for it.
   Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool beside)
       : file(options.record, models::existing(options.force)),
         writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1,
                file.stream()) {
-    file.spare();  // what a run that does not end has recorded is readable
+    file.spare();  // a killed run leaves a readable record
     if (beside) thread.emplace(writer);
   }
   void end() {
@@ -84,7 +85,7 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().keeps_wall_time);
 }
 
-// Said before anything moves.
+// Warnings about unstable rendering, printed before anything moves.
 std::vector<std::string> beyond(const models::Setup& setup,
                                 const std::vector<trial::Certified>& certificates) {
   std::vector<std::string> lines;
@@ -107,7 +108,7 @@ trial::TrialOptions trial_options(const RunOptions& options, trial::Operator& pe
   all.drivers = load_module;
   all.armed = options.armed;
   all.lockstep = options.lockstep;
-  all.real_time = true;  // dry, too: what is late holds
+  all.real_time = true;  // also for a dry run: late ticks cause a hold
   all.needs_real_time = !options.not_real_time;
   all.certify = true;
   all.frames = options.frames;
@@ -154,7 +155,7 @@ class Shown {
   std::optional<Console> console_;
 };
 
-// Whoever looks on and acts beside the terminal is asked first.
+// Adds the window's hooks to those of the terminal. The window is asked first.
 void join(const RunWindow& window, trial::Operator& person, trial::TrialOptions& options) {
   if (window.watch)
     options.watch = [counts = std::move(options.watch), &window](const trial::Glance& glance) {
@@ -196,7 +197,7 @@ void check_played(const RunOptions& options, const models::Setup& setup, const t
     print_notes({"the hand of " + options.hand + " was steered with --seed " + played.seed});
 }
 
-// The hand of a window or of a record, and what of it the record of this run keeps.
+// The hand steered by a window or a record, with the part of it that this run's record keeps.
 class Steering {
  public:
   Steering(const RunOptions& options, const models::Setup& setup, const RunWindow* window,
@@ -223,7 +224,7 @@ class Steering {
   trial::SteeringLog played_, log_;
 };
 
-// Whoever watches holds the trial from here on.
+// Calls the window's begins() and ends(); the window uses the trial in between.
 struct Watched {
   Watched(const RunWindow* by, trial::Trial& trial) : window(by) {
     if (window != nullptr && window->begins) window->begins(trial);
@@ -236,7 +237,7 @@ struct Watched {
   const RunWindow* window;
 };
 
-// Whoever is beside a machine that is to move. 0: it may; else the exit code.
+// Asks the person beside a machine that will move. 0: it may move; else the exit code.
 int asked_first(trial::Operator& person, const trial::Trial& trial) {
   const trial::Answer answer =
       person.confirm(trial::motion_question(trial.setup(), trial.scene(), trial.result().devices));
@@ -252,7 +253,7 @@ RecordTexts end_texts(const std::string& ledger, const trial::SteeringLog& hand)
   return texts;
 }
 
-// With what is known only now that the run has ended.
+// Seals the record with the texts that only the end of the run provides.
 void seal(Recording& record, const trial::RunMeasures& measured, const trial::SteeringLog& hand) {
   const auto contacts = measured.ledger.contacts();
   const RecordTexts texts = end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), hand);
@@ -260,7 +261,7 @@ void seal(Recording& record, const trial::RunMeasures& measured, const trial::St
   record.end();
 }
 
-// Who and what is there beside the loop; null: not there.
+// The run's surroundings besides the loop; null: absent.
 struct Beside {
   trial::Operator& person;
   const RunWindow* window;
@@ -280,7 +281,7 @@ Ended run_to_end(trial::Trial& trial, Recording* record, const Beside& beside) {
   const Watched watched(beside.window, trial);
   const double started = cpu_seconds();
   trial::TrialResult result = trial.run();
-  // Before anything is printed, which a terminal may keep waiting.
+  // Seal first, because a terminal may block the printing.
   if (record != nullptr) seal(*record, beside.measured, beside.hand);
   beside.person.end_listening();
   if (beside.shown != nullptr) beside.shown->end();
@@ -288,7 +289,7 @@ Ended run_to_end(trial::Trial& trial, Recording* record, const Beside& beside) {
   return {started, std::move(result)};
 }
 
-// What the report says of the simulated world, and of the run by its other figures.
+// Adds the simulated world's figures to the report, and the results derived from the others.
 void complete(trial::Trial& trial, RunReport& report) {
   if (trial.has_world()) {
     report.steps = trial.world().physics().steps();
@@ -303,7 +304,7 @@ void complete(trial::Trial& trial, RunReport& report) {
 void print(const RunReport& report) {
   const std::string text = report.asked.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);  // while a pipe without a reader is an error only
+  std::fflush(stdout);  // while signals are handled, a pipe without a reader is only an error
 }
 
 int exit_code(const RunReport& report, const trial::Operator& person) {
@@ -324,7 +325,7 @@ int run(const RunOptions& options, const RunWindow* window) {
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   const bool moves = options.armed && trial::moves_device(setup);
-  const bool attended = moves && !options.lockstep;  // in lockstep there are only fakes
+  const bool attended = moves && !options.lockstep;  // lockstep runs have only fakes
   if (attended && !options.yes) trial::refuse_unasked();
   if (attended) person.stops_when_suspended();
   trial::TrialOptions how = trial_options(options, person);
@@ -335,8 +336,8 @@ int run(const RunOptions& options, const RunWindow* window) {
   if (moves) shown.emplace(how, person);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal && !shown && window == nullptr) how.progress = show_progress;
-  trial::Trial trial(setup, how);  // everything that can be refused is refused here, before a record is begun
-  print_notes(setup.notes);        // of a scene that is not refused
+  trial::Trial trial(setup, how);  // refuses bad input before a record is begun
+  print_notes(setup.notes);        // only for an accepted scene
   print_notes(beyond(setup, trial.certificates()));
   if (attended && !options.yes)
     if (const int code = asked_first(person, trial); code != 0) return code;

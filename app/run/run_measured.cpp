@@ -1,4 +1,4 @@
-// What a run measured of its task: the lines of the report and the keys of the JSON.
+// A run's measurements of its task: the lines of the report and the keys of the JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ Json list_of(const std::vector<T>& things, Json (*json_of)(const T&)) {
   return list;
 }
 
-// A figure of each thing in a list of JSON, for the report: "0.53 / 0.55".
+// Joins one number of each entry of a JSON list for the report: "0.53 / 0.55".
 std::string each(const Json& list, const char* key, int digits, const char* unknown = "nan") {
   std::string text;
   for (const Json& one : list) {
@@ -53,7 +53,7 @@ Json passivity_json(const PassivityFigures& c) {
   return {{"contact", c.contact},
           {"began_s", c.began},
           {"given_mJ", c.given * 1e3},
-          {"taken_mJ", c.dissipated * 1e3},  // null: the tip is held back, not a force
+          {"taken_mJ", c.dissipated * 1e3},  // null: the controller holds back the tip, not a force
           {"taken_N", c.most},
           {"acted_ms", c.acted * kMsPerS}};
 }
@@ -64,7 +64,7 @@ std::string passivity_line(const RunReport& r) {
   if (contacts.empty()) return "passivity   controlled; there was no contact to control\n";
   const MachineWords& words = words_of(r.setup.scene);
   const PassivityFigures all = r.measured.passivity.worst();
-  const bool reduced = !std::isnan(all.dissipated);  // forces, not the tip
+  const bool reduced = !std::isnan(all.dissipated);  // the controller reduces forces, not the tip's motion
   const auto acted =
       std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
   const std::string of = counted(contacts.size(), "contact");
@@ -79,7 +79,7 @@ std::string passivity_line(const RunReport& r) {
   text +=
       fmt::format("; of one contact at most {:.3f} mJ more came out than went in along the normal (by {})\n",
                   all.given * 1e3, words.energy_by);
-  // The controller counts the work of each force, and a withheld force does none.
+  // The controller counts the work of each commanded force, but a withheld force does no work.
   if (reduced && r.result.withheld > 0)
     text +=
         "  dry       no force was sent, and the controller takes each for sent: armed it holds back other "
@@ -97,7 +97,8 @@ Json ledger_json(const RunReport& r) {
   return all;
 }
 
-// The contact with the largest term, and how well all of them close (docs/reference/ledger.md).
+// The contact with the largest term, and how well the balances of all contacts close
+// (docs/reference/ledger.md).
 std::string ledger_line(const RunReport& r) {
   const std::vector<trial::ContactLedger> all = r.measured.ledger.contacts();
   if (all.empty())
@@ -136,7 +137,7 @@ Json press_json(const PressFigures& p) {
           {"peak_deflection_mm", p.peak_deflection * kMmPerM}};
 }
 
-// The force range of the presses that reached the limit, and how many did.
+// The force range of the presses that reached the limit, and their number.
 std::string at_limit_text(const std::vector<PressFigures>& met) {
   const auto reached = those_of(met, [](const PressFigures& p) { return !std::isnan(p.force_at_limit); });
   if (reached.empty()) return "limit not reached";
@@ -151,7 +152,7 @@ std::string at_limit_text(const std::vector<PressFigures>& met) {
               : "");
 }
 
-// "limit 6 mm"; if the presses had several limits, each with its object.
+// Looks like "limit 6 mm"; if the presses had several limits, each with its object.
 std::string limit_text(const RunReport& r) {
   std::vector<std::pair<std::int32_t, double>> limits;
   for (const PressFigures& press : r.measured.presses.presses())
@@ -271,7 +272,7 @@ std::string push_text(const RunReport& r) {
                      r.measured.pushes.force_error());
 }
 
-// ---- a tool that the machine carries [VHMR 4.1, Table 1]
+// ---- tracking test: the machine carries a clamped tool [VHMR 4.1, Table 1]
 
 struct TravelAxis {
   std::string axis;
@@ -298,7 +299,7 @@ Json travel_json(const RunReport& r) {
   return all;
 }
 
-// Root mean square of each axis of W that was travelled: "0.107 / 0.094 / 0.083 mm, norm 0.165 mm".
+// Root mean square for each axis of W with motion: "0.107 / 0.094 / 0.083 mm, norm 0.165 mm".
 std::string axes_text(const std::array<TravelAxis, 3>& axes, trial::ErrorSum TravelAxis::*of) {
   std::string text;
   double square = 0.0;
@@ -328,7 +329,7 @@ std::string travel_text(const RunReport& r) {
       sums.largest * kMmPerM);
 }
 
-// ---- a bare finger that an arm meets [VisHap 3]
+// ---- a bare finger that touches an arm [VisHap 3]
 
 Json meeting_json(const Meeting& m) {
   return {{"object", m.object},
@@ -342,7 +343,7 @@ Json meeting_json(const Meeting& m) {
           {"step_N", m.greatest_step}};
 }
 
-// The spring that a wall is, if the user presses one.
+// The wall's measured spring, if the user presses one.
 std::string spring_line(const RunReport& r) {
   const std::optional<UserSpec>& user = r.setup.scene.user;
   if (!user || user->kind != UserKind::press_release) return "";
@@ -360,7 +361,7 @@ Json seen_json(const trial::SeenPress& press) {
   return {{"from_s", press.began}, {"poses", press.n}, {"above_mm", press.mean * kMmPerM}};
 }
 
-// A press shows where vision puts a finger that the prop feels.
+// The finger's offset from the prop during a press, as vision sees it.
 std::string seen_line(const RunReport& r) {
   const std::vector<trial::SeenPress> presses = r.measured.seen.presses();
   if (presses.empty()) return "";
@@ -409,7 +410,7 @@ std::string finger_text(const RunReport& r) {
 
 // ---- both machines
 
-// What the report has of one machine only; by MachineWords::row.
+// The parts of the report that one machine alone has; indexed by MachineWords::row.
 struct MachineReport {
   std::string (*first)(const RunReport&);
   std::string (*last)(const RunReport&);

@@ -29,7 +29,7 @@ std::string modes_line(const trial::TrialResult& result) {
   return text;
 }
 
-// Who repeats this gets the same report.
+// The inputs that repeat this run and its report.
 std::string made_line(const RunReport& r) {
   const bool wall = r.result.keeps_wall_time;
   std::string text =
@@ -45,7 +45,7 @@ std::string made_line(const RunReport& r) {
   return models::printable(text) + "\n";
 }
 
-// The first three, and how many more there were.
+// Prints the first three holds, and the number of further ones.
 std::string hold_lines(const trial::TrialResult& result) {
   constexpr std::size_t kShown = 3;
   std::string text;
@@ -59,7 +59,7 @@ std::string hold_lines(const trial::TrialResult& result) {
                             result.mode_time[static_cast<std::size_t>(Mode::hold)]);
 }
 
-// Of a run that keeps the wall clock.
+// Only a run that keeps the wall clock has these lines.
 std::string loop_line(const trial::TrialResult& result) {
   std::string text;
   if (!result.real_time.empty()) text += "real time   " + result.real_time + "\n";
@@ -77,7 +77,7 @@ std::string late_line(const trial::TrialResult& result) {
                      result.lateness.total, result.lateness.times);
 }
 
-// Rates and jitter of the two loops; of the haptic one by the wall clock, where it keeps that.
+// Rates and jitter of the two loops. The haptic loop's are by the wall clock, if the run keeps it.
 std::string vision_lines(const trial::TrialResult& result) {
   const trial::FrameTimes& vision = result.vision;
   if (vision.frames == 0) return "";
@@ -126,7 +126,7 @@ Json stability_json(const std::vector<trial::Certified>& certificates) {
   return all;
 }
 
-// A percentile that there are too few values for is null.
+// A percentile with too few values is null.
 template <class T>
 Json times_json(const std::vector<T>& times, double scale) {
   const Percentiles of = percentiles_of(times);
@@ -144,7 +144,7 @@ Json vision_json(const trial::FrameTimes& vision) {
           {"age_ms", times_json(vision.ages, 1e3)}};
 }
 
-// What ran: program, scene, rig, and what is asked of them.
+// The run's inputs: program, scene, rig and options.
 void add_origin(Json& json, const RunReport& r) {
   json["encounter"] = ENCOUNTER_VERSION;
   json["commit"] = trial::built_commit().name;
@@ -159,7 +159,7 @@ void add_origin(Json& json, const RunReport& r) {
   json["title"] = r.setup.scene.title;
 }
 
-// What was built, and how the run went.
+// The parts built, and the course of the run.
 void add_course(Json& json, const RunReport& r) {
   json["built"] = Json::object();
   json["left_out"] = Json::object();
@@ -178,7 +178,7 @@ void add_course(Json& json, const RunReport& r) {
   if (!r.result.log.empty()) json["log"] = r.result.log;
 }
 
-// What it cost, and what of it is to be trusted.
+// The run's computing time, and its certificates.
 void add_cost(Json& json, const RunReport& r) {
   json["step_ns"] = times_json(r.result.step_ns, 1.0);
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns, 1.0);

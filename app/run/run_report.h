@@ -22,7 +22,7 @@ struct RunReport {
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;
-  // Steps of the simulated world, and of those the steps that its solver did not solve to its tolerance.
+  // Steps of the simulated world, and the number of them that missed the solver's tolerance.
   std::int64_t steps = 0, unsolved = 0;
   bool whole = true;        // not ended early by --for-s, a signal, a full disk or diverged physics
   int elements = 0;         // elements of the simulated world
@@ -39,7 +39,7 @@ struct RunReport {
 // The part of both about the run's task: presses, pushes, the tool carried by the machine, meetings, energy.
 [[nodiscard]] std::string measured_text(const RunReport& report);
 [[nodiscard]] nlohmann::ordered_json measured_json(const RunReport& report);
-// "last notice of the core: ..."
+// Looks like "last notice of the core: ...".
 [[nodiscard]] std::string last_notice(const trial::TrialResult& result);
 // The limits that a run exceeded, one line each; the program then ends with exit code 1.
 [[nodiscard]] std::vector<std::string> crossed(const RunReport& report);

@@ -1,4 +1,4 @@
-// The hooks by which the window of `encounter view` watches and steers a run. All are called on the run's
+// The hooks with which the window of `encounter view` watches and steers a run. All are called on the run's
 // thread.
 #pragma once
 
@@ -25,7 +25,7 @@ struct RunWindow {
   std::function<std::optional<trial::HandWord>(std::int64_t)> steer{};  // see TrialOptions::steer
 };
 
-// `encounter run` with hooks; null: without hooks.
+// Runs `encounter run` with hooks; null: without hooks.
 int run(const RunOptions& options, const RunWindow* window);
 
 }  // namespace enc::app

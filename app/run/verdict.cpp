@@ -35,7 +35,7 @@ void add_swings(const RunReport& r, Lines& lines) {
                   widest->way * 1e3, widest->frequency));
 }
 
-// The paper's user feels what the core calls a contact. By the truth where there is one.
+// A user as in the paper feels each contact of the core. If ground truth exists, it decides.
 void add_empty(const RunReport& r, Lines& lines) {
   const auto& empty = r.measured.touches.empty();
   if (empty.empty()) return;
@@ -45,7 +45,7 @@ void add_empty(const RunReport& r, Lines& lines) {
       words_of(r.setup.scene).met, empty.size(), counted(r.result.contacts, "contact"), empty.front()));
 }
 
-// A part of the presses of the plan, and when the first of them began.
+// Counts a part of the plan's presses, and gives the start of the first of them.
 template <class F>
 void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) {
   const auto& tried = r.measured.touches.plan().tried();
@@ -57,7 +57,7 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
                               r.result.contacts == 0 ? "; " + last_notice(r.result) : ""));
 }
 
-// At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
+// An arm at 20 Hz loses a finger and finds it again within one press (docs/reference/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.measured.touches.plan().tried().size());
   if (r.steered || n == 0 || r.result.contacts <= n) return;
@@ -67,7 +67,7 @@ void add_repeated(const RunReport& r, Lines& lines) {
                   counted(r.result.contacts, "contact"), counted(n, "press")));
 }
 
-// By the truth where there is one.
+// Uses ground truth if there is one.
 void add_untouched(const RunReport& r, Lines& lines) {
   using trial::Tried;
   if (r.steered) return;
@@ -84,7 +84,7 @@ void add_untouched(const RunReport& r, Lines& lines) {
       lines);
 }
 
-// A finger that is beside its prop feels an edge, or nothing.
+// A finger beside its prop feels an edge, or nothing.
 void add_beside(const RunReport& r, Lines& lines) {
   if (r.steered) return;
   const Vec3 size = r.setup.scene.prop.value_or(PropSpec{}).size;
@@ -102,7 +102,7 @@ void add_beside(const RunReport& r, Lines& lines) {
 }
 
 void add_misses(const RunReport& r, Lines& lines) {
-  if (r.steered) return;  // the bound is of the plan's speed
+  if (r.steered) return;  // the bound assumes the plan's speed
   const auto& presses = r.measured.presses.presses();
   const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };
   const auto n = std::count_if(presses.begin(), presses.end(), missed);
@@ -126,7 +126,7 @@ std::string departure_cause(const RunReport& r, const trial::Departure& worst) {
         "follow.inset_mm smaller",
         std::round(inset * 1e9) * 1e-6,
         r.setup.scene.objects[static_cast<std::size_t>(steep - r.scene.objects.begin())].name, waits_at);
-  // In the contact in which that was.
+  // Find the contact of that moment.
   const auto& contacts = r.measured.passivity.contacts();
   const auto after = std::find_if(contacts.begin(), contacts.end(),
                                   [&](const auto& one) { return one.began > worst.from + worst.lasted; });
@@ -157,12 +157,12 @@ void add_motors(const RunReport& r, Lines& lines) {
   add(r.measured.touches.heat(), "the motors were warm, and the arm pushed less");
 }
 
-// Of inputs alone: a real camera that somebody has pushed is found, too.
+// Uses inputs only, so it also detects that a real camera was pushed.
 void add_moved(const RunReport& r, Lines& lines) {
   const trial::SeenShift found = r.measured.seen.moved();
   if (found.presses == 0) return;
-  const Vec3 mm = -1e3 * found.shift;  // of the camera: what it sees is off the other way
-  const auto rounded = [](double x) { return std::round(x * 10.0) * 0.1 + 0.0; };  // no -0
+  const Vec3 mm = -1e3 * found.shift;  // motion of the camera, opposite to the shift of what it sees
+  const auto rounded = [](double x) { return std::round(x * 10.0) * 0.1 + 0.0; };  // avoids -0
   constexpr std::array kUnknown{"across their normal the presses do not tell",
                                 "along the line across both of their normals the presses do not tell", ""};
   const double known =
@@ -177,8 +177,8 @@ void add_moved(const RunReport& r, Lines& lines) {
       unknown));
 }
 
-// What is beyond its bound was rendered: a contact with the object, of whichever none is known. A tip that
-// nobody touches needs none.
+// A certificate beyond its bound counts if it was rendered: after any contact, since the touched object is
+// not known. A free tip counts without a contact.
 void add_unstable(const RunReport& r, Lines& lines) {
   for (const trial::Certified& one : r.certificates)
     if (one.beyond() && (one.free_tip() || r.result.contacts > 0) &&
@@ -186,7 +186,7 @@ void add_unstable(const RunReport& r, Lines& lines) {
       lines.push_back("rendered beyond what is stable: " + trial::refusal_text(r.setup, one));
 }
 
-// The forces of such a step are none of the contact's.
+// The forces of an unsolved step are not the contact's.
 void add_unsolved(const RunReport& r, Lines& lines) {
   if (r.unsolved == 0) return;
   lines.push_back(
@@ -196,7 +196,7 @@ void add_unsolved(const RunReport& r, Lines& lines) {
                   r.setup.twin.solver.iterations, r.unsolved, r.steps));
 }
 
-// In the order of their lines.
+// The checks in the order of their lines.
 using Check = void (*)(const RunReport& r, Lines& lines);
 constexpr std::array<Check, 10> kOfHexapod{add_motors,   add_unstable,   add_swings, add_empty, add_untouched,
                                            add_repeated, add_departures, add_misses, add_moved, add_unsolved};

@@ -45,7 +45,7 @@ class Filming {
   Filming(const ViewOptions& options, const FilmFormat& format, const sim::ViewModule& module, Source& source)
       : options_(options), format_(format), module_(module), source_(source) {}
 
-  // To the end of the run, or of its part that is filmed.
+  // Films to the end of the run, or of the requested part.
   FilmReport run(FilmFile& file) {
     const Wall::time_point began = Wall::now();
     const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -66,7 +66,7 @@ class Filming {
   }
 
  private:
-  // A frame belongs to the first tick at or after its moment.
+  // A frame shows the first tick at or after its moment.
   [[nodiscard]] bool due(int frame, double now) const {
     constexpr double kRounding = 1e-9;  // s
     const double moment = from_ + frame / static_cast<double>(format_.rate);
@@ -90,7 +90,7 @@ class Filming {
   Source& source_;
   double from_ = options_.at.value_or(0.0);
   double to_ = options_.seconds ? from_ + *options_.seconds : source_.end();
-  std::optional<sim::Camera> camera_;  // that of the first frame
+  std::optional<sim::Camera> camera_;  // camera of the first frame
   std::unique_ptr<sim::Pictures> pictures_;
 };
 
@@ -114,9 +114,9 @@ FilmReport film(const ViewOptions& options) {
   if (options.seconds) check_length(*options.seconds);
   const FilmFormat format = film_format(options.video);
   const auto& module = *static_cast<const sim::ViewModule*>(load_module("view").view);
-  Source source(options, trial_options_of(options));  // first: what it reads is never written
+  Source source(options, trial_options_of(options));  // first: an input is never overwritten
   trial::Signals signals;
-  signals.begin();  // from here on there is a file to finish
+  signals.begin();  // a signal must not leave an unfinished file
   const std::unique_ptr<FilmFile> file =
       open_film(options.video, format, models::existing(options.force), module.png);
   if (format.folder && !format.ending.empty())
@@ -150,9 +150,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBefore = 1.0;      // s of the film before the first touch
-constexpr double kSearched = 120.0;  // s in which a touch is looked for
+constexpr double kSearched = 120.0;  // s to search for a touch
 
-// When something is touched first; 0: not soon.
+// Time of the first touch, s; 0: none within kSearched.
 double first_touch(const ViewOptions& options) {
   models::Setup setup = models::load(options.scene, options.rig, options.set);
   leave_out_vision(setup);
@@ -167,14 +167,14 @@ double first_touch(const ViewOptions& options) {
   return 0.0;
 }
 
-// "camera/wall" is camera_wall.mp4; where ffmpeg is not installed, camera_wall is a folder.
+// The scene "camera/wall" becomes camera_wall.mp4, or the folder camera_wall without ffmpeg.
 std::string film_name(const std::string& folder, std::string scene) {
   std::replace(scene.begin(), scene.end(), '/', '_');
   const std::string film = (fs::path(folder) / (scene + ".mp4")).string();
   return film_format(film).folder ? (fs::path(folder) / scene).string() : film;
 }
 
-// Before the first of an hour of films is made.
+// Refuses existing films before making the first one: the films take an hour.
 void refuse_existing(const std::string& film, bool force) {
   std::error_code none;
   if (force || !fs::exists(film, none)) return;
@@ -207,7 +207,7 @@ int tour(const TourOptions& options) {
       std::fflush(stdout);
       if (report.signal != 0) return 128 + report.signal;
       if (report.diverged) code = 4;
-    } catch (const Error& e) {  // one scene; the others may do
+    } catch (const Error& e) {  // other scenes may still succeed
       fmt::print(stderr, "encounter: {}: {}\n", scene.name, models::printable(e.what()));
       code = std::max(code, static_cast<int>(e.kind()));
     }

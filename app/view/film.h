@@ -16,7 +16,7 @@ struct FilmReport {
   bool diverged = false;        // the physics diverged after `to`
 };
 
-// Throws Error unless this is a moment of a picture or a film's beginning: a time from 0 to 3600 s.
+// Throws Error unless the time is from 0 to 3600 s, as for a picture or a film's beginning.
 void check_moment(const std::optional<double>& at);
 // Films the run of options.scene into options.video, from options.at (or its beginning) for options.seconds
 // (or to its end). Throws Error.

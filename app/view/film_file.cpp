@@ -34,7 +34,7 @@ const std::map<std::string, std::vector<std::string>>& endings() {
       {".webm",
        {"-pix_fmt", "yuv420p", "-b:v", "0", "-crf", "34", "-deadline", "realtime", "-cpu-used", "8", "-f",
         "webm"}},
-      // One palette for each frame: one for all would keep the whole film in memory.
+      // One palette for each frame: a common one would keep the whole film in memory.
       {".gif",
        {"-filter_complex",
         "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none", "-f", "gif"}}};
@@ -59,7 +59,7 @@ std::vector<std::string> encoding(const FilmFormat& format, const std::string& f
                                  "-i",           "-"};
   const std::vector<std::string>& options = endings().at(format.ending);
   words.insert(words.end(), options.begin(), options.end());
-  words.push_back("file:" + file);  // a colon in the name is no protocol
+  words.push_back("file:" + file);  // so that a colon in the name is not read as a protocol
   return words;
 }
 
@@ -83,12 +83,12 @@ class EncodedFilm final : public FilmFile {
   }
 
   models::OutFile file_;
-  Child ffmpeg_;  // ended before its file is removed
+  Child ffmpeg_;  // ends before its file is removed
 };
 
 std::string frame_name(std::size_t number) { return fmt::format("frame_{:05}.png", number); }
 
-// "frame_00000.png", or the same with ".part", which is left where a run was killed.
+// True for "frame_00000.png", and with ".part", which a killed run leaves.
 bool is_frame(std::string name) {
   if (name.ends_with(".part")) name.resize(name.size() - 5);
   return name.size() >= 15 && name.starts_with("frame_") && name.ends_with(".png") &&
@@ -125,7 +125,7 @@ void check_replaceable(const std::string& folder, models::Existing existing) {
         folder));
 }
 
-// This is as for a file: a mistyped path makes no folders.
+// Requires the parent folder, as for a file: a mistyped path creates no folders.
 void check_parent(const std::string& path) {
   const fs::path parent = fs::path(path).parent_path();
   std::error_code none;
@@ -164,7 +164,7 @@ class FilmFolder final : public FilmFile {
     models::write_file((fs::path(aside_) / frame_name(frames_++)).string(), png_(frame),
                        models::Existing::keep);
   }
-  // rename() replaces an empty folder only.
+  // rename() replaces only an empty folder.
   void keep() override {
     check_replaceable(path_, existing_);
     if (is_there(path_)) remove_frames(path_);
@@ -195,7 +195,7 @@ FilmFormat film_format(const std::string& path) {
         fmt::format("{}: no film ends in '{}'; expected {}, or no ending for a folder of PNGs; choose one",
                     path, ending, known));
   }
-  // A GIF is large: half the size and half the rate.
+  // A GIF is large, so use half the size and half the rate.
   if (ending == ".gif") format = {640, 360, 15};
   format.ending = ending;
   format.folder = ending.empty() || program_path("ffmpeg").empty();

@@ -47,7 +47,7 @@ void check_camera(const models::Setup& setup) {
                     setup.scene_path));
 }
 
-// Where nothing of the background is known the arm is left in.
+// Without a known background, the augmented view keeps the arm.
 void note_unknown(const std::vector<std::uint8_t>& known) {
   if (std::all_of(known.begin(), known.end(), [](auto on) { return on == 0; }))
     print_notes({"warning: the background is not known yet, so the arm was left in; choose a later --at-s"});
@@ -61,7 +61,7 @@ int through_camera(const ViewOptions& options) {
   const auto& vision = *static_cast<const VisionModule*>(load_module("vision").vision);
   const auto& pictures = *static_cast<const sim::ViewModule*>(load_module("view").view);
   models::OutFile file(options.shot, models::existing(options.force));
-  std::optional<Image> left;  // of this tick
+  std::optional<Image> left;  // image of this tick
   trial::TrialOptions how;
   how.seed = options.seed;
   how.seconds = options.at.value_or(4.0);
@@ -95,7 +95,7 @@ int through_camera(const ViewOptions& options) {
   return 0;
 }
 
-// Half of the hold is over. A blow, which is not held, is over at once.
+// True after half of the hold. A blow has no hold: it counts at once.
 bool deepest(const Moment& m, double& held) {
   const double hold_time = m.setup.scene.user->hold_time;
   if (!(hold_time > 0.0)) return touching(m.truth) || m.truth.phase == sim::Phase::release;
@@ -103,9 +103,9 @@ bool deepest(const Moment& m, double& held) {
   return held >= 0.5 * hold_time;
 }
 
-// A picture is of the twin, whatever drives the rig.
+// A picture always shows the twin, whatever drivers the rig has.
 trial::TrialOptions options_of(const ViewOptions& options) {
-  constexpr double kBeyond = 0.01;  // s: the run goes on after its end, for a later moment
+  constexpr double kBeyond = 0.01;  // s: lets the run pass a moment at its end
   trial::TrialOptions trial;
   trial.seed = options.seed;
   trial.draw_all = true;
@@ -113,8 +113,8 @@ trial::TrialOptions options_of(const ViewOptions& options) {
   return trial;
 }
 
-// To the first tick at or after the moment; without one until the person has held the first press for half of
-// its time. False: it diverged.
+// Runs to the first tick at or after the moment. Unset: until half of the first press's hold is over. Returns
+// false if the physics diverged.
 bool run_until(Source& source, std::optional<double> at) {
   constexpr double kRounding = 1e-9;  // s
   double held = 0.0;
@@ -129,7 +129,7 @@ bool run_until(Source& source, std::optional<double> at) {
   return true;
 }
 
-// Unset: when the person has pressed.
+// The moment of the picture; unset: during the person's press.
 std::optional<double> moment_for(const ViewOptions& options, const Source& source) {
   if (options.at) return options.at;
   if (is_record(options.scene)) return deepest_moment(options.scene);
@@ -152,7 +152,7 @@ int picture(const ViewOptions& options) {
   const bool close_up = options.close_up;
   check_picture(options);
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
-  Source source(options, options_of(options));  // first: what it reads is never written
+  Source source(options, options_of(options));  // first: an input is never overwritten
   models::OutFile file(options.shot, models::existing(options.force));
   if (!run_until(source, moment_for(options, source))) {
     fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n",
@@ -170,7 +170,7 @@ int picture(const ViewOptions& options) {
   return 0;
 }
 
-// Options that would do nothing.
+// Refuses options without effect.
 void refuse_idle(const ViewOptions& options) {
   const bool in_file = !options.shot.empty() || !options.video.empty();
   if (options.scene.empty() && (options.armed || !options.set.empty() || !options.rig.empty()))

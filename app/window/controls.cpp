@@ -11,13 +11,13 @@ namespace {
 using sim::Key;
 using sim::WindowEvent;
 
-constexpr double kFiner = 0.1;   // of each way, with Shift
-constexpr double kStep = 0.002;  // m, of a key or a click of the wheel
-constexpr double kStick = 0.1;   // m/s, of a gamepad's stick at its end
+constexpr double kFiner = 0.1;   // factor on each motion, with Shift
+constexpr double kStep = 0.002;  // m, for a key or a click of the wheel
+constexpr double kStick = 0.1;   // m/s, for a gamepad's stick at its end
 constexpr double kTurn = 0.006;  // rad for each px
 constexpr double kClick = 4.0;   // px: a press that moves less is a click
 constexpr double kSlowest = 0.01, kFastest = 1.0;
-constexpr double kNearest = 0.03, kFarthest = 5.0;  // m, of the camera
+constexpr double kNearest = 0.03, kFarthest = 5.0;  // m, range of the camera's distance
 
 bool is(std::int32_t code, Key key) { return code == static_cast<std::int32_t>(key); }
 
@@ -65,7 +65,7 @@ void Controls::see(const WindowEvent& event, const Surroundings& around) {
   }
 }
 
-// Moves along the bar of time. A drag that began on the bar goes on beyond it.
+// Seeks on the bar of time. A drag that began on the bar continues beyond it.
 bool Controls::seek(const WindowEvent& event, const Surroundings& around) {
   const auto share = sim::bar_share(event.x, event.y, around.width, around.height, on_bar_);
   if (!share) return false;
@@ -153,7 +153,7 @@ void Controls::see_time_key(std::int32_t code, const Surroundings& around) {
   }
 }
 
-// Keys of the hand and of what it meets.
+// Handles the keys that move the hand, and those for the objects.
 void Controls::see_hand_key(const WindowEvent& event, const Surroundings& around) {
   const std::int32_t code = event.code;
   const double step = kStep * (event.shift ? kFiner : 1.0);
@@ -199,7 +199,7 @@ Controls::Insets Controls::insets(bool camera) const {
   using enum Insets;
   constexpr std::array kPlain{none, contact, sides};
   constexpr std::array kCamera{pair, augmented, none, contact,
-                               sides};  // vision is what such a scene is about
+                               sides};  // a scene with a camera is about vision
   const auto at = static_cast<std::size_t>(insets_);
   return camera ? kCamera[at % kCamera.size()] : kPlain[at % kPlain.size()];
 }

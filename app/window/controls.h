@@ -1,4 +1,4 @@
-// The meaning of mouse and keys in the window: camera, wanted position of the hand, time. Controls uses
+// The meaning of mouse and keys in the window: camera, requested position of the hand, time. Controls uses
 // neither window nor run, so tests can press every key.
 #pragma once
 
@@ -13,18 +13,19 @@ namespace enc::app {
 
 // Requests to the run. Pausing, stepping and speed apply to simulated runs only.
 struct Wishes {
-  std::optional<Point<'W'>> hand{};  // wanted position of the tool's tip; unset: the scene's own hand moves
+  // Requested position of the tool's tip; unset: the scene's own hand moves.
+  std::optional<Point<'W'>> hand{};
   bool paused = false;
   double speed = 1.0;     // experiment time per wall time
   int ticks = 0;          // single ticks to run while paused
   bool to_event = false;  // runs to the next change of mode, then pauses
   bool ends = false, restarts = false;
-  bool stops = false, resumes = false;  // the machine
+  bool stops = false, resumes = false;  // for the machine
   bool changes_tool = false;
   std::uint8_t faults = 0;       // bits of trial::Fault
   std::optional<double> seek{};  // share of the bar of time
   int stills = 0;                // pictures to go forward; negative: back
-  bool newest = false;           // to the present
+  bool newest = false;           // go to the present
 };
 
 struct Surroundings {
@@ -59,7 +60,7 @@ class Controls {
   [[nodiscard]] double x() const { return x_; }  // px, mouse
   [[nodiscard]] double y() const { return y_; }
   [[nodiscard]] bool follows() const { return follows_; }
-  // Lasting wishes, and the single requests since the last call.
+  // The lasting requests, and the single requests since the last call.
   [[nodiscard]] Wishes take_wishes();
   void paused_at_event() {
     wishes_.paused = true;

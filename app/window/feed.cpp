@@ -53,8 +53,8 @@ CameraFeed::CameraFeed(trial::Trial& trial)
       painter_(vision().painter(trial.setup().rig.camera)),
       view_(vision().augmented(believed_spec(trial.setup(), trial.scene()), trial.scene().objects)) {}
 
-// The view without the machine learns the background from the first frames. Later ones cost the run's time
-// only while somebody looks.
+// The view without the machine learns the background from the first frames. Later frames cost the run's time
+// only while they are shown.
 void CameraFeed::see() {
   if (!frame_) return;
   const StereoFrame frame = *frame_;

@@ -34,7 +34,7 @@ class Feed {
   // Run's thread, while the run stands still: the last tick, if the window has an older one.
   void catch_up();
 
-  // Window's thread, for all functions below. True: newest() is a newer one now.
+  // Window's thread, for all functions below. Returns true if newest() is a newer snapshot now.
   bool take();
   [[nodiscard]] const Snapshot& newest() const { return *front_; }
   bool next(ChartSample& sample) { return samples_.pop(sample); }

@@ -25,7 +25,7 @@ void Link::wish(const Wishes& wishes) {
   to_event_ = wishes.to_event;
   ticks_ += wishes.ticks;
   if (wishes.ends || wishes.restarts) ends_ = true;
-  // A stop comes before a resume, also before one that the run has not taken yet.
+  // A stop takes precedence over a resume, and over an earlier resume that the run has not taken yet.
   trial::Hand none = trial::Hand::none;
   if (wishes.stops)
     machine_ = trial::Hand::halt;
@@ -33,7 +33,7 @@ void Link::wish(const Wishes& wishes) {
     machine_.compare_exchange_strong(none, trial::Hand::resume);
 }
 
-// The run stands still until here, so no wish of a moment ago lets it pass the event.
+// The run stands still until here, so an earlier request cannot make it pass the event.
 bool Link::take_event() {
   if (!event_) return false;
   paused_ = true;
@@ -94,7 +94,7 @@ std::optional<trial::HandWord> Link::hand() {
 
 bool Link::waits(double dt) {
   using Clock = std::chrono::steady_clock;
-  constexpr milliseconds kNap{2}, kSlice{20};  // while paused, and while the next tick is to come
+  constexpr milliseconds kNap{2}, kSlice{20};  // while paused, and until the next tick is due
   constexpr milliseconds kLate{50};            // the rest of a longer delay is never made up
   if (wall_) return false;
   const Clock::time_point now = Clock::now();

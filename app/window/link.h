@@ -1,5 +1,5 @@
-// Connects the run's thread and the window's thread: wishes go one way, begin and end both. The run never
-// waits for a picture.
+// Connects the run's thread and the window's thread: requests go one way, begin and end both ways. The run
+// never waits for a picture.
 #pragma once
 
 #include <atomic>
@@ -22,15 +22,15 @@ class Link {
   void end() { ends_ = true; }
   // Blocks until the run is about to begin; false: it ended without beginning.
   [[nodiscard]] bool wait_for_begin();
-  void let_go();  // the run may begin
-  void refuse();  // the run ends before its first tick, without a record or a report
+  void let_go();  // lets the run begin
+  void refuse();  // ends the run before its first tick, without a record or a report
   [[nodiscard]] bool ended();
   void closed();  // the window no longer draws the run
 
   // ---- run's side
   // Blocks until the window is open; false: it could not be opened. `wall`: the run keeps the wall clock.
   [[nodiscard]] bool begin(bool wall);
-  void wait_for_close();  // until closed()
+  void wait_for_close();  // waits until closed()
   void over();            // the last call
   void see(const trial::Glance& glance) {
     if (to_event_ && glance.out.mode != mode_) event_ = true;
@@ -39,7 +39,8 @@ class Link {
   [[nodiscard]] bool ends() const { return ends_; }
   [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
   [[nodiscard]] std::optional<trial::HandWord> hand();  // set if there is news
-  // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
+  // Returns true if the next tick is not due yet, after a short sleep. Always false for a run on the wall
+  // clock.
   [[nodiscard]] bool waits(double dt);
 
  private:

@@ -17,10 +17,10 @@ namespace enc::app {
 namespace {
 
 constexpr int kChartsFrom = 850;  // px, width of a window with room for charts
-constexpr double kHover = 0.015;  // m above a place that was clicked
+constexpr double kHover = 0.015;  // m above a clicked place
 
-// The thoughts of the core: where it takes the tool's tip to be and the surface under it, the gap between
-// them, and where it sends the haptic-tip.
+// Draws the core's estimates: the tool's tip, the surface point below it, the gap between them, and the
+// commanded haptic-tip.
 void add_core(const Moment& m, sim::ViewRequest& request) {
   constexpr sim::Colour kTool{0.16F, 0.42F, 0.72F, 0.45F}, kGap{0.35F, 0.38F, 0.45F, 0.8F},
       kTarget{0.90F, 0.30F, 0.60F, 0.45F};
@@ -82,7 +82,7 @@ bool Show::shows(Controls::Insets insets) const {
   return controls_ && controls_->insets(what_.cameras) == insets && !timeline_.past();
 }
 
-// Small pictures along the bottom: other cameras on the scene, or what the scene's own camera sees.
+// Small pictures along the bottom: other views of the scene, or images of the scene's own camera.
 void Show::inset(const Moment& m, sim::ViewRequest& request) const {
   using Insets = Controls::Insets;
   const auto turned = [&](const char* name, double by) {
@@ -131,7 +131,7 @@ Surroundings Show::around() {
   around.real = what_.of == Controls::Of::real;
   around.played = what_.of == Controls::Of::record;
   around.past = timeline_.past();
-  // An empty hand on its way to the other tool hears where that is wanted.
+  // An empty hand on its way to the other tool can also be steered.
   const bool hand = trial_.setup().scene.user.has_value() && shown.truth.tool_tip.finite();
   around.steerable = what_.of == Controls::Of::simulated && hand && !around.past;
   around.recording = what_.recording;
@@ -192,7 +192,7 @@ void Show::write(const Moment& m, const Wishes& wishes, const trial::RunStatus* 
     request.names += (request.names.empty() ? "" : "\n") + name;
     request.values += (request.values.empty() ? "" : "\n") + value;
   };
-  // A real machine goes on while somebody looks back: what it does now comes first.
+  // A real machine moves on while the user looks at the past, so its present mode comes first.
   const bool real = what_.of == Controls::Of::real;
   row("mode", mode_text(real ? timeline_.newest() : timeline_.shown()));
   if (real && timeline_.past()) row("shown", mode_text(timeline_.shown()));

@@ -1,5 +1,5 @@
 // The window's view of a run or a record: the picture of a moment, status, charts, the bar of time. It turns
-// events into wishes, and carries out those that concern only the picture.
+// events into requests, and carries out those that concern only the picture.
 #pragma once
 
 #include <chrono>
@@ -31,7 +31,7 @@ class Show {
   void add(const Still& still);
   void add(const ChartSample& sample) { charts_.add(sample); }
   void add(CameraFeed::Pictures&& pictures);
-  [[nodiscard]] bool shows(Controls::Insets insets) const;  // pictures of the present
+  [[nodiscard]] bool shows(Controls::Insets insets) const;  // true for pictures of the present
   [[nodiscard]] Timeline& timeline() { return timeline_; }
   [[nodiscard]] Controls& controls() { return *controls_; }  // valid once there is a still
   [[nodiscard]] bool empty() const { return timeline_.empty(); }
@@ -41,7 +41,7 @@ class Show {
 
   // Handles events in order; returns the wishes for the run. Valid once there is a still.
   [[nodiscard]] Wishes see(const std::vector<sim::WindowEvent>& events);
-  // `status`: of the present; null for a record.
+  // `status`: status of the present; null for a record.
   void draw(const Wishes& wishes, const trial::RunStatus* status);
 
  private:

@@ -83,9 +83,9 @@ class RunThread {
 using sim::Key;
 using sim::WindowEvent;
 
-constexpr std::int64_t kMostTicks = 20'000;  // until the moment of a picture
+constexpr std::int64_t kMostTicks = 20'000;  // most ticks to the moment of a picture
 
-// The scene at its first touch.
+// Picture of the scene at its first touch.
 Image picture_of(const std::string& name, sim::ViewWindow& window, int width, int height) {
   models::Setup setup = models::load(name, {}, {});
   leave_out_vision(setup);
@@ -110,7 +110,7 @@ class Page {
     page_.title = "Encounter: choose a scene (mouse or arrow keys, then Enter; Q ends)";
     for (const models::ListedScene& scene : listed_) page_.tiles.push_back({{}, scene.name});
     if (page_.tiles.empty()) throw no_scenes();
-    // First the scene that a newcomer should press.
+    // Preselect the scene that a newcomer starts with.
     for (std::size_t i = 0; i < listed_.size(); ++i)
       if (listed_[i].name == "tennis_ball") page_.chosen = i;
   }
@@ -141,7 +141,7 @@ class Page {
     try {
       page_.tiles[i].picture =
           picture_of(listed_[i].name, window_, grid().picture_width(), grid().picture_height());
-    } catch (const Error&) {  // it says so when it is chosen
+    } catch (const Error&) {  // the error is shown when the scene is chosen
     }
   }
   void choose(std::ptrdiff_t by) {
@@ -149,13 +149,13 @@ class Page {
     const auto wanted = static_cast<std::ptrdiff_t>(page_.chosen) + by;
     if (wanted >= 0 && wanted <= last) page_.chosen = static_cast<std::size_t>(wanted);
   }
-  // True: the chosen scene is wanted.
+  // Returns true if the user starts the chosen scene.
   bool see(const WindowEvent& event, bool& ends) {
     const sim::TileGrid tiles = grid();
     const auto row = static_cast<std::ptrdiff_t>(tiles.columns);
     const std::size_t under = tiles.at(event.x, event.y, listed_.size(), listed_.size());
     if (event.kind == WindowEvent::Kind::move) {
-      // Where the mouse is at first is nobody's choice.
+      // The first position of the mouse is not a choice.
       if (moved_ && under < listed_.size()) page_.chosen = under;
       moved_ = true;
     }
@@ -189,12 +189,12 @@ using std::chrono::milliseconds;
 constexpr int kWidth = 1280, kHeight = 720;  // px
 constexpr milliseconds kPicture{16};         // between two pictures
 
-// How often a scene file is looked at for a new version.
+// Interval between checks for a new version of the scene file.
 constexpr milliseconds kLook{500};
 // 4096 stills are 68 s at 60 pictures a second, and take some 60 MB.
 constexpr std::size_t kStills = 4096, kSamples = 100'000;
 
-// The next picture is due kPicture after the last, or at once.
+// The next picture is due kPicture after the last one, or at once.
 class Pictures {
  public:
   void wait() {
@@ -206,11 +206,11 @@ class Pictures {
   Wall::time_point next_ = Wall::now();
 };
 
-// Tells when a scene file was written, and whether it can be run.
+// Detects new versions of a scene file, and checks that they can run.
 class SceneFile {
  public:
   explicit SceneFile(const RunOptions& options) : options_(options), seen_(written()) {}
-  // True: a new version was saved that can be run. `message` says what is wrong with one that cannot.
+  // Returns true if a new version was saved that can run. `message` describes the mistake in one that cannot.
   bool renewed(std::string& message) {
     if (Wall::now() < next_) return false;
     next_ = Wall::now() + kLook;
@@ -330,11 +330,11 @@ class Run {
   RunThread& thread_;
 };
 
-// Shows a run until it ends or the window is closed. True: the user wants a restart.
+// Shows a run until it ends or the window is closed. Returns true if the user wants a restart.
 bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
   Feed& feed = run.feed();
   Link& link = run.link();
-  std::vector<sim::WindowEvent> news, events;  // kept until there is something to see
+  std::vector<sim::WindowEvent> news, events;  // kept until there is a still to show
   Pictures pictures;
   std::string message;
   while (!link.ended()) {
@@ -365,19 +365,20 @@ bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
   return false;
 }
 
-// Drawing gives way to the loop: this thread, and those that it makes for OpenGL, take a lower priority.
+// Gives the loop precedence over drawing: this thread, and its threads for OpenGL, take a lower priority.
 void yield() {
   constexpr int kNice = 10;
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);  // else it competes, no more
+  // On failure it only competes with the loop.
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
 }
 
-// Nothing points to a run that is gone.
+// Clears the pointer to a run when the run is gone.
 struct Forget {
   Run*& run;
   ~Forget() { run = nullptr; }
 };
 
-// How much of a record is read. False: the user wants no more of it.
+// Shows how much of a record is read. Returns false if the user cancels.
 bool show_reading(double ticks, double all, Show& show, sim::ViewWindow& window) {
   std::vector<sim::WindowEvent> events;
   if (!window.poll(events)) return false;
@@ -388,7 +389,7 @@ bool show_reading(double ticks, double all, Show& show, sim::ViewWindow& window)
   return true;
 }
 
-// What was read, from its beginning and as the user wishes, until the window is closed.
+// Plays the record from its beginning, under the user's control, until the window is closed.
 void play(Show& show, sim::ViewWindow& window) {
   std::vector<sim::WindowEvent> events;
   Pictures pictures;
@@ -410,7 +411,7 @@ void play(Show& show, sim::ViewWindow& window) {
   }
 }
 
-// A record from its beginning, until the window is closed.
+// Shows a record until the window is closed.
 int show_record(const std::string& path, const sim::WindowModule& module) {
   Playback playback(path);
   print_notes(playback.setup().notes);
@@ -448,7 +449,7 @@ int show_record(const std::string& path, const sim::WindowModule& module) {
   return 0;
 }
 
-// A run that is renewed when its scene file is saved, but for one that moves a machine or is recorded. True:
+// Restarts the run when its scene file is saved, unless it moves a machine or is recorded. Returns true if
 // the user wants a restart.
 bool show_live(Run& run, sim::ViewWindow& window, bool recording, SceneFile& file) {
   Show show(run.trial(), window,
@@ -457,7 +458,7 @@ bool show_live(Run& run, sim::ViewWindow& window, bool recording, SceneFile& fil
   return show_run(run, show, window, run.real() || recording ? nullptr : &file);
 }
 
-// False: the user has chosen no scene.
+// Returns false if the user chose no scene.
 bool let_choose(sim::ViewWindow& window, ViewOptions& options) {
   const auto chosen = choose_scene(window);
   if (!chosen) return false;
@@ -492,7 +493,7 @@ int window(const ViewOptions& asked) {
     if (!run.link().wait_for_begin()) return run.code();
     shown = &run;
     const Forget forget{shown};
-    if (!run.real()) yield();  // the key that stops a real machine waits for nothing
+    if (!run.real()) yield();  // a real machine's run keeps its priority: the stop key must never wait
     try {
       if (!window) window = module->open("Encounter: " + options.scene, kWidth, kHeight, lost);
     } catch (...) {

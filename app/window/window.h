@@ -1,4 +1,4 @@
-// encounter view without --shot: a run in a window, in which the mouse is the hand.
+// `encounter view` without --shot: a run in a window, in which the mouse moves the hand.
 #pragma once
 
 #include "app/common/options.h"

@@ -1,6 +1,6 @@
-// `encounter calibrate camera POINTS.csv`: the camera's pose out of places of the device's tip, how sure it
-// is and what is worth averaging. `encounter calibrate camera RIG`: the same on the twin, whose arm is driven
-// to the places.
+// `encounter calibrate camera POINTS.csv`: the camera's pose from positions of the device's tip, its
+// uncertainty, and whether to average more frames or more places. `encounter calibrate camera RIG`: the same
+// calibration on the twin, whose arm drives to the places.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -76,7 +76,7 @@ std::string fewer_text(const PointStudy& s) {
   return out;
 }
 
-// What is worth averaging: frames until what stays is all that is left, then places.
+// Advises what to average: more frames until their noise falls below the remaining error, then more places.
 std::string advice_text(const PointStudy& s) {
   const double frame = s.frame_noise.norm(), stays = s.standing.norm();
   if (std::isnan(frame))
@@ -151,8 +151,8 @@ std::string study_text(const PointSet& places, const PointStudy& s) {
          "intervals   95 %, from leaving out one pair at a time\n";
 }
 
-// Of pictures: how many of a place's frames show the ball at least, for one that hides it is no reason to go
-// there again.
+// Smallest share of a place's frames that show the ball. A single frame that hides it does not repeat the
+// place.
 constexpr double kFound = 0.5;
 
 // rms of a frame about the place's mean, along the axes of C, m.
@@ -196,7 +196,7 @@ Json places_json(const trial::GuidedRun& run, std::size_t frames) {
       models::place_of(setup, "rig.vision.ball_hue_deg"), run.points.size(), pairs, word_of(eyes->loss())));
 }
 
-// Of what was found against X_WC, all over the volume in view.
+// Mean error of the result against X_WC over the volume in view.
 Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::vector<Point<'W'>>& targets) {
   Vec3 mean = Vec3::Zero();
   for (const Point<'W'>& p : targets)
@@ -204,7 +204,7 @@ Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::
   return mean;
 }
 
-// What pairs of points have no use for is not passed over in silence.
+// Refuses options that apply to a rig only.
 void refuse(bool given, const std::string& option, const CameraOptions& options) {
   if (given)
     throw Error(fmt::format("{} is of a rig; {} is none; expected the command without it; remove it", option,
@@ -237,9 +237,9 @@ int calibrate_arm(const CameraOptions& options, const trial::DriverSource& modul
   const std::uint64_t seed = options.seed.value_or(1);
   const models::Setup setup = models::load_rig_setup(options.what, options.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
-  std::optional<models::OutFile> file;  // refused before the arm moves
+  std::optional<models::OutFile> file;  // refuse it before the arm moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
-  std::optional<trial::PictureEyes> eyes;  // likewise
+  std::optional<trial::PictureEyes> eyes;  // also before the arm moves
   if (options.through_images) eyes.emplace(trial::twin_eyes(setup, modules, seed));
   trial::DrivenArm arm(setup);
   const trial::RegistrationPlaces places = trial::places_of(rig, pairs);

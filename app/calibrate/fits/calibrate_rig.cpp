@@ -1,5 +1,5 @@
-// `encounter calibrate rig RIG`: where a hexapod rig's tracker and its force sensor are and what that
-// carries, out of a tool that the machine carries from pose to pose, in the twin or over real devices.
+// `encounter calibrate rig RIG`: the poses of a hexapod rig's tracker and force sensor, and the weight on the
+// sensor. The machine carries a tool from pose to pose, in the twin or over real devices.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 using models::RigCalibration;
 using trial::MachineCalibration;
 
-// What was found, as the rig will believe it.
+// The result, in the form of the rig file.
 struct Found {
   const models::Setup& setup;
   const MachineCalibration& made;
@@ -59,7 +59,7 @@ RigCalibration file_of(const models::Setup& setup, const MachineCalibration& mad
   return file;
 }
 
-// As many digits as the interval has to say, and two of that.
+// Number of decimals that shows two significant digits of the interval.
 int digits_of(double half) {
   if (!(half > 0.0) || !std::isfinite(half)) return 4;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 4);
@@ -76,7 +76,7 @@ std::string with(const Vec3& value, const Vec3& half) {
   return list(value, digits) + " +- " + list(half, digits);
 }
 
-// By how much what is found differs from what the rig believes, about the parent's axes.
+// Angle between the result and the rig file's orientation, about the parent's axes, deg.
 double turned(const Quat& found, const Vec3& believed) {
   return found.angularDistance(rotation_xyz(believed)) * kDegPerRad;
 }
@@ -177,7 +177,7 @@ Json found_json(const Found& found) {
   return json;
 }
 
-// Who is in the way of a machine is noticed by its force sensor alone.
+// Only the force sensor detects a person in the way of the machine.
 void refuse_unwatched(const models::Setup& setup, const RigOptions& options) {
   const std::string &force = setup.rig.force.driver, &tracker = setup.rig.tracker.driver;
   if (force == "none" && tracker == "none")
@@ -192,7 +192,7 @@ void refuse_unwatched(const models::Setup& setup, const RigOptions& options) {
         models::place_of(setup, "rig.force.driver"), models::quoted(force)));
 }
 
-// In lockstep there are only fakes.
+// Lockstep runs have only fakes, so no question is needed.
 bool asks(const models::Setup& setup, const RigOptions& options) {
   return options.armed && !options.lockstep && trial::moves_device(setup);
 }
@@ -200,7 +200,7 @@ bool asks(const models::Setup& setup, const RigOptions& options) {
 models::Setup setup_for(const RigOptions& options) {
   const std::string scene =
       options.scene.empty() ? models::models_dir() + "/scenes/clamped_tool.toml" : options.scene;
-  // What an earlier calibration says is not asked: it may be what is wrong.
+  // Ignore an earlier calibration, because it may be the error.
   std::vector<std::string> set = options.set;
   set.emplace_back("rig.calibration.file=\"\"");
   models::Setup setup = models::load(scene, options.rig, set);
@@ -227,8 +227,8 @@ trial::TrialOptions trial_options(const RigOptions& options, const trial::Driver
   return how;
 }
 
-// However it ends: all that moves is stopped, then it is told what the devices have said. Why a link was lost
-// is in there.
+// Ends the run in every case: stops all motion, then prints the devices' messages, with the reason for a lost
+// link.
 void end(std::optional<trial::CarriedTool>& tool) {
   std::vector<std::string> lines = tool->trial().said();
   if (const std::string& words = tool->trial().result().real_time; !words.empty())
@@ -238,10 +238,10 @@ void end(std::optional<trial::CarriedTool>& tool) {
   for (const std::string& line : lines) fmt::print(stderr, "{}\n", models::printable(line));
 }
 
-// The person did not want the machine to move.
+// Thrown if the person does not let the machine move.
 struct NotBegun {};
 
-// What is asked before the first motion; empty: nothing that could hurt anybody moves.
+// The question before the first motion; empty: no real machine moves.
 std::string question_for(const trial::Trial& trial, const RigOptions& options) {
   if (!asks(trial.setup(), options)) return {};
   return trial::motion_question(trial.setup(), trial.scene(), trial.result().devices);
@@ -249,7 +249,7 @@ std::string question_for(const trial::Trial& trial, const RigOptions& options) {
 
 MachineCalibration made_with(const models::Setup& setup, const RigOptions& options,
                              const trial::DriverSource& modules) {
-  const trial::StandardError error;  // a machine that moves waits for no terminal
+  const trial::StandardError error;  // a moving machine does not wait for a terminal
   const auto progress = [&error](double share) {
     if (error.terminal()) error.write(fmt::format("\r{:3.0f} %", 100.0 * share));
   };
@@ -279,7 +279,7 @@ int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules)
                     "calibrate camera {}",
                     options.rig, shell_word(options.rig)));
   const models::Setup setup = setup_for(options);
-  std::optional<models::OutFile> file;  // refused before anything moves
+  std::optional<models::OutFile> file;  // refuse it before anything moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   if (options.catch_signals) options.catch_signals();
   MachineCalibration made;
@@ -287,18 +287,18 @@ int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules)
     made = made_with(setup, options, modules);
   } catch (const NotBegun&) {
     fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
-    return 2;  // unless it was a signal, which makes the exit code
+    return 2;  // a signal sets its own exit code
   } catch (const trial::CarryingEnded&) {
     if (!options.stop || !options.stop())
       throw Error("the devices ended the run; nothing was written; see `encounter devices`", {},
                   ErrorKind::device);
     fmt::print(stderr, "stopped by hand: the machine stands, and nothing was written\n");
-    return 4;  // unless it was a signal, which makes the exit code
+    return 4;  // a signal sets its own exit code
   }
   const Found found{setup, made, file_of(setup, made)};
   const std::string text = found_text(found);
   fmt::print("{}", options.json ? found_json(found).dump(2) + "\n" : text);
-  std::fflush(stdout);  // whatever becomes of the file
+  std::fflush(stdout);  // before writing the file, which may fail
   if (options.stop && options.stop()) {
     fmt::print(stderr, "stopped by hand: nothing was written\n");
     return 4;

@@ -1,5 +1,5 @@
-// `encounter calibrate tip POSES.csv`: where the tip of a tool is in its markers, out of a tool that is swung
-// about its tip.
+// `encounter calibrate tip POSES.csv`: the position of a tool's tip relative to its markers, from a tool that
+// is turned about its resting tip.
 #include <array>
 #include <string>
 #include <string_view>
@@ -37,7 +37,7 @@ constexpr std::string_view kMetres =
     "the tip is within 5 mm of the markers' origin, and all poses within 20 mm of the tracker's: if the log "
     "is in metres, multiply its places by 1000";
 
-// What the reader should know before the numbers.
+// Notes for the reader before the numbers.
 std::string pivot_notes(const PivotLog& log, const PivotFit& fit) {
   std::string out;
   if (fit.rested > fit.turned)
@@ -125,7 +125,7 @@ int calibrate_tip(const TipOptions& options) {
   refuse_pairs(csv, options.log, "poses of a tool that is swung about its tip");
   const PivotLog log = models::parse_pivot_log(csv, options.log);
   const PivotFit fit = fit_of(log, options.log);
-  // In ASCII: a name may hold what a terminal obeys.
+  // ASCII only: a name may hold control characters for the terminal.
   fmt::print("{}", options.json ? pivot_json(log, fit).dump(2, ' ', true) + "\n" : pivot_text(log, fit));
   return 0;
 }

@@ -1,5 +1,5 @@
-// `encounter calibrate tracker LOG.csv`: how far off, how noisy and how late a tracker is, from any log of a
-// tool that the machine carries past it.
+// `encounter calibrate tracker LOG.csv`: offset, noise and latency of a tracker, from any log of a tool that
+// the machine carries in its view.
 #include <algorithm>
 #include <cmath>
 
@@ -30,12 +30,12 @@ std::string text(const Interval& i, double unit, int digits) {
 std::string text(double x, double unit, int digits) {
   return std::isnan(x) ? "not known" : fmt::format("{:.{}f}", x * unit, digits);
 }
-// A tracker's scale is good to much less than this, and a length in wrong units is far beyond.
+// A tracker's scale is much more accurate than this, and a length in wrong units is far beyond it.
 bool scaled(const AxisLatency& x) { return std::abs(x.scale - 1.0) > 0.02; }
 bool scaled(const LatencyFit& fit) {
   return std::any_of(fit.axes.begin(), fit.axes.end(), [](const AxisLatency& x) { return scaled(x); });
 }
-// The tool was seen where the tip was not yet.
+// The tracker reports the motion before the machine makes it.
 bool early(const LatencyFit& fit) {
   return fit.latency.known() && fit.latency.value + fit.latency.half < 0.0;
 }
@@ -79,7 +79,7 @@ std::string stamps_text(const LatencyFit& fit) {
                      fit.stamp_age.value * kMsPerS, text(fit.stamp_error, kMsPerS, 2));
 }
 
-// What the log cannot tell, and what it tells beside the numbers.
+// Remarks on the log's limits and on findings besides the numbers.
 std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
   std::string out;
   const auto say = [&](const std::string& what) { out += "note        " + what + "\n"; };
@@ -186,9 +186,9 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
   return json.dump(2);
 }
 
-// A tool that goes its own way tells nothing about the tracker, whatever the numbers are.
+// A tool that the machine does not carry shows nothing about the tracker, whatever the numbers are.
 void check_carried(const LatencyFit& fit, const std::string& name) {
-  constexpr double kMost = 0.5;  // of the tool's motion
+  constexpr double kMost = 0.5;  // share of the tool's motion
   if (!fit.carried)
     throw Error(
         fmt::format("{}:1:1: the tip stood still and the tool moved; expected a tool that the machine "
@@ -216,7 +216,7 @@ int calibrate_tracker(const TrackerOptions& options) {
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   check_carried(fit, options.log);
-  const int code = scaled(fit) || early(fit) ? 1 : 0;  // no rig may take these numbers
+  const int code = scaled(fit) || early(fit) ? 1 : 0;  // such a result is unfit for a rig
   if (options.json) {
     fmt::print("{}\n", json_text(log, fit));
     return code;

@@ -1,5 +1,5 @@
-// `encounter calibrate skin FOLDER`: the colour of skin from images of hands and their masks [VisHap 2.1.1],
-// and how well hue alone separates a hand from the rest of these images.
+// `encounter calibrate skin FOLDER`: the colour of skin from images of hands and their masks [VisHap 2.1.1].
+// It also reports how well hue alone separates a hand from the rest of these images.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +39,7 @@ struct HandFiles {
 // Pixels of the hand or of the rest.
 struct HueCounts {
   std::array<std::int64_t, segmentation::kHues> hue{};
-  std::int64_t grey = 0, dark = 0;  // without a hue: the chroma, or the brightest channel, is below HueRule
+  std::int64_t grey = 0, dark = 0;  // pixels without hue: chroma, or brightest channel, below HueRule
   std::int64_t all = 0;
 };
 struct SkinStudy {
@@ -49,12 +49,12 @@ struct SkinStudy {
   std::vector<std::string> unlike;  // masks with mostly other hues than the model's
 };
 
-constexpr int kWhite = 128;                         // of 255, mean of the channels: hand
-constexpr int kFirstGrey = 64, kLastGrey = 191;     // neither: a picture
-constexpr double kMostGrey = 0.05;                  // of a mask's pixels: edges, as JPEG blurs them
+constexpr int kWhite = 128;                         // 0 to 255: at least this mean of the channels is hand
+constexpr int kFirstGrey = 64, kLastGrey = 191;     // other values in between: the mask is a picture
+constexpr double kMostGrey = 0.05;                  // share of a mask's pixels: edges blurred by JPEG
 constexpr double kLeastSpread = 0.01 / kDegPerRad;  // rad
 constexpr double kWideSpread = 20.0 / kDegPerRad;   // rad; skin of all tones together has less than 8 deg
-constexpr double kManyWithout = 0.1;                // of the hand's pixels
+constexpr double kManyWithout = 0.1;                // share of the hand's pixels
 constexpr std::array<double, 5> kSigmas{1.5, 2.0, 2.5, 3.0, 3.5};
 
 std::map<std::string, std::string> by_stem(const std::string& folder) {
@@ -74,7 +74,7 @@ void refuse_empty(bool empty, const std::string& folder) {
         fmt::format("{}: has no images; expected PNG or JPEG files; see docs/guide/camera.md", folder));
 }
 
-// White is hand.
+// White pixels are hand.
 void read_mask(const std::string& path, Image& image, Mask& mask) {
   images::read_image(path, image);
   if (mask.width != image.width || mask.height != image.height) mask = Mask(image.width, image.height);
@@ -116,7 +116,7 @@ void count(const Image& image, const Mask& mask, SkinStudy& study) {
   }
 }
 
-// Share of the pixels whose hue is within so many spreads of the mean.
+// Share of the pixels whose hue is within this many spreads of the mean.
 double taken(const SkinStudy& study, const HueCounts& of, double sigmas) {
   const segmentation::Arc arc = segmentation::skin_arc(study.model, sigmas);
   std::int64_t sum = 0;
@@ -125,7 +125,7 @@ double taken(const SkinStudy& study, const HueCounts& of, double sigmas) {
   return static_cast<double>(sum) / static_cast<double>(of.all);
 }
 
-// Throws Error that names the image.
+// Throws an Error that names the image.
 SkinModel model_of(const SkinLearner& learner, const std::string& image) {
   if (learner.pixels() < 2)
     throw Error(
@@ -170,15 +170,15 @@ std::string notes_text(const SkinStudy& study) {
   return out;
 }
 
-// list_hands() and study_skin() throw Error in one line that begins with a folder or a file: a mask or an
-// image without the other, one of another size, a mask that is a picture, a mask with no hand or nothing
-// else, a hand without any hue. After list_hands(), no output can overwrite the files.
+// list_hands() and study_skin() throw Error in one line that begins with a folder or a file. Errors are: a
+// mask or an image without its partner, or of another size; a mask that is a picture, or shows no hand or
+// only a hand; a hand without any hue. After list_hands(), no output can overwrite the files.
 std::vector<HandFiles> list_hands(const std::string& images, const std::string& masks) {
   const std::vector<std::string> paths = images::images_in(images);
   refuse_empty(paths.empty(), images);
   std::map<std::string, std::string> partners = by_stem(masks);
   refuse_empty(partners.empty(), masks);
-  (void)by_stem(images);  // no name twice
+  (void)by_stem(images);  // checks that no name occurs twice
   std::vector<HandFiles> files;
   for (const std::string& path : paths) {
     const auto mask = partners.find(std::filesystem::path(path).stem().string());
@@ -210,7 +210,7 @@ SkinStudy study_skin(const std::vector<HandFiles>& files) {
   SkinStudy study;
   study.images = files.size();
   SkinLearner learner;
-  std::vector<double> means;  // of each image
+  std::vector<double> means;  // mean of each image
   Image image, drawn;
   Mask mask;
   for (const HandFiles& each : files) {

@@ -1,4 +1,4 @@
-// `encounter calibrate stereo FOLDER`: a stereo head out of a folder of pairs of a chessboard.
+// `encounter calibrate stereo FOLDER`: calibrates a stereo head from a folder of image pairs of a chessboard.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -60,12 +60,12 @@ std::string some_of(const std::vector<std::string>& names) {
 
 // ---- the study
 
-// "left01.png", "cam0/01.png"
+// Path of an image relative to the folder, as "left01.png" or "cam0/01.png".
 std::string name_of(const std::string& path, const std::string& folder) {
   return std::filesystem::path(path).lexically_relative(folder).string();
 }
 
-// To look for a board where there is none takes seconds an image: somebody who waits is told how far it is.
+// Prints progress every few seconds: searching an image without a board takes seconds.
 class Waiting {
  public:
   void tell(std::size_t done, std::size_t all, std::size_t found) {
@@ -80,13 +80,13 @@ class Waiting {
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
-// Images in which a board was looked for in vain.
+// An image in which the board was not found.
 struct Missed {
   std::string name;
   Image image;
 };
 
-// One camera's images whose names say no side would be cut in two.
+// Refuses images of a single camera: without sides in their names they would be cut in two.
 void refuse_whole(const images::PairList& list, const std::string& folder, const Board& board) {
   if (list.layout != images::Layout::side_by_side) return;
   Image whole;
@@ -113,7 +113,7 @@ void refuse_other_size(const std::vector<Missed>& missed, const std::string& fol
   }
 }
 
-// Looks for the board in all pairs. Where it was not found, the pair is left out and the image is named.
+// Looks for the board in all pairs. A pair without it is left out, and its image is named.
 class BoardSearch {
  public:
   BoardSearch(images::PairReader& reader, const std::string& folder, const Board& board)
@@ -133,8 +133,7 @@ class BoardSearch {
   }
 
  private:
-  // Pairs without any board, after which a board of another size is looked for, and the rest looked at
-  // quickly.
+  // After this many pairs without a board, look for a board of another size, and search the rest quickly.
   static constexpr std::size_t kTried = 2;
 
   void look_at(std::size_t i, PairStudy& study) {
@@ -163,8 +162,8 @@ class BoardSearch {
   images::PairReader& reader_;
   const std::string& folder_;
   const Board& board_;
-  std::vector<Missed> missed_;  // of the first pairs, while none had a board
-  bool found_ = false;          // in any image
+  std::vector<Missed> missed_;  // images of the first pairs, while none had a board
+  bool found_ = false;          // found in any image
 };
 
 void refuse_too_few(const PairStudy& study, const images::PairList& list, const std::string& folder,
@@ -179,8 +178,8 @@ void refuse_too_few(const PairStudy& study, const images::PairList& list, const 
       study.missed.empty() ? "take more pairs, " : fmt::format("none in {}; ", some_of(study.missed))));
 }
 
-// One pair that is none spoils them all: without it the others fit. Where each lens alone fits badly, no pair
-// is to blame.
+// A single wrong pair spoils the calibration, and the others fit without it. If each lens alone fits badly,
+// no pair is to blame.
 void refuse_unlike(const PairStudy& study, const std::string& folder) {
   const StereoCalibration& found = study.found;
   if (found.rms <= kLargestRms) return;
@@ -206,15 +205,15 @@ std::string misfit_of(const PairStudy& study) {
   if (!(study.found.focal_deviation < kLoosestFocal))
     return fmt::format("the focal length is known to {:.0f} % only", 100.0 * study.found.focal_deviation);
   try {
-    models::check_stereo(study.found.rig);  // so that what is written can be read
+    models::check_stereo(study.found.rig);  // so that the written file can be read again
   } catch (const Error& e) {
     return e.what();
   }
   return {};
 }
 
-// Throws Error in one line that begins with the folder or a file. No output can overwrite the images from
-// here on.
+// Throws Error in one line that begins with the folder or a file. No output can overwrite the images after
+// this call.
 images::PairReader open_pairs(const std::string& folder) {
   images::PairReader reader(images::list_pairs(folder, images::layout_of(folder)));
   for (const images::PairFiles& files : reader.list().pairs) {
@@ -320,7 +319,7 @@ std::string head_text(const PairStudy& study) {
              p.norm(), p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z(), pixel * kMmPerM, kAt * kMmPerM);
 }
 
-// By what is worst; what is no number is worse than all.
+// The pair with the largest error; NaN counts as the largest.
 template <class Error>
 std::size_t worst_of(const PairStudy& study, const Error& error) {
   const auto size = [&](const PairResidual& p) {
@@ -346,9 +345,9 @@ std::string rectification_text(const PairStudy& study) {
       100.0 * std::abs(found.pairs[square].square / side - 1.0), models::printable(study.pairs[square].name));
 }
 
-// What the corners say of a lens, and where they say nothing.
+// Notes on a lens: a bad fit, and areas of the image without corners.
 void say_of_lens(const char* side, const LensFit& fit, std::vector<std::string>& notes) {
-  constexpr double kFarEnough = 0.65;  // of the way to the corner
+  constexpr double kFarEnough = 0.65;  // share of the way to the corner
   if (fit.unlike())
     notes.push_back(fmt::format(
         "{}: corners lie {:.2f} px rms off this lens, and {:.2f} px too far {} at {:.0f} % of the way to the "
@@ -473,7 +472,7 @@ std::string study_json(const PairStudy& study) {
 
 // ---- the command
 
-// "9x6"
+// Reads a board size such as "9x6".
 Board board_of(const StereoOptions& options) {
   if (!options.square_mm)
     throw Error(
@@ -517,7 +516,7 @@ void refuse_names(const StereoOptions& options) {
                             options.picture));
 }
 
-// A picture among the images would be read by the next calibration.
+// Refuses a picture in the folder of images, because the next calibration would read it.
 void refuse_among(const std::string& picture, const images::PairList& list) {
   if (picture.empty()) return;
   const fs::path home = whole(picture).parent_path();
@@ -540,13 +539,13 @@ std::string file_text(const PairStudy& study, const Board& board, const StereoOp
 
 }  // namespace
 
-// A head that no rig may use makes no file. Its picture shows why.
+// An unusable head is not written to a file. Its picture shows why.
 int calibrate_stereo(const StereoOptions& options) {
   refuse_names(options);
   images::PairReader reader = open_pairs(options.folder);
   const Board board = board_of(options);
   refuse_among(options.picture, reader.list());
-  std::optional<models::OutFile> file, picture;  // refused before the work
+  std::optional<models::OutFile> file, picture;  // refuse it before the work
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   if (!options.picture.empty()) picture.emplace(options.picture, models::existing(options.force));
   const PairStudy study = study_pairs(reader, options.folder, board);

@@ -6,7 +6,7 @@
 
 namespace enc::app {
 
-// Each is a subcommand: it prints its results, returns the exit code, and throws Error.
+// Each function is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct CalibrationModule {
   int (*stereo)(const StereoOptions& options) = nullptr;
   int (*skin)(const SkinOptions& options) = nullptr;

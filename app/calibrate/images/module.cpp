@@ -1,4 +1,4 @@
-// What the program finds in encounter_calibration.so.
+// Entry point of encounter_calibration.so.
 #include "core/devices/module.h"
 
 #include <encounter_version.h>

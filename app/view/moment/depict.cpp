@@ -21,7 +21,7 @@ constexpr sim::Colour kJacket{0.30F, 0.34F, 0.42F, 1.0F};
 constexpr sim::Colour kMarkerArm{0.35F, 0.38F, 0.45F, 1.0F};
 constexpr sim::Colour kHandle{0.16F, 0.42F, 0.72F, 1.0F};
 constexpr sim::Colour kProp{0.90F, 0.55F, 0.20F, 1.0F};
-constexpr std::size_t kMostNamed = 12;  // objects with a label
+constexpr std::size_t kMostNamed = 12;  // most objects with a label
 
 sim::Colour colour_of(Material material) {
   switch (material) {
@@ -43,8 +43,8 @@ Point<'W'> middle_of_objects(const Moment& m) {
   return Point<'W'>(Vec3(sum / static_cast<double>(std::max<std::size_t>(1, m.scene.objects.size()))));
 }
 
-// The rods between a tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
-// Gives one of its markers, where it has any. `called`: the tool's body; `tipped`: the geom at its tip.
+// Draws the rods between a tool's shaft and its markers, at MuJoCo's present poses. Returns one of its
+// markers, if any. `called`: the tool's body; `tipped`: the geom at its tip.
 Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const char* called,
                           const char* tipped) {
   const mjModel* model = m.model;
@@ -66,12 +66,12 @@ Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const char
   middle /= static_cast<double>(markers.size());
   const Point<'W'> top(middle);
   for (const Point<'W'>& marker : markers) request.rods.push_back({top, marker, 0.0018, kMarkerArm});
-  const Vec<'W'> shaft = top - at(tip);  // with a handle on its upper half
+  const Vec<'W'> shaft = top - at(tip);  // the handle covers its upper half
   request.rods.push_back({top - 0.5 * shaft, top - 0.08 * shaft, 0.0075, kHandle});
   return markers.front();
 }
 
-// Draws the frames of both tools of a session, or of a clamped tool; gives a marker of the held one.
+// Draws the frames of both tools of a session, or of a clamped tool; returns a marker of the held one.
 Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
   const std::optional<UserSpec>& user = m.setup.scene.user;
   const Point<'W'> clamped = add_tool_frame(m, request, "clamped_tool", "haptic_tip");
@@ -84,8 +84,8 @@ Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
   return changed ? other : first;
 }
 
-// Both arrows stand beside what they are about, to the viewer's right and left: tool and tip hide what is on
-// their axis.
+// Draws both arrows beside their points, to the viewer's right and left, because tool and tip hide their
+// axis.
 void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   const sim::Truth& truth = m.truth;
   const double azimuth = request.camera.azimuth;
@@ -107,7 +107,7 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   request.labels.push_back({"normal of the surface (N)", from + 0.6 * normal, true});
 }
 
-// The point of an object that shows best: on its flank, away from tool and arrows.
+// The most visible point of an object: on its flank, away from tool and arrows.
 Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
   const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
@@ -123,7 +123,7 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
   return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.072, button ? -0.4 * spec.height : 0.04, 0) + shift;
 }
 
-// Names what is at a place; a part that the scene does not have has no words.
+// Labels a place; a missing part has no words and no label.
 void label(sim::ViewRequest& request, const std::string& words, const Point<'W'>& at, bool left) {
   if (!words.empty()) request.labels.push_back({words, at, left});
 }
@@ -177,7 +177,7 @@ void add_hexapod_labels(const Moment& m, sim::ViewRequest& request, const Point<
   request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
   add_object_labels(m, request);
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
-  if (request.title.empty()) return;  // a close-up
+  if (request.title.empty()) return;  // a close-up has no more labels
   const SeenParts seen = seen_parts(m.setup.scene);
   if (marker.finite()) label(request, seen.tool, marker, true);
   label(request, seen.gripper, in_H(0.02, -0.022, -0.09), true);
@@ -190,11 +190,11 @@ void add_hexapod_labels(const Moment& m, sim::ViewRequest& request, const Point<
 }
 
 void aim_at_hexapod(const Moment& m, bool close_up, sim::Camera& camera) {
-  camera.azimuth = 1.75;  // from the front and a little from the right
+  camera.azimuth = 1.75;  // view from the front and a little from the right
   camera.distance = close_up ? 0.22 : 1.52;
   camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.092);
   const std::optional<UserSpec>& user = m.setup.scene.user;
-  if (!close_up && user && user->session && !user->session->other_tool.empty()) {  // it waits high up
+  if (!close_up && user && user->session && !user->session->other_tool.empty()) {  // the other one is high up
     camera.distance = 1.78;
     camera.look_at = Point<'W'>(0, 0, -0.046);
   }
@@ -202,7 +202,7 @@ void aim_at_hexapod(const Moment& m, bool close_up, sim::Camera& camera) {
 
 Point<'W'> hexapod_target(const Moment& m) { return (m.X_WR * m.out.tip).origin(); }
 
-// It carries 12 N.
+// The hexapod carries 12 N.
 constexpr MachineLook kHexapodLook{.force_scale = 0.005,
                                    .removed = false,
                                    .presser = hexapod_presser,
@@ -213,7 +213,7 @@ constexpr MachineLook kHexapodLook{.force_scale = 0.005,
 
 // ---- the arm
 
-// Links and base as rods. Its prop is a body of the simulated world.
+// Draws links and base as rods. The prop is a body of the simulated world.
 void add_links(const Moment& m, sim::ViewRequest& request) {
   for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.truth.joints, m.X_WR)) {
     const Vec<'W'> half(Vec3(part.half.z() * part.axes.col(2)));
@@ -222,7 +222,7 @@ void add_links(const Moment& m, sim::ViewRequest& request) {
   }
 }
 
-// The belt that the drum's prop carries: two rollers, and what runs over them.
+// Draws the belt on the drum's prop, with its two rollers.
 void add_belt(const Moment& m, sim::ViewRequest& request) {
   const int front = mj_name2id(m.model, mjOBJ_GEOM, "prop_front");
   if (front < 0 || !m.setup.scene.prop || m.setup.scene.prop->kind != PropKind::drum) return;
@@ -243,7 +243,7 @@ void add_arm(const Moment& m, sim::ViewRequest& request) {
   request.floor = Point<'W'>(0.5 * (foot.x() + there.x()), 0.5 * (foot.y() + there.y()), foot.z());
 }
 
-// The arm, its prop and the finger that meets it.
+// Labels the arm, its prop and the finger that touches it.
 void add_arm_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>&) {
   const sim::Truth& truth = m.truth;
   const SeenParts seen = seen_parts(m.setup.scene);
@@ -260,7 +260,7 @@ void aim_at_arm(const Moment& m, bool close_up, sim::Camera& camera) {
   camera.look_at = close_up ? m.truth.tip : middle_of_objects(m) + Vec<'W'>(-0.05, 0, 0.04);
 }
 
-// It carries a few newtons.
+// The arm carries a few newtons.
 constexpr MachineLook kArmLook{.force_scale = 0.015,
                                .removed = true,
                                .presser = [](const Moment&) { return "finger"; },
@@ -305,7 +305,7 @@ void name_objects(const Moment& m, sim::ViewRequest& request) {
 
 sim::Camera camera_for(const Moment& m, bool close_up) {
   sim::Camera camera;
-  camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
+  camera.elevation = close_up ? -0.38 : -0.22;  // looks down into the surface deformation
   camera.opening = 0.52;
   m.look.aim(m, close_up, camera);
   return camera;
@@ -327,7 +327,7 @@ sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_u
 sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up) {
   sim::ViewRequest request = depict(m, camera, close_up);
   request.labels.clear();
-  const char* gap = close_up ? "\n" : "     ";  // a close-up has the tool in its middle
+  const char* gap = close_up ? "\n" : "     ";  // the tool is in the middle of a close-up
   const std::string force =
       touching(m.truth) ? fmt::format("{}{:.1f} N", gap, m.truth.contact_force.norm()) : "";
   request.title = fmt::format("{}{:.2f} s{}{}{}", close_up ? "" : m.setup.scene.title + "\n",

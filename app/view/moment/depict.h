@@ -1,4 +1,4 @@
-// Turns a moment of a run into a picture: machine, tool, force, normal, names.
+// Draws a moment of a run: machine, tool, force, normal, names.
 #pragma once
 
 #include "app/view/moment/moment.h"
@@ -6,19 +6,19 @@
 
 namespace enc::app {
 
-// How one kind of machine is drawn: all that differs between pictures of a hexapod and of an arm.
+// The drawing of one kind of machine: the differences between pictures of a hexapod and of an arm.
 struct MachineLook {
   double force_scale;  // m of arrow for each N
   bool removed;        // the augmented view leaves it out
-  // What presses on its tip, in words.
+  // Words for what presses on its tip.
   const char* (*presser)(const Moment& m);
   // The machine itself, and the floor under it.
   void (*add_parts)(const Moment& m, sim::ViewRequest& request);
-  // `marker`: one of the held tool, where it has any.
+  // `marker`: a marker of the held tool, if any.
   void (*add_labels)(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker);
   // Sets the default camera's azimuth, distance and place to look at.
   void (*aim)(const Moment& m, bool close_up, sim::Camera& camera);
-  // Where the core sends its tip.
+  // The tip position that the core commands.
   Point<'W'> (*target)(const Moment& m);
 };
 [[nodiscard]] const MachineLook& look_of(const models::Setup& setup);
@@ -39,8 +39,8 @@ void show(const Moment& m, mjData* data, sim::ViewRequest& request);
 
 // Moves dynamic objects to their present places.
 void shift_objects(const Moment& m, mjData* data);
-// Deforms the touched surface by the true tool, as the display should show it. `model`: the picture's own,
-// not deformed yet. Returns the index of the mesh, or -1.
+// Deforms the touched surface by the true tool, as the display is meant to show it. `model`: the picture's
+// own, not deformed yet. Returns the index of the mesh, or -1.
 int dent_object(const Moment& m, mjModel* model);
 
 }  // namespace enc::app

@@ -26,7 +26,7 @@ constexpr PoseArray kPoseArrays[] = {
     {[](const mjData* d) -> const mjtNum* { return d->site_xmat; }, [](mjData* d) { return d->site_xmat; },
      [](const mjModel* m) { return 9 * static_cast<int>(m->nsite); }}};
 
-// Moves the twin's tool to where a tracker saw one; out of sight if it saw none.
+// Moves the twin's tool to the pose that a tracker reported; out of sight without a report.
 void put_tool(const mjModel* model, const mjData* data, const View& view, const Quat& q_WT,
               std::vector<double>& at) {
   const int body = mj_name2id(model, mjOBJ_BODY, "tool");
@@ -51,7 +51,7 @@ Pose<'R', 'H'> platform_of(const sim::World& world) {
   return world.machine ? world.machine->state().pose : Pose<'R', 'H'>();
 }
 
-// Reads nothing of the trial that changes from tick to tick: another thread may run it.
+// Reads only data of the trial that stay constant, because another thread may run it.
 Moment moment_with(trial::Trial& trial, const mjData* data, const Pose<'R', 'H'>& platform, const Quat& q_WT,
                    const sim::Truth& truth, const State& state, const Outputs& out, const Tick& now) {
   const sim::World& world = trial.world();

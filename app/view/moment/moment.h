@@ -1,5 +1,5 @@
-// A run at the moment of a picture. For a window, which draws on another thread, all that changes from tick
-// to tick refers to copies.
+// A run at the moment of a picture. A window draws on another thread, so all data that change from tick to
+// tick are copies.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct Moment {
   const Scene& scene;
   const mjModel* model;
   const mjData* data;       // poses of all geoms
-  const MachineLook& look;  // how the machine is drawn (depict.h)
+  const MachineLook& look;  // drawing of the machine (depict.h)
   const Hexapod* machine;   // null: the scene has an arm
   bool pushed;              // a pusher acts instead of a hand
   Pose<'W', 'R'> X_WR;
@@ -50,8 +50,8 @@ struct Still {
   Tick now;
   Pose<'R', 'H'> platform;
   Quat q_WT = Quat::Identity();
-  bool halted = false;     // by hand
-  bool simulated = true;   // every device: the truth has all touches
+  bool halted = false;     // halted by hand
+  bool simulated = true;   // every device is simulated: the truth has all touches
   std::vector<double> at;  // all geoms and sites of the model, in the order of mjData
 };
 
@@ -61,10 +61,10 @@ void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated
 // The moment for a picture; `data`, of the trial's model, receives the poses.
 [[nodiscard]] Moment moment_of(trial::Trial& trial, const Still& still, mjData* data);
 
-// Inputs of the augmented view (core/vision/augment) for a run, all as the core has them.
+// Inputs of the augmented view (core/vision/augment) for a run, as the core has them.
 [[nodiscard]] AugmentedSpec believed_spec(const models::Setup& setup, const Scene& scene);
 
-// The moment after the tick in which the image came.
+// The moment after the tick that received the image.
 class BelievedMoment {
  public:
   [[nodiscard]] AugmentedMoment of(trial::Trial& trial);

@@ -34,7 +34,7 @@ Playback::Playback(const std::string& path) : record_(path, Partial::yes) {
     doubt_ = "damaged, and not read from there on: " + record_.damage();
   else if (!record_.sealed())
     doubt_ = "the record is not sealed: it was cut off";
-  // Whether somebody steered the hand stands at the end of a record.
+  // The end of a record states whether somebody steered the hand.
   const bool unknown_hand = !record_.sealed() && setup.scene.user.has_value();
   simulated_ = !trial::slots_of(setup).real && !unknown_hand;
   if (unknown_hand) doubt_ += "; tool and tip are drawn where the devices said";
@@ -46,10 +46,10 @@ Playback::Playback(const std::string& path) : record_(path, Partial::yes) {
 trial::TrialOptions Playback::options() {
   trial::TrialOptions options;
   options.seed = seed_of(record_.texts());
-  options.seconds = 1e5;  // longer than any record: next() says when it ends
+  options.seconds = 1e5;  // longer than any record: next() detects the end
   options.draw_all = true;
   options.steer = [this](std::int64_t tick) { return hand_.at(tick); };
-  // A twin follows a machine that was real.
+  // The twin's machine follows the recorded motion of a real one.
   options.law = [this](const Scene& scene, const Tick&, const Inputs&, State& state, Outputs& out) {
     const Stamped<TipSample>& tip = frame_.in.tip;
     if (!simulated_ && trial_->world().machine && tip.health != Health::absent)

@@ -14,8 +14,8 @@
 
 namespace enc::app {
 
-// A record for the window: the core runs again over the devices' data, beside the twin of the recorded scene,
-// which supplies the data that no device measures.
+// A record for the window. The core runs again over the devices' data, beside the twin of the recorded scene.
+// The twin supplies the data that no device measures.
 class Playback {
  public:
   // Throws Error for a record that cannot be read or run again.
@@ -58,7 +58,7 @@ class Source {
   // follow.
   Source(const ViewOptions& options, const trial::TrialOptions& how);
 
-  // False after the last tick.
+  // Advances one tick; returns false after the last one.
   bool tick();
   [[nodiscard]] double now() const;  // s of the experiment, last tick
   [[nodiscard]] double end() const;  // s, end; reads a record to its end

@@ -8,9 +8,9 @@
 namespace enc::app {
 namespace {
 
-constexpr std::size_t kPoints = 300;  // of a line, at most
+constexpr std::size_t kPoints = 300;  // most points of a line
 
-// The first sample that is not before t.
+// The first sample at or after t.
 std::deque<ChartSample>::const_iterator from(const std::deque<ChartSample>& samples, float t) {
   return std::lower_bound(samples.begin(), samples.end(), t,
                           [](const ChartSample& sample, float at) { return sample.t < at; });

@@ -1,4 +1,4 @@
-// What a window keeps of a run: the strip charts (force, deflection and gap, energy over the last seconds
+// A window's history of a run: the strip charts (force, deflection and gap, energy over the last seconds
 // before the shown moment), and the stills.
 #pragma once
 
@@ -62,8 +62,8 @@ class Timeline {
   [[nodiscard]] bool past() const { return !stills_.empty() && shown_ + 1 < end(); }
 
   void seek(double share);     // 0: the oldest; 1: the newest, and all following ones
-  void step(int stills);       // forward; negative: back
-  void go_on(double seconds);  // goes on from the shown one; at most to the newest
+  void step(int stills);       // moves forward; negative: back
+  void go_on(double seconds);  // continues from the shown still; at most to the newest
   void to_change();            // goes to the next change of mode; else to the newest
   void show_newest() { seek(1.0); }
 
