@@ -1,5 +1,5 @@
-// A driver of your own: a force sensor that feels nothing. In a rig file: [force] driver = "steady".
-// hw_drivers/sample shows a device with two roles, hw_drivers/netft one on a real wire.
+// Your own driver: a force sensor that always reports zero. In a rig file: [force] driver = "steady".
+// hw_drivers/sample shows a device with two roles, hw_drivers/netft one on a real network.
 #include <cstdint>
 #include <string>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace enc;
 
-// [driver.steady] in the rig file.
+// The table [driver.steady] of the rig file.
 struct Keys {
   std::string address = "192.168.1.1";
   void declare(Settings& table) { table.value({.name = "address", .meaning = "of the sensor"}, address); }
@@ -19,9 +19,9 @@ class Steady final : public ForceSensor {
  public:
   explicit Steady(const Offer& offer) {
     keys_.declare(offer.table);
-  }  // connect; throw Error if nobody answers
+  }  // connect; throw Error without an answer
   std::string describe() const override { return "steady at " + keys_.address; }
-  // The newest sample; a driver never waits here.
+  // Return the newest sample; a driver never waits here.
   Stamped<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
   }

@@ -1,5 +1,5 @@
-// Replays a record: feeds its inputs to the core again and says whether every bit came out as it did then.
-//   replay RECORD.encrec
+// Replays a record: feeds its inputs to the core again and compares every output bit with the record.
+// Usage: replay RECORD.encrec
 #include "core/record/replay.h"
 
 #include <algorithm>

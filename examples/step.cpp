@@ -1,4 +1,4 @@
-// The haptic core, stepped by hand: a stylus comes down on a virtual wall, is met, and presses.
+// Steps the haptic core without devices: a stylus approaches a virtual wall, touches it and presses.
 #include "core/control/step.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 using namespace enc;
 
 int main() {
-  SceneSpec spec;  // what a scene file says; all in SI units
+  SceneSpec spec;  // contents of a scene file, in SI units
   const double stiffness = 2000.0, top = 0.008;
   spec.behaviours = {{.name = "wall", .curves = {{stiffness}, {stiffness}, 0.006}}};
   spec.objects = {{.name = "wall", .shape = ShapeKind::plane, .position = {0, 0, top}, .behaviour = "wall"}};
@@ -15,12 +15,12 @@ int main() {
   spec.manipulator = ManipulatorSpec{}, spec.force = ForceSpec{}, spec.tracker = TrackerSpec{};
   const Scene scene = prepare(spec, RigSpec{});
 
-  Inputs in;                                            // what the devices say
-  State state;                                          // what the core remembers
-  Outputs out;                                          // what the machine is told
-  Pose<'R', 'H'> machine = scene.reach.machine.zero();  // it is where it was told to be
+  Inputs in;                                            // readings of the devices
+  State state;                                          // state of the core between steps
+  Outputs out;                                          // commands to the machine
+  Pose<'R', 'H'> machine = scene.reach.machine.zero();  // an ideal machine: it is at its commanded pose
   for (Tick tick; tick.index < 5000; ++tick.index, tick.t += tick.dt) {
-    // Your devices go here. This hand, as stiff as a person's, wants to be 8 mm under the surface.
+    // Your devices go here. The simulated hand is as stiff as a person's and aims 8 mm below the surface.
     const double wanted = std::max(top + 0.030 - 0.010 * seconds(tick.t.time_since_epoch()), top - 0.008);
     const double tip = (scene.X_WR * machine.origin()).xyz[2] + scene.tip_radius;
     const double low = std::max(wanted, tip), press = 700.0 * (low - wanted);

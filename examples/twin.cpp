@@ -1,5 +1,5 @@
-// A scene in the twin, from C++: runs it as fast as it goes and prints force over deflection of each press.
-//   twin models/scenes/tennis_ball.toml
+// Runs a scene in the twin from C++, as fast as possible. It prints force over deflection of each press.
+// Usage: twin models/scenes/tennis_ball.toml
 #include <cstdio>
 
 #include "models/setup/scene_file.h"
@@ -13,8 +13,8 @@ int main(int count, char** words) {
   enc::trial::Trial trial(enc::models::load(words[1], ""), options);
   std::puts("time_s,deflection_mm,force_N");
   while (trial.tick()) {
-    const enc::Outputs& out = trial.outputs();     // what the core wants
-    const enc::sim::Truth& truth = trial.truth();  // what is so: no device knows it
+    const enc::Outputs& out = trial.outputs();     // commands and estimates of the core
+    const enc::sim::Truth& truth = trial.truth();  // ground truth, which no device measures
     if (out.mode != enc::Mode::contact || trial.now().index % 50 != 0) continue;
     std::printf("%.3f,%.3f,%.3f\n", enc::seconds(trial.now().t.time_since_epoch()), 1e3 * out.deflection,
                 truth.contact_force.norm());
