@@ -30,7 +30,7 @@ struct QuestionnaireOptions {
 // A module of the program by its name; null if it was not built.
 using ModuleFinder = std::function<const ModuleInfo*(const std::string&)>;
 
-// Each is a subcommand: it prints its results, returns the exit code, and throws Error.
+// Each function is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct BenchModule {
   int (*bench)(const BenchOptions& options, const ModuleFinder& modules) = nullptr;
   int (*questionnaire)(const QuestionnaireOptions& options) = nullptr;

@@ -17,7 +17,7 @@ namespace {
 
 using certificate::Class;
 
-// How quickly the scene's own hand pushes; a person pushes as quickly as they like.
+// Ramp time of the scene's own hand; a person may push as quickly as they like.
 double ramp_of(const models::Setup& setup) {
   const double slowest = meets_person(setup) ? Steadiness::kQuick : Steadiness::kSlow;
   const std::optional<UserSpec>& user = setup.scene.user;
@@ -44,7 +44,8 @@ void add_row(std::vector<certificate::Row>& rows, const char* name, const char* 
   rows.push_back({name, formula, kNone, low > 0.0 ? asked / low : kNone, applies, source, low, side});
 }
 
-// The same object, softer, until it swings. Where the search ends, or it swings itself, one side is known.
+// Softens the object until the loop oscillates. If the search reaches its end, or the object oscillates
+// unchanged, the row gives only one side.
 void add_large_signal(Certified& at, const Steadiness& loop, const Object& object, double ramp) {
   const bool swings = at.swing > 0.0;
   const double share = swings ? 1.0 : loop.least_share(object.response, object.limit, ramp);
@@ -66,13 +67,13 @@ std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Sc
   std::vector<Certified> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (std::isnan(object.limit)) continue;  // real
+    if (std::isnan(object.limit)) continue;  // a real object
     Certified at{setup.scene.objects[i].name, softest_of(object.response, object.limit), {}};
     const Steadiness::Worst worst = loop.worst(object.response, object.limit, ramp);
     at.depth = worst.depth;
     at.swing = worst.swing;
     at.ramp = ramp;
-    // Where nobody pushes nothing is measured, and nothing moves.
+    // Without a push the machine measures no force and does not move.
     const bool small = damped || at.asked >= linear * (1.0 - 1e-9);
     at.certificate.verdict = small ? worst.swing > 0.0 ? Class::local : Class::alone : Class::unstable;
     add_row(at.certificate.rows, "admittance", "1 + Z G H e^{-s t_d}/K = 0 has no root to the right", linear,
@@ -83,13 +84,14 @@ std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Sc
   return found;
 }
 
-// The certificates of an arm: stiff is what is hard. A whole one takes a millisecond, and a scene may have
-// hundreds of objects. So of those that are equally stiff and of one class only the one that is nearest to
-// its bounds has a whole one, at the worst of a few places; one look at the eigenvalues tells which that is.
+// The certificates of an arm, for which stiff objects are hard to render. A complete certificate takes a
+// millisecond, and a scene may have hundreds of objects. So only one of several equally stiff objects of one
+// class gets a complete certificate: the one nearest to its bounds, at the worst of a few places. One
+// evaluation of the eigenvalues finds that object.
 namespace {
 
-// Place at which an arm touches an object, the user's press or the point nearest to home, with the joints
-// there and the outward normal in R.
+// Place at which an arm touches an object: the user's press, or the point nearest to home. Includes the
+// joints there and the outward normal in R.
 struct TouchedPlace {
   PressPoint at;
   PerJoint joints{};
@@ -119,24 +121,24 @@ TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::
   return found;
 }
 
-// N/m: highest stiffness that an object asks of an arm.
+// N/m: highest stiffness that an object requests from an arm.
 double stiffest_asked(const Impedance& law, const Object& object) {
   const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
   return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
 }
 
-constexpr double kBeside = 0.05;  // m: so far beside the first place others are tried. A hand's breadth
+constexpr double kBeside = 0.05;  // m: distance of further places from the first one, a hand's breadth
 
 struct Place {
   Point<'W'> at;
   bool pressed = false;
   ArmLoopAt loop;
-  double radius = kUnset;  // of the eigenvalues, at the stiffness that all are compared at
+  double radius = kUnset;  // spectral radius at the common stiffness
 };
 
 struct Candidate {
   double asked = 0.0;                     // N/m
-  Interaction kind = Interaction::slide;  // or hit, or passive: of these the law is another one
+  Interaction kind = Interaction::slide;  // hit and passive objects follow other laws
   Place worst;
   Class look = Class::unknown;
 };
@@ -145,8 +147,8 @@ certificate::Hand hand_of(const RigSpec& rig) {
   return {0.0, rig.contact.hand_damping, rig.contact.hand_stiffness};
 }
 
-// Where it is touched; and, but where the plan of a simulated user presses it or it is met in its middle,
-// four places of its surface beside that, if the arm gets there.
+// The place of the touch, plus four places of the surface around it that the arm reaches. A simulated user's
+// planned press, and an object touched in its middle, have only the first place.
 std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std::size_t i,
                              const Candidate& of) {
   const Impedance& law = impedance_of(scene);
@@ -173,8 +175,8 @@ std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std
   return places;
 }
 
-// The stiffness at which all that ask for as much are compared: where the first is at its bound. What has
-// eigenvalues outside of the circle there has a lower one.
+// The common stiffness for comparing equal requests: the critical stiffness of the first place. A place with
+// eigenvalues outside of the circle at this stiffness has a lower critical one.
 double compared_at(const Place& first, double asked) {
   const double critical = certificate::critical_stiffness(first.loop.loop, first.loop.asked.damper);
   return critical > 0.0 && std::isfinite(critical) ? critical : asked;
@@ -187,8 +189,8 @@ Certified certified(const std::string& object, const Place& place, double asked)
   return found;
 }
 
-// The matrix of all directions is large where many periods are under way: there the normal alone is looked
-// at.
+// The matrix of all directions is large if many periods are under way. In that case use only the normal
+// direction.
 double radius_at(const certificate::SampledLoop& loop, double stiffness, double damper) {
   constexpr int kMany = 16;
   const bool large = certificate::late(loop).whole + loop.ticks > kMany;
@@ -246,7 +248,7 @@ std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene&
 
 namespace {
 
-// The force of a press to a depth, the most on the way.
+// The largest force on the way to a depth, N.
 double asked_at(const Impedance& law, const Object& object, double depth) {
   constexpr int kSteps = 50;
   double most = 0.0;
@@ -319,7 +321,7 @@ std::string name_of(const Certified& certified) {
 
 namespace {
 
-// "delay: more than 600 periods" says what is wrong with it.
+// A text with a colon, as "delay: more than 600 periods", already states the problem.
 std::string missing_text(const certificate::Certificate& of) {
   return (of.missing.find(':') == std::string::npos ? "no " : "") + of.missing;
 }

@@ -1,6 +1,6 @@
-// What is known of a machine and a scene's objects before anything moves: whether the machine renders each
-// object stably (docs/reference/stability.md), and whether an arm is strong enough. A simulation reports what
-// is beyond and runs; an armed real machine refuses it (sources/choices 15).
+// Checks of a machine and a scene's objects before anything moves: whether the machine renders each object
+// stably (docs/reference/stability.md), and whether an arm is strong enough. A simulation reports exceeded
+// limits and runs. An armed real machine refuses them (sources/choices 15).
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ struct Certified {
   // Arm only: the place of the certificate, the worst of a few.
   Point<'W'> place{};
   bool pressed = false;  // the user's plan presses only there
-  // The object that supplies these bounds: as stiff, of the same class, and nearer to them. Empty: its own.
+  // The object that supplies these bounds: equally stiff, of an equal class, and nearer to them. Empty: its
+  // own.
   std::string like{};
 
   // Arm only: the tip without a hand.
@@ -50,7 +51,7 @@ struct Certified {
 [[nodiscard]] std::string class_text(const Certified& certified);
 // The problem and the remedy, in one line without a full stop; empty: stable.
 [[nodiscard]] std::string refusal_text(const models::Setup& setup, const Certified& certified);
-// The key of the set-up that decides it.
+// The key of the set-up that decides the class.
 [[nodiscard]] std::string key_of(const Certified& certified);
 
 // Law of an arm; only for the scene of an arm.

@@ -1,4 +1,4 @@
-// Table of what differs between the two families of machines. Only family.cpp asks which one a scene has.
+// Table of the differences between the two families of machines. Only family.cpp asks which one a scene has.
 #pragma once
 
 #include <string>
@@ -12,25 +12,25 @@
 
 namespace enc::trial {
 
-// s, when a device's sample was true; unset: the device has sent none.
+// s, time of a device's sample; unset: the device has sent none.
 template <class V>
 [[nodiscard]] double stamp_of(const Stamped<V>& sample) {
   return sample.health == Health::absent ? kUnset : seconds(sample.t.time_since_epoch());
 }
 
 struct Family {
-  // True: an arm, which takes a force (impedance rendering) and meets a bare finger with its prop.
-  // False: a hexapod, which takes a pose and measures the force.
+  // True: an arm, which takes a force (impedance rendering) and touches a bare finger with its prop. False: a
+  // hexapod, which takes a pose and measures the force.
   bool takes_force;
 
-  // Before the first tick.
+  // Used before the first tick.
   std::vector<Certified> (*certificates)(const models::Setup& setup, const Scene& scene, bool whole);
   std::vector<ArmStrength> (*strengths)(const models::Setup& setup, const Scene& scene);
   PassivityForm (*passivity_form)(const Scene& scene);
   // Unit of each joint that the machine reports: "rad", or "m" for a slide.
   std::vector<std::string> (*joint_units)(const Scene& scene);
 
-  // In each tick.
+  // Used in each tick.
   Point<'R'> (*tip)(const Inputs& in);    // as the machine reports it
   double (*tip_stamp)(const Inputs& in);  // stamp_of() that report
   const Passivity& (*passivity)(const State& state);

@@ -1,4 +1,4 @@
-// The core alone under a finger at given positions: no physics, no noise, an arm that stays at home.
+// The core alone under a finger at given positions: no physics, no noise, and an arm that stays at home.
 #pragma once
 
 #include "core/control/scene/scene.h"
@@ -15,7 +15,7 @@ class FingerLoop {
     tick_.dt = from_seconds(scene.dt);
     tick_.index = -1;
     tick_.t = Time(-tick_.dt);
-    in.withheld = true;  // no commands are sent to it
+    in.withheld = true;  // the machine gets no commands
   }
 
   // One tick with the finger at p.

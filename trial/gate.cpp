@@ -5,7 +5,7 @@
 namespace enc::trial {
 namespace {
 
-constexpr std::size_t kLinks = 16;  // said; nothing is allocated within the loop
+constexpr std::size_t kLinks = 16;  // most links in the report; the loop allocates nothing
 
 std::size_t at(RoleId id) { return static_cast<std::size_t>(id); }
 

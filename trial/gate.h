@@ -1,7 +1,7 @@
 // The gate between the core and the moving devices. It reads a real device that is not armed, but sends it no
-// command. A lost link stays lost until the operator resumes: the core sees a fault and holds, the gate sends
-// the lost device nothing, and the other devices only the core's commands in hold. A stop by hand treats all
-// moving devices in this way.
+// command. A lost link stays lost until the operator resumes: the core sees a fault and holds. The gate then
+// sends the lost device nothing, and the other devices only the core's commands in hold. A stop by hand
+// treats all moving devices in this way.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct LostLink {
 class Gate {
  public:
   Gate() = default;
-  // Dry: a rig of drivers that is not armed.
+  // `dry`: a rig of drivers that is not armed.
   Gate(const models::Setup& setup, bool dry);
 
   // Call these around the reading of the devices. mark() marks the data of a lost device as a fault, for that

@@ -27,15 +27,14 @@ std::uint32_t nanoseconds(WallClock::duration d) {
   return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(d).count());
 }
 
-// s of what the machine does by itself; 10 where it only waits for a person. With a twin it is the twin's to
-// say.
+// Duration of the machine's own programme, s; 10 if it only waits for a person. With a twin, the twin gives
+// the duration.
 double programme_of(const Scene& scene) {
   if (const Probe* probe = scene.probe()) return programme_time(scene, *probe);
   return scene.travel() != nullptr ? scene.travel()->duration() : 10.0;
 }
 
-// A share of wall time, or 0: as fast as it goes. Real devices live in wall time, and simulated ones then
-// follow.
+// Pace as a share of wall time; 0: as fast as possible. With real devices everything runs in wall time.
 double pace_of(const TrialOptions& options, bool wall) {
   if (!wall || options.pace == 1.0) return options.pace;
   if (options.pace != 0.0) throw Error("--pace: a rig with real devices runs at wall pace only");
@@ -55,7 +54,7 @@ void refuse_lockstep(const Slots& slots, const TrialOptions& options) {
         "it");
 }
 
-// What a simulated machine only says, a real one does not begin (sources/choices 15).
+// Refuses limits for a real machine that a simulated one only reports (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene,
                    const std::vector<Certified>& certificates) {
   for (const Certified& one : certificates)
@@ -67,7 +66,7 @@ void refuse_limits(const models::Setup& setup, const Scene& scene,
                   "; a real machine is not armed for it");
 }
 
-// A tick that comes late holds the machine, and without real-time priority any other program makes it late.
+// A late tick puts the machine into hold, and without real-time priority any other program can delay it.
 void refuse_slow(const models::Setup& setup, const std::string& machine, const RealTime& real_time) {
   if (real_time.granted()) return;
   throw Error(
@@ -77,7 +76,7 @@ void refuse_slow(const models::Setup& setup, const std::string& machine, const R
                   models::place_of(setup, machine), real_time.words()));
 }
 
-// `within_loop`: a machine would be armed, and the camera's pictures be looked at between its set-points.
+// `within_loop`: an armed machine would wait between its set-points for vision.
 void refuse_camera(const models::Setup& setup, const TrialOptions& options, bool within_loop) {
   if (within_loop && setup.scene.camera)
     throw Error(models::place_of(setup, "camera") +
@@ -92,7 +91,7 @@ void refuse_camera(const models::Setup& setup, const TrialOptions& options, bool
         "scene");
 }
 
-// With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
+// Frames that are not measured, or may have changed, give a wrong position of the tip.
 void refuse_uncalibrated(const models::Setup& setup, const std::string& machine) {
   const std::string doubt = models::doubt_of(
       setup.rig.calibration, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
@@ -116,7 +115,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const bool armed = slots.machine && options_.armed;
   if (armed || options_.certify) certificates_ = certificates_of(setup_, scene_);
   if (armed) refuse_limits(setup_, scene_, certificates_);
-  // What keeps no wall clock works within the loop, so that it is the same in every run.
+  // Without a wall clock vision works within the loop, so that all runs are equal.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
   refuse_camera(setup_, options_, armed && !threaded);
   simulated_ = !slots.real;
@@ -124,13 +123,13 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   make_rig(slots.simulated || !slots.real);
   plan_length(pace);
   if (options_.begins) options_.begins();
-  if (wall && options_.real_time) {  // before the devices, whose threads are as this one
+  if (wall && options_.real_time) {  // before the devices, whose threads inherit its priority
     real_time_ = std::make_unique<RealTime>(true);
     result_.real_time = real_time_->words();
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
   if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
-  // Whether they are fakes they have said by now; nothing is told to move before a tick.
+  // The devices have now reported whether they are fakes. Nothing moves before a tick.
   const std::string machine = options_.armed ? real_machine(rig_, setup_) : std::string();
   if (!machine.empty() && !options_.calibrates) refuse_uncalibrated(setup_, machine);
   if (!machine.empty() && real_time_ && armed && options_.needs_real_time)
@@ -145,7 +144,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
                                               wall ? sim::Late::skip : sim::Late::wait, options_.stop);
 }
 
-// Of the twin, or empty but for a clock.
+// Takes the twin's rig, or an empty rig with a clock.
 void Trial::make_rig(bool simulated) {
   if (!simulated) {
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
@@ -156,7 +155,7 @@ void Trial::make_rig(bool simulated) {
   rig_ = world_->rig();
 }
 
-// In place of a tracker.
+// Uses vision as the tracker.
 void Trial::put_vision(bool waits, bool threaded) {
   rig_.tracker =
       make_vision(setup_, options_.drivers,
@@ -164,7 +163,7 @@ void Trial::put_vision(bool waits, bool threaded) {
   result_.vision.threaded = threaded;
 }
 
-// How many ticks it takes, and room for what is kept of each.
+// Sets the number of ticks, and reserves memory for the data of each.
 void Trial::plan_length(double pace) {
   result_.holds.reserve(TrialResult::kMostHolds);
   const bool endless = std::isinf(options_.seconds);
@@ -216,7 +215,7 @@ bool Trial::ends() {
     result_.interrupted = true;
     return true;
   }
-  // Without its set-points the time of a fake stands, and each tick would wait for it.
+  // A fake without set-points stops its time, and each tick would wait for it.
   if (options_.lockstep && gate_.lost()) {
     result_.interrupted = true;
     return true;
@@ -224,7 +223,7 @@ bool Trial::ends() {
   return false;
 }
 
-// Whoever steers, the machine or the twin's hand.
+// Reads the requests of the operators: of the machine, and of the twin's hand.
 void Trial::ask_hands() {
   if (const Hand hand = options_.hand ? options_.hand() : Hand::none; hand == Hand::halt)
     gate_.halt(rig_, now_.t);
@@ -272,7 +271,7 @@ bool Trial::tick() {
 Trial::~Trial() { gate_.stop(rig_); }
 
 TrialResult Trial::run() {
-  struct AtEnd {  // also where something throws
+  struct AtEnd {  // also if something throws
     Trial& trial;
     ~AtEnd() { trial.gate_.stop(trial.rig_); }
   } const at_end{*this};

@@ -34,7 +34,7 @@ struct Glance {
   const Gate* gate = nullptr;    // gate between core and devices, if available
   // ns of the wall clock from the last step() to this one; 0: this is the first.
   std::uint32_t period_ns = 0;
-  const Family& family = family_of(scene);  // what its machine does in its own way
+  const Family& family = family_of(scene);  // the differences between families of machines
 };
 
 // A law that replaces step(), such as guide(), which moves an arm without a finger.

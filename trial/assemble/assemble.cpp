@@ -29,13 +29,13 @@ Scene prepare_setup(const models::Setup& setup) {
 
 namespace {
 
-// The tracker is vision: what has a driver is its camera.
+// True if the tracker is vision, in which case its camera has the driver.
 template <class Role>
 bool sees(const models::Setup& setup, const Role& role) {
   return role.id == RoleId::tracker && setup.scene.camera;
 }
 
-// The driver that fills a role which the scene names; empty: none, or the twin.
+// The driver of a role in the scene; empty: no driver, or the twin.
 template <class Role>
 std::string driver_of(const models::Setup& setup, const Role& role) {
   const std::string& driver = sees(setup, role) ? setup.rig.camera.driver : (setup.rig.*role.rig).driver;
@@ -210,7 +210,7 @@ std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSou
 
 namespace {
 
-// What a device says against what the rig file promises. What is not a number is never enough.
+// Compares a device's report with the rig file. A value that is not a number fails.
 struct Comparison {
   const char* device;
 
@@ -228,9 +228,9 @@ struct Comparison {
   }
 };
 
-constexpr double kLength = 10e-6;   // m: better than a machine of this kind is measured
+constexpr double kLength = 10e-6;   // m: better than the accuracy of measured machines of this kind
 constexpr double kAngle = 1e-4;     // rad
-constexpr double kMassShare = 0.1;  // of a mass: what a sheet and a scale may be apart
+constexpr double kMassShare = 0.1;  // share of a mass: usual difference between data sheet and scale
 
 void check_machine(const Reach& reach, const ManipulatorRig& rig) {
   const Comparison machine{"machine"};

@@ -34,7 +34,7 @@ struct Slots {
   bool machine = false;  // the manipulator or the arm is real
 };
 [[nodiscard]] Slots slots_of(const models::Setup& setup);
-// True if the scene has a real force sensor, tracker or camera: the user is then real too, as far as the core
+// True if the scene has a real force sensor, tracker or camera. The user is then real too, as far as the core
 // can see.
 [[nodiscard]] bool meets_person(const models::Setup& setup);
 // True if some real device runs in wall time, i.e. does more than replay a recording.
@@ -60,7 +60,7 @@ struct DrivenRole {
   std::string driver, key;  // "netft"; the key that names it, "rig.force.driver"
   const char* name;         // name in messages, "force sensor"
   std::function<bool(const DriverModule&)> filled_by;
-  bool moves = false;  // it receives commands
+  bool moves = false;  // the device receives commands
 };
 [[nodiscard]] std::vector<DrivenRole> driven_roles(const models::Setup& setup);
 // Drivers of these roles; the twin is not one.
@@ -69,7 +69,7 @@ struct DrivenRole {
 // A driver's description of its device.
 struct DeviceWords {
   std::string role, words;  // "force", "sample 127.0.0.1:4711, answered"
-  bool there = true;        // false: the words say what is wrong
+  bool there = true;        // false: the words state the problem
 };
 // A fake is described as such.
 [[nodiscard]] std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup);

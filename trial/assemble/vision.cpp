@@ -32,7 +32,7 @@ sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed) {
 
 namespace {
 
-// The hand of the simulated user and the arm that comes to meet it, as the true camera has them before it.
+// The simulated user's hand and the arm that comes to touch it, in the true camera's view.
 sim::Show show(const models::Setup& setup, const sim::World& world) {
   const sim::TwinSpec& twin = setup.twin;
   const Pose<'W', 'C'> X_WC = pose_of<'W', 'C'>(twin.frames.W_C);
@@ -58,7 +58,7 @@ sim::Show show(const models::Setup& setup, const sim::World& world) {
   };
 }
 
-// A camera that somebody looks at beside the tracker.
+// A camera with a second observer besides the tracker.
 class Watched final : public StereoCamera {
  public:
   Watched(std::unique_ptr<StereoCamera> camera, Look look)

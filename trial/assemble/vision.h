@@ -54,7 +54,7 @@ struct VisionOffer {
   std::string keep{}, kept{};
 };
 
-// The twin's true camera and its surroundings, by seed: with this head its cameras draw.
+// The twin's true camera and its surroundings, by seed, as drawn for this stereo head.
 [[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
 
 // Loads the needed modules. Throws Error (kind device) if a module or a device is missing, or Error with its

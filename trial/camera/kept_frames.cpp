@@ -19,7 +19,7 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, none);
 }
 
-// Frames of two runs in one folder would be one sequence that nobody saw.
+// Refuses a folder with frames, because frames of two runs would mix into one sequence.
 const std::string& without_frames(const std::string& folder) {
   for (const char* side : {"left", "right"}) {
     if (is_there(fs::path(folder) / side))
@@ -54,7 +54,7 @@ KeepingCamera::KeepingCamera(std::unique_ptr<StereoCamera> camera, const std::st
       files_(files) {}
 
 KeepingCamera::~KeepingCamera() {
-  std::error_code kept;  // a folder with something in it stays
+  std::error_code kept;  // only empty folders are removed
   fs::remove(path_ + "/left", kept);
   fs::remove(path_ + "/right", kept);
   if (made_) fs::remove(path_, kept);
@@ -85,7 +85,7 @@ std::vector<Time> exposures_in(const std::string& folder) {
   std::error_code failed;
   for (fs::directory_iterator entry(fs::path(folder) / "left", failed), end; !failed && entry != end;
        entry.increment(failed))
-    if (entry->path().extension() != ".part")  // one that a run that was killed has left
+    if (entry->path().extension() != ".part")  // left by a killed run
       exposed.push_back(exposure_of(entry->path()));
   if (failed || exposed.empty())
     throw Error(

@@ -9,7 +9,8 @@
 namespace enc::trial {
 namespace {
 
-// Stiffness along the normal over that of the free tip, and how far the target is behind the surface.
+// Ratio of the stiffness along the normal to that of the free tip, and distance of the target behind the
+// surface.
 struct Static {
   double gain, sunk;
 };
@@ -50,7 +51,7 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
   if (at.object != nullptr && at.object->moving >= 0 && contact) {
     const Moved& moved = moved_in(state)[static_cast<std::size_t>(at.object->moving)];
     at.firmness = moved.firmness;
-    // Where the tick that saw this depth had its surface: by now the ball has gone on.
+    // The surface at the tick that measured this depth: the ball has moved on since.
     const Point<'W'> tip = glance.scene.X_WR * glance.in.arm.value.tip;
     at.ball = tip.e() + moved.depth * at.normal;
   }
@@ -133,7 +134,7 @@ ArmLedger::ArmLedger(const models::Setup& setup)
       window_(std::clamp<std::int64_t>(std::llround(setup.twin.arm.velocity_window * setup.rig.loop.rate), 1,
                                        static_cast<std::int64_t>(kRing) - 1)) {}
 
-// What the core would have asked for had it read the true state: its filters on that.
+// The core's request for the true state: passes the true state through the core's filters.
 void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
                        Known& now) {
   const Aim& aim = recall<Meeting>(*glance.state).aim;
@@ -198,7 +199,7 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known
   return now;
 }
 
-// What the law tells the motors, from its ideal on.
+// The law's commands to the motors, beginning with its ideal form.
 void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
                      Known& now) {
   const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
@@ -209,8 +210,8 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   now.compensated = at.compensated;
   const Aim& aim = recall<Meeting>(*glance.state).aim;
   Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
-  // A target that has leapt is on its way from this tick on; one that hastens in a contact goes along
-  // sideways alone (core/control/task/meet/aim.cpp).
+  // A target that jumped is on its way from this tick on. A target that accelerates in a contact only moves
+  // sideways (core/control/task/meet/aim.cpp).
   const bool on_its_way = !(aim_.caught_up && aim.caught_up);
   now.law.on_its_way = on_its_way;
   if (!on_its_way && glance.out.mode == Mode::contact) change -= now.law.normal * now.law.normal.dot(change);
@@ -222,10 +223,10 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   now.held = ideal_force(now.law, now.tip);
   filter(glance, law, was, now);
   now.given = turn * (glance.out.arm_force.e() - at.against_weight);
-  now.jacobian = turn * at.jacobian;  // by which the motors are told
+  now.jacobian = turn * at.jacobian;  // the motors are commanded with this Jacobian
 }
 
-// The ideal law along the same way: the cubic through both ends, by Simpson's rule.
+// The ideal law along the tip's path: the cubic through both ends, by Simpson's rule.
 void ArmLedger::count_ideal(const Known& was, const Known& now, const Vec3& led) {
   const double h = dt_;
   const Vec3 way = now.tip.at - was.tip.at;
@@ -253,7 +254,8 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   work_late_ += was.late.dot(moved);
   work_counted_ += was.counted.dot(moved);
   work_given_ += work.motors - compensated;
-  // What acts on a target's way is carried, as is what speeds it up. One that leaps is no way.
+  // Work along the target's motion counts as carried, including the feed-forward. A jump of the target is not
+  // a motion.
   const bool leaps = !(was.law.live && now.law.live) || (now.law.on_its_way && !was.law.on_its_way);
   const Vec3 led = leaps ? Vec3(Vec3::Zero()) : Vec3(now.law.target - was.law.target);
   led_held_ += was.held.dot(led);
@@ -264,10 +266,10 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   left_ -= work.motors - compensated - was.given.dot(led) - lead.dot(moved - led);
   constexpr int kEachTick = 40;
   const double spring = stored(now.law, now.tip, kEachTick);
-  if (leaps) left_ += std::max(0.0, spring - spring_);  // loaded by the target
-  if (now.law.felt) left_ = std::min(left_, spring);    // in a gap between two tiles it is kept
+  if (leaps) left_ += std::max(0.0, spring - spring_);  // the target loaded the spring
+  if (now.law.felt) left_ = std::min(left_, spring);    // keep it in a gap between two tiles
   spring_ = spring;
-  if (sum_.hand == 0.0) left_ = std::max(0.0, left_);  // it went into the machine's own motion
+  if (sum_.hand == 0.0) left_ = std::max(0.0, left_);  // the machine's own motion took it
   sum_.surplus = std::max(sum_.surplus, -left_);
 }
 

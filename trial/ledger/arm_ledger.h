@@ -1,12 +1,11 @@
-// The energy balance of an arm, which takes a force and gives way, and the law that it weighs: force on the
-// tip, N in W [VisHap eq. 2, 7], in its ideal form and as the core executes it.
+// The energy balance of an arm, which takes a force and gives way. It compares these forms of the law's force
+// on the tip, N in W [VisHap eq. 2, 7]:
 //
 //   ideal     Lambda (K e + K_v de/dt) at the true state of this very moment; Lambda and a button's sink
-//   depth
-//             follow the true depth
+//             depth follow the true depth
 //   held      the ideal force of a tick, kept until the next one
 //   late      with the velocity window, the filters of eq. 3, and the delay of the gain
-//   counted   the late force from encoder counts: the force that the core asks for
+//   counted   the late force from encoder counts: the force that the core requests
 //
 // The target, the normal and a ball's firmness are inputs: they define the rendered object, right or wrong.
 #pragma once
@@ -23,7 +22,7 @@ namespace enc::trial {
 
 // The law at a tick.
 struct LawAt {
-  bool live = false;  // it pushes
+  bool live = false;  // the law pushes
   // true: by the curve of a touched object; false: as a free tip.
   bool felt = false;
   bool real = false;        // a real object: sideways as along the normal
@@ -50,7 +49,7 @@ struct TipAt {
 [[nodiscard]] double damped(const LawAt& law, const TipAt& tip);
 // Energy in the spring, J; Simpson's rule with `parts` parts.
 [[nodiscard]] double stored(const LawAt& law, const TipAt& tip, int parts = 400);
-// Force for an error and a rate behind their filters; `depth`: in a struck ball.
+// Force for an error and a rate behind their filters; `depth`: depth in a struck ball.
 [[nodiscard]] Vec3 asked_force(const LawAt& law, const Vec3& error, const Vec3& rate, double depth);
 // Depth of the tip in a struck ball, m.
 [[nodiscard]] double ball_depth(const LawAt& law, const Vec3& tip);

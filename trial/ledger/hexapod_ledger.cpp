@@ -9,16 +9,16 @@
 namespace enc::trial {
 namespace {
 
-// N: of the object, and what is pressed with before it gives way.
+// N: force of the object plus the force threshold.
 double pushes_back(const Object& object, ResponseState& state, double depth, double threshold) {
   const double at = std::clamp(depth, 0.0, object.response.limit());
   const double force = object.response.force(state, at);
   return at > 0.0 ? force + threshold : 0.0;
 }
 
-// J, that it would give back from here on. Beyond what it is known to, its force stays.
+// J, energy that the object would return from here on. The force stays constant beyond the object's limit.
 double recoverable(const Object& object, ResponseState state, double depth, double threshold) {
-  constexpr int kParts = 40;  // of Simpson's rule; each has its middle
+  constexpr int kParts = 40;  // intervals of Simpson's rule, each with a middle point
   const double deepest = std::clamp(depth, 0.0, object.response.limit());
   const double part = deepest / kParts;
   double sum = threshold * deepest, force = object.response.force(state, deepest);
@@ -73,12 +73,12 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
       pushes_back(*object_, at_command_, depth_of((glance.scene.X_WR * rendering.command).e()), threshold_);
   now.depth = depth_ = depth_of(now.tip);
   f.ideal = pushes_back(*object_, at_tip_, depth_, threshold_);
-  // A tip that waits inside has a spring that nobody has pressed.
+  // A tip that waits inside the object has a loaded spring without any press.
   if (begins) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
   return now;
 }
 
-// What pushes the tip in pushes against the normal: work is force outwards times way inwards.
+// A pushing hand pushes against the normal: work is force outwards times motion inwards.
 void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& work) {
   const Forces& f = was.force;
   const double in = -was.normal.dot(now.tip - was.tip);
@@ -91,7 +91,8 @@ void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& w
   filtered_ += f.filtered * in;
   wanted_ += f.wanted * in;
   commanded_ += f.commanded * in;
-  // A surface that moves, as where the tip slides on a round one and its anchor goes along, carries.
+  // A moving surface counts as carried work, as when the tip slides on a round one and its anchor moves
+  // along.
   const double ideal = 0.5 * (f.ideal + now.force.ideal);
   const double pressed = was.engaged && now.engaged ? now.depth - was.depth : in;
   ideal_ += ideal * in;
@@ -107,7 +108,7 @@ ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   sum.spring = (object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0) - loaded_;
   sum.law = ideal_ - led_ - sum.spring;
   sum.carried = -across_ - led_;
-  // A force that takes more than the ideal's gives out less.
+  // A force that takes in more energy than the ideal one gives out less.
   sum.sampling = -(sensed_ - across_ - held_);
   sum.quantisation = -(held_ - measured_);
   sum.delay = -(measured_ - filtered_) - (commanded_ - ideal_);

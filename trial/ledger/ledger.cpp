@@ -45,7 +45,7 @@ class Book final : public Balance {
     mark_.began = t;
     ledger_.open(from);
   }
-  // A touch on the way to a contact does not count as a contact.
+  // A touch that does not become a contact does not count.
   void close(double t) {
     on_ = false;
     if (mark_.contact != 0) closed_.push_back(so_far(t));

@@ -24,7 +24,7 @@ struct ContactLedger {
   double began = 0.0, ended = 0.0;  // s
   bool rendered = true;             // false: a real object, for which only its prop stands
   double hand = 0.0;                // work on the machine by the pushing body
-  double carried = 0.0;             // work of the law's target and surface, which move
+  double carried = 0.0;             // work of the moving target and surface of the law
   double kinetic = 0.0, spring = 0.0,
          weight = 0.0;             // Increase from begin to end; weight: uncompensated.
   double joints = 0.0, law = 0.0;  // taken by the machine's friction; by damper or hysteresis
@@ -37,7 +37,7 @@ struct ContactLedger {
   [[nodiscard]] double dissipated() const { return joints + law; }
   [[nodiscard]] double generated() const { return sampling + delay + quantisation + limits; }
   [[nodiscard]] double left_over() const { return hand + carried + generated() - stored() - dissipated(); }
-  [[nodiscard]] double largest() const;  // over the terms named in the balance, and their parts
+  [[nodiscard]] double largest() const;  // largest of the terms in the balance and of their parts
   // Residual as a share of the largest term; 0 if all are 0.
   [[nodiscard]] double closure() const;
 };
@@ -47,7 +47,7 @@ class Balance {
  public:
   virtual ~Balance() = default;
   virtual void see(const Glance& glance) = 0;  // call at each tick of a simulated run
-  // A contact that lasts at the end of the run has its terms up to then.
+  // The terms of a contact that lasts at the end of the run cover the time up to then.
   [[nodiscard]] virtual std::vector<ContactLedger> contacts() const = 0;
 };
 

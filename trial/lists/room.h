@@ -1,4 +1,4 @@
-// Lists that grow while the loop runs reserve their memory beforehand, so that a tick never allocates.
+// Lists that grow during the loop reserve their memory beforehand, so that a tick never allocates.
 #pragma once
 
 #include <algorithm>

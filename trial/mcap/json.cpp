@@ -5,7 +5,7 @@
 namespace enc::trial {
 namespace {
 
-// The text in quotes, as in JSON.
+// Adds the text in quotes, as in JSON.
 void add_quoted(std::string& out, std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out += '"';

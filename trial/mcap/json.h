@@ -113,7 +113,7 @@ class JsonSchema {
 
  private:
   void add(std::string_view name, std::string_view about, std::string_view type, bool required);
-  [[nodiscard]] std::string rest() const;  // the inside of an object's braces
+  [[nodiscard]] std::string rest() const;  // the text inside of an object's braces
   std::string properties_, required_;
 };
 

@@ -28,7 +28,8 @@ enum class Op : std::uint8_t {
   data_end
 };
 
-// Of a byte, and of that byte with 1 to 7 zero bytes behind it: eight bytes at once take a third of the time.
+// Tables for a byte, and for that byte followed by 1 to 7 zero bytes. Eight bytes at once take a third of the
+// time.
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 constexpr CrcTables crc_tables() {
   CrcTables tables{};
@@ -43,7 +44,7 @@ constexpr CrcTables crc_tables() {
   return tables;
 }
 
-// Little-endian; a text has its size in front.
+// Little-endian; a text begins with its size.
 template <std::integral T>
 void put_field(std::string& out, T x) {
   for (std::size_t i = 0; i < sizeof(T); ++i) out += static_cast<char>((x >> (8 * i)) & 0xFFU);
@@ -74,7 +75,7 @@ std::string as_record(Op op, std::string_view content) {
   return out;
 }
 
-// Of a channel: from 1, as the numbers of schemas, of which 0 means none.
+// Number of a channel or schema, from 1; schema 0 means no schema.
 std::uint16_t number_of(std::size_t channel) { return static_cast<std::uint16_t>(channel + 1); }
 
 }  // namespace
@@ -102,7 +103,7 @@ void McapWriter::Times::add(std::uint64_t time) {
 McapWriter::McapWriter(Sink sink, std::string_view library, std::size_t chunk)
     : sink_(std::move(sink)), chunk_size_(chunk) {
   put(kMcapMagic);
-  put(as_record(Op::header, fields_of("", library)));  // no profile
+  put(as_record(Op::header, fields_of("", library)));  // empty profile
 }
 
 void McapWriter::put(std::string_view bytes) {
@@ -144,7 +145,7 @@ void McapWriter::message(std::uint16_t channel, std::uint64_t log_time, std::uin
   if (chunk_.size() >= chunk_size_) flush_chunk();
 }
 
-// Where the messages of the chunk are, channel by channel; and where each of these lists is.
+// Writes the positions of the chunk's messages, channel by channel. Returns the positions of these lists.
 std::string McapWriter::write_message_indexes() {
   std::string offsets;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -159,7 +160,7 @@ std::string McapWriter::write_message_indexes() {
   return offsets;
 }
 
-// The chunk, where its messages are, and for the summary where both are.
+// Writes the chunk and its message indexes, and adds both positions to the summary.
 void McapWriter::flush_chunk() {
   if (chunk_.empty()) return;
   constexpr std::string_view kNotCompressed;
@@ -183,7 +184,7 @@ void McapWriter::flush_chunk() {
 }
 
 void McapWriter::attach(std::string_view name, std::string_view media_type, std::string_view data) {
-  constexpr std::uint64_t kCame = 0, kMade = 0;  // before all messages
+  constexpr std::uint64_t kCame = 0, kMade = 0;  // sorted before all messages
   const std::uint64_t size = data.size();
   std::string attachment = fields_of(kCame, kMade, name, media_type, size);
   attachment += data;
@@ -212,12 +213,12 @@ std::string McapWriter::statistics() const {
                              metadatas_, chunks_, times_.first, times_.last, counts));
 }
 
-// All of a kind together, then where each kind begins.
+// Writes all records, grouped by kind, then the begin of each group.
 void McapWriter::write_summary() {
   const std::uint64_t begins = at_;
   const std::string said = statistics();
   std::string offsets;
-  crc_ = 0;  // of the summary, from here on
+  crc_ = 0;  // CRC of the summary only
   for (const auto& [op, records] : {std::pair<Op, const std::string&>{Op::schema, schema_records_},
                                     {Op::channel, channel_records_},
                                     {Op::statistics, said},

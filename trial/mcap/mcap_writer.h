@@ -59,7 +59,7 @@ class McapWriter {
   Sink sink_;
   std::size_t chunk_size_;
   std::uint64_t at_ = 0;   // bytes so far
-  std::uint32_t crc_ = 0;  // their CRC
+  std::uint32_t crc_ = 0;  // CRC of these bytes
   std::string chunk_;      // records
   Times chunk_times_, times_;
   std::vector<Channel> channels_;

@@ -28,13 +28,13 @@ std::optional<std::string_view> name_at(const std::vector<std::string>& names, s
   if (i < 0 || static_cast<std::size_t>(i) >= names.size()) return {};
   return names[static_cast<std::size_t>(i)];
 }
-// A record comes from a file, so a number may be no value of the enum; it has no word.
+// A record comes from a file, so a number may be outside of the enum; it then has no word.
 template <class Enum>
 std::string_view word_if_any(Enum value) {
   return static_cast<std::size_t>(value) < kWords<Enum>.size() ? word_of(value) : "unknown";
 }
 
-// Time as in an MCAP file, which has no times before the start of the experiment.
+// Time in an MCAP file, which has no times before the start of the experiment.
 std::uint64_t nanoseconds(Time t) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(t.time_since_epoch().count(), 0));
 }
@@ -54,7 +54,7 @@ void three_fields(F& f, const std::array<double, 3>& xyz) {
   f.number("y", "", xyz[1]);
   f.number("z", "", xyz[2]);
 }
-// Left out if all three numbers are unknown.
+// Omits the vector if all three numbers are unknown.
 template <class F>
 void vector_field(F& f, std::string_view name, std::string_view about, const detail::Triple& v) {
   const bool any = std::any_of(v.xyz.begin(), v.xyz.end(), [](double x) { return std::isfinite(x); });
@@ -183,7 +183,7 @@ void gripper_fields(F& f, const Stamped<GripSample>& grip, const Grip& told) {
 // ---- the file
 
 constexpr std::string_view kMesh = "mesh:";
-// What is said of every file. A text of the record that is named so gets another name.
+// Names used in every file. A text of the record with such a name is renamed.
 constexpr const char *kTicks = "ticks", *kMissed = "missed_cycles", *kState = "state";
 
 template <class Spec>
@@ -199,8 +199,8 @@ bool is_known(const Pose<A, B>& X) {
   return X.q().coeffs().allFinite() && X.p().allFinite();
 }
 
-// Texts of an MCAP file are UTF-8, and readers refuse the file for one that is not: printable() shows each
-// byte that is no letter's. The lines stay.
+// Texts of an MCAP file are UTF-8, and readers refuse a file with invalid text. printable() replaces the
+// invalid bytes and keeps the line breaks.
 std::string lines_for_mcap(std::string_view text) {
   std::string lines;
   for (;;) {
@@ -212,14 +212,14 @@ std::string lines_for_mcap(std::string_view text) {
   }
 }
 
-// A name that is there already gets a mark behind it, so that no text is lost.
+// Appends a mark to a name that exists already, so that no text is lost.
 void put_about(RecordTexts& about, std::string_view name, std::string_view text) {
   std::string key = models::printable(name);
   while (about.contains(key)) key += '\'';
   about[key] = lines_for_mcap(text);
 }
 
-// When what a device says was true. One that has said nothing has no such time.
+// The time of a device's sample. Without a sample, the present time.
 template <class T>
 Time stamp_or(const Stamped<T>& said, Time now) {
   return said.health == Health::absent ? now : said.t;
@@ -259,7 +259,7 @@ std::uint16_t RecordMcap::channel(std::string_view topic, std::string_view schem
   return file_.add_channel(topic, schema->second, "json");
 }
 
-// What a channel says is written once: here for its schema, in add() for its messages.
+// The content of a channel is defined once: here for its schema, in add() for its messages.
 void RecordMcap::add_channels() {
   constexpr std::string_view kPose = "foxglove.PoseInFrame";
   const RecordedTick any;
@@ -292,7 +292,7 @@ void RecordMcap::say(std::uint16_t channel, Time log, Time publish, Fields&& fie
   file_.message(channel, nanoseconds(log), nanoseconds(publish), message_);
 }
 
-// Where those frames are that do not move, so that a viewer shows all poses in one picture.
+// Adds the poses of the fixed frames, so that a viewer shows all poses in one picture.
 void RecordMcap::add_fixed_frames(Time t) {
   std::vector<FixedFrame> fixed;
   if (is_known(scene_.X_WR)) fixed.push_back({"W", "R", scene_.X_WR.xyzw, scene_.X_WR.xyz});
@@ -308,7 +308,7 @@ void RecordMcap::add(const RecordedTick& frame) {
   if (ticks_ == 0) add_fixed_frames(now);
   ++ticks_;
   missed_ += in.missed;
-  // Only in the tick in which it came.
+  // Write a pose only in the tick that received it.
   const bool seen = in.tool.health == Health::ok && in.tool.value.tool >= 0 && in.tool.t != tool_t_;
   if (tool_ && seen && is_known(in.tool.value.X_CT)) {
     tool_t_ = in.tool.t;

@@ -33,7 +33,7 @@ TrueDepth true_depth(const Glance& glance) {
   const Object& object = glance.scene.objects[static_cast<std::size_t>(index)];
   const stages::NearestInWorld at = stages::nearest(object, glance.truth.tool_tip);
   const Interaction kind = object.interaction.kind;
-  const bool gone = kind == Interaction::hit || kind == Interaction::shift;  // it is not where it began
+  const bool gone = kind == Interaction::hit || kind == Interaction::shift;  // it has left its start
   return {gone ? kUnset : glance.truth.tool_radius - at.distance, at.normal,
           glance.truth.tool_tip - glance.truth.tool_radius * at.normal};
 }
@@ -41,7 +41,7 @@ TrueDepth true_depth(const Glance& glance) {
 double FingerMeasure::tangential_share() const { return normal_ > 0.0 ? tangential_ / normal_ : kUnset; }
 
 bool FarWatch::see(const Glance& glance) {
-  constexpr double kSettled = 1.0;  // s after which an arm that nobody needs shall stand
+  constexpr double kSettled = 1.0;  // s until an unused arm must stand still
   const double now = seconds(glance.truth.t.time_since_epoch());
   const Mode before = mode_;
   mode_ = glance.out.mode;
@@ -52,7 +52,7 @@ bool FarWatch::see(const Glance& glance) {
 }
 
 void FingerMeasure::see(const Glance& glance) {
-  way_.make_room();  // of the first tick
+  way_.make_room();  // allocates in the first tick only
   const double now = seconds(glance.truth.t.time_since_epoch());
   if (far_.see(glance)) {
     meetings_.push_back({});

@@ -51,8 +51,8 @@ class FingerMeasure {
   void see(const Glance& glance);
 
   [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
-  [[nodiscard]] const LineFit& fit() const { return fit_; }  // over the true depth of 2 to 10 mm
-  // Over the depth as the core estimated it.
+  [[nodiscard]] const LineFit& fit() const { return fit_; }  // force over the true depth of 2 to 10 mm
+  // Line over the depth as the core estimated it.
   [[nodiscard]] const LineFit& believed() const { return believed_; }
   [[nodiscard]] double far_speed() const { return far_.speed(); }
   [[nodiscard]] double tangential_share() const;  // share of the normal force, while that is above 1 N

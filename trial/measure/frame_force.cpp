@@ -42,7 +42,7 @@ double greatest_change(const std::vector<FrameForce::Change>& changes, bool touc
 
 FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame) {
   FeltApart apart;
-  std::vector<double> sums{0.0};  // of the differences since both came into contact
+  std::vector<double> sums{0.0};  // sums of the differences since both came into contact
   const std::size_t ticks = std::min(one.felt().size(), other.felt().size());
   for (std::size_t i = 0; i < ticks; ++i) {
     const double difference = other.felt()[i] - one.felt()[i];

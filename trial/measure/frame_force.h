@@ -48,13 +48,13 @@ class FeltWay {
 
 struct FeltApart {
   std::size_t ticks = 0;  // ticks in which both were in contact
-  // Largest difference in one tick, N. It includes the encoders' steps: a contact 1 ms later has them in
+  // Largest difference in one tick, N. It includes the encoders' steps, which a contact 1 ms later has in
   // other ticks.
   double tick = 0.0;
   // Largest difference of the means over a frame in which both were in contact throughout, N.
   double frame = 0.0;
 };
-// `frame`: ticks.
+// `frame`: ticks in a frame.
 [[nodiscard]] FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);
 
 }  // namespace enc::trial

@@ -1,6 +1,7 @@
-// The best that a machine of given speed and acceleration can do to stay under a hand. It sees the surface
-// point under the tool late, either held or extrapolated at constant velocity. It moves straight there, no
-// faster than it can stop. Its lag is the miss that rig and hand allow (docs/notes/encounter.md).
+// The best that a machine of given speed and acceleration can do to stay under a hand. It receives the
+// surface point under the tool late, either held or extrapolated at constant velocity. It moves straight
+// there, at a speed from which it can still stop. Its lag is the miss that rig and hand allow
+// (docs/notes/encounter.md).
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ struct PassivityFigures {
   // Extra energy that the unreduced law would have given out, J; NaN without a reduction of force.
   double dissipated = 0.0;
   double most = 0.0;         // N, largest reduction of the push; NaN without a reduction of force
-  double acted = 0.0;        // s, in which it acted
+  double acted = 0.0;        // s, time in which it acted
   std::int32_t contact = 0;  // the core's number
 };
 

@@ -10,8 +10,7 @@
 namespace enc::trial {
 namespace {
 
-// Errors of a tip that stands still, m: inset, registration, three sigma of the tracker, tremor and drift of
-// the hand within the data's age.
+// Errors of a resting tip, m: inset, registration, and three sigma of the tracker.
 double still_error(const models::Setup& setup) {
   const sim::TwinSpec& twin = setup.twin;
   double noise = twin.tracker.noise.norm();
@@ -20,8 +19,8 @@ double still_error(const models::Setup& setup) {
   return setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * noise;
 }
 
-// Age of what the tip acts on, at worst, s: a frame, a server slot and its processing, three times the mean
-// network delay, cycles, servo.
+// Largest age of the data that the tip acts on, s: a frame, a server slot and its processing, three times the
+// mean network delay, cycles, servo.
 double greatest_age(const models::Setup& setup) {
   const sim::TwinSpec& twin = setup.twin;
   return 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +
@@ -31,12 +30,12 @@ double greatest_age(const models::Setup& setup) {
 }
 
 IdealFollower follower(const models::Setup& setup, IdealFollower::Sees sees) {
-  constexpr double kOldest = 1.0;  // s: data that are older say nothing, and each tick of them is kept
+  constexpr double kOldest = 1.0;  // s: older data are useless, and each tick up to it is stored
   return {sees, std::min(greatest_age(setup), kOldest), setup.rig.manipulator.speed,
           stages::kSideShare * setup.rig.manipulator.acceleration, 1.0 / setup.rig.loop.rate};
 }
 
-// Each press has a path of its own, which a plan has drawn.
+// True if the plan gives each press its own path.
 bool drawn(const models::Setup& setup) {
   return setup.scene.user && setup.scene.user->kind != UserKind::press_release;
 }
@@ -68,7 +67,7 @@ double response_lag(const RigSpec& rig) {
   return 1.0 / (2.0 * M_PI * rig.force.filter) + servo + rig.manipulator.delay + 2.0 / rig.loop.rate;
 }
 
-// The tool's tip crosses the undeformed surface: is the haptic-tip there?
+// Measures the distance of the haptic-tip when the tool's tip crosses the undeformed surface.
 void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap) {
   if (std::isnan(press.miss) && tool_gap <= 0.0) {
     const Vec3 touching = glance.truth.tool_tip.e() - glance.truth.tool_radius * normal;
@@ -103,9 +102,9 @@ void PressMeasure::compare(const Glance& glance, PressFigures& press, const Obje
     release_error_.add(force - object.response.release(deflection));
 }
 
-// What the machine does is late, by filter and servo: it answers to the least or the most of what these still
-// hold. Between press and release curve the object may be anywhere; and the core renders it smaller by its
-// skin, which of a stiff one is a force.
+// The machine answers late, by filter and servo: to a force between the least and the most that these still
+// hold. The object's force may lie anywhere between press and release curve. The core renders the object
+// smaller by its skin, which matters for a stiff object.
 void PressMeasure::judge_law(const Glance& glance, const Object& object, double deflection, double force) {
   const double pushed = glance.truth.touching ? force : 0.0;
   const double share = glance.scene.dt / (glance.scene.dt + response_lag(setup_.rig));
@@ -137,7 +136,7 @@ void PressMeasure::judge_law(const Glance& glance, const Object& object, double 
   departures_.back() = off_;
 }
 
-// The press that a tick belongs to. It begins with the approach; waiting belongs to the press before.
+// The press of a tick. A press begins with the approach; waiting belongs to the press before it.
 PressFigures* PressMeasure::press_of(const sim::Truth& truth) {
   if (truth.phase != sim::Phase::wait && presses_.size() <= static_cast<std::size_t>(truth.press)) {
     presses_.resize(static_cast<std::size_t>(truth.press) + 1);
@@ -148,7 +147,7 @@ PressFigures* PressMeasure::press_of(const sim::Truth& truth) {
   return presses_.empty() ? nullptr : &presses_.back();
 }
 
-// On its way into another object the tip is rightly outside of it.
+// A tip on its way into another object may be outside of it.
 void PressMeasure::watch_outside(std::int32_t object, double deflection) {
   if (object != object_before_) entered_ = false;
   object_before_ = object;
@@ -157,7 +156,7 @@ void PressMeasure::watch_outside(std::int32_t object, double deflection) {
   if (entered_) greatest_outside_ = std::fmax(greatest_outside_, -deflection);
 }
 
-// Only while a tool is held: the machine has nothing to follow otherwise.
+// Followers run only while the hand holds a tool, since the machine follows nothing otherwise.
 void PressMeasure::follow(const Glance& glance) {
   const sim::Truth& truth = glance.truth;
   if (truth.tool < 0 || truth.aim < 0) return;
@@ -175,7 +174,7 @@ void PressMeasure::see(const Glance& glance) {
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
   const double deflection = -(at_tip.distance + truth.tip_radius);
   watch_outside(glance.out.object, deflection);
-  // Pull is along the line between the two tips, whichever way that points.
+  // Pull acts along the line between the two tips, in either direction.
   if (truth.touching)
     greatest_tension_ = std::max(greatest_tension_,
                                  truth.contact_force.e().dot((truth.tool_tip - truth.tip).e().normalized()));

@@ -44,7 +44,7 @@ struct Departure {
   double from = kUnset, lasted = 0.0;    // s
   double force = 0.0, deflection = 0.0;  // N, m, at the largest departure
   double away = 0.0;                     // N
-  double impulse = 0.0;                  // N s, of a tip that comes out of its inset
+  double impulse = 0.0;                  // N s, while the tip comes out of its inset
 };
 
 struct SquareMean {

@@ -18,7 +18,7 @@
 namespace enc::trial {
 namespace {
 
-// The shortest text that reads back to the same number; nothing where the number is not known.
+// Adds the shortest text that reads back to the number; an unknown number stays empty.
 void add(std::string& row, double x) {
   row += ',';
   if (std::isfinite(x)) row += fmt::format("{}", x);
@@ -26,14 +26,14 @@ void add(std::string& row, double x) {
 
 void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 
-// How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
-// the object was made to answer to, which is filtered.
+// Pressing force on the object, N. A probe's force is that measured in this tick, unfiltered. A contact's
+// force is the filtered one that the object answers to.
 double pressing(const Scene& scene, const Outputs& out) {
   if (scene.probe() != nullptr) return dot(out.felt, scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
   return -out.force.xyz[2];
 }
 
-// Number of the push or contact that a row belongs to; 0: none.
+// Number of the push or contact in a row; 0: neither.
 std::int32_t repeat(const Outputs& out) {
   const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
   return pressed ? out.contacts : 0;
@@ -44,7 +44,7 @@ std::string as_cell(std::string text) {
   return text;
 }
 
-// "SIMULATED ball 'nominal'": what a probe presses. No comma: it is a cell.
+// Description of the pressed object, as "SIMULATED ball 'nominal'". It is a table cell, so it has no comma.
 std::string source_of(const models::Setup& setup) {
   if (!setup.scene.probe) return {};
   std::string text = "measured with rig '" + setup.rig.title + "'";
@@ -66,7 +66,7 @@ RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
   for (const ToolSpec& tool : setup.scene.tools) tools_.push_back(as_cell(tool.name));
 }
 
-// Only in the row in which it came: a log must not count one packet twice.
+// True only in the row that received the packet: a log must not count a packet twice.
 bool RecordTable::news(const Stamped<TrackedTool>& tool) {
   const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
                      tool.value.tool < static_cast<std::int32_t>(scene_.tools.size());
@@ -124,7 +124,8 @@ std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {
 
 namespace {
 
-// Half of a log is another log: what is cut off is read by export, which says so.
+// Refuses a truncated record, because half of a log gives other results. The message names the export command
+// that reads it.
 RecordReader whole_record(const std::string& path) {
   try {
     return RecordReader(path);
@@ -142,7 +143,7 @@ RecordReader whole_record(const std::string& path) {
 }  // namespace
 
 std::string read_table(const std::string& path, const std::string& kind, const std::string& expected) {
-  std::error_code none;  // a pipe is a table: what is read of it to see what it is would be gone
+  std::error_code none;  // a pipe is read as a table: probing it would consume its data
   if (!std::filesystem::is_regular_file(path, none) || !is_record(path))
     return models::csv_text(path, kind, expected);
   RecordReader record = whole_record(path);

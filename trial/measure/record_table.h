@@ -36,8 +36,8 @@ class RecordTable {
 // The whole run of a set-up, as `run --record` and `export` write it.
 [[nodiscard]] std::string table_of_run(const models::Setup& setup, std::uint64_t seed);
 
-// Text of the table that a fit reads: of a CSV file, or of a record in the form of `encounter export`.
-// kind, expected: of the table, for the message of an unreadable file. Throws Error, also for a truncated
+// Text of the table that a fit reads: a CSV file, or a record in the form of `encounter export`. kind,
+// expected: words about the table for the message of an unreadable file. Throws Error, also for a truncated
 // record.
 [[nodiscard]] std::string read_table(const std::string& path, const std::string& kind,
                                      const std::string& expected);

@@ -10,21 +10,21 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kPause = 0.3;     // s without a push: another press
-constexpr double kSameWay = 0.99;  // cosine: likewise, of its normal
+constexpr double kPause = 0.3;     // s without a push between two presses
+constexpr double kSameWay = 0.99;  // cosine between normals of one press
 
-// The surface that the arm's target is on.
+// The surface normal at the arm's target.
 Vec<'W'> normal_at(const Object& object, const Point<'W'>& target) {
   if (object.met_in_its_middle()) return object.X_WO * Vec<'O'>(0, 0, 1);
   return stages::nearest(object, target).normal;
 }
 
-// Something pushes the prop down from where the arm holds it, and nothing but a finger does that. A thing
-// that is itself moved by the finger tells nothing.
+// True if the prop is pushed down from its held position, which only a finger does. Objects that the finger
+// moves give no information.
 bool pushed(const Glance& glance, const Object& object, const Point<'W'>& prop, const Vec<'W'>& normal) {
-  constexpr double kDeep = 1e-3;    // m: friction and a wrong weight hold it off by less
-  constexpr double kForce = 0.3;    // N, of the law: twice what dry friction hides
-  constexpr double kBeside = 8e-3;  // m: on its way to another place (kLeap in aim.cpp is 10 mm)
+  constexpr double kDeep = 1e-3;    // m: larger than the offset by friction and a wrong weight
+  constexpr double kForce = 0.3;    // N, force of the law: twice what dry friction hides
+  constexpr double kBeside = 8e-3;  // m: farther, it is on its way elsewhere (kLeap in aim.cpp is 10 mm)
   if (object.interaction.kind != Interaction::slide && object.interaction.kind != Interaction::click)
     return false;
   const Vec<'W'> way = prop - glance.out.wanted;
@@ -32,9 +32,9 @@ bool pushed(const Glance& glance, const Object& object, const Point<'W'>& prop, 
   return depth > kDeep && (way + depth * normal).norm() < kBeside && -glance.out.force.xyz[2] > kForce;
 }
 
-// Least squares of shift . normal = seen, in the directions of which the normals have enough.
+// Least squares of shift . normal = seen, in the directions that the normals cover well enough.
 SeenShift fit(const SeenPress* first, std::size_t n) {
-  constexpr double kEnough = 0.1;  // of the mean square
+  constexpr double kEnough = 0.1;  // share of the mean square
   SeenShift found;
   found.presses = n;
   if (n == 0) return found;
@@ -85,8 +85,8 @@ void SeenMeasure::see(const Glance& glance) {
 }
 
 void SeenMeasure::remember(const Glance& glance) {
-  constexpr double kSteady = 0.1;   // s: pushed for so long
-  constexpr double kStill = 2e-3;   // m in that time: vision may be late behind what is faster
+  constexpr double kSteady = 0.1;   // s, shortest push
+  constexpr double kStill = 2e-3;   // m in that time: vision may lag behind a faster motion
   constexpr double kLongest = 1.0;  // s
   if (moments_.empty()) moments_.resize(static_cast<std::size_t>(std::lround(kLongest / glance.scene.dt)));
   Moment& now = moments_[next_];

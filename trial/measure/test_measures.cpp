@@ -14,7 +14,7 @@ void ProbeMeasure::Range::add(double force) {
   ++pushes;
 }
 
-// The levels between the last tick and this one, by straight interpolation.
+// Adds the force at each level between the last tick and this one, by linear interpolation.
 void ProbeMeasure::compare(double deflection, double force) {
   if (deflection == deflection_) return;
   std::vector<Range>& ranges = levels_[deflection > deflection_ ? 0 : 1];
@@ -62,7 +62,7 @@ double ProbeMeasure::spread() const {
 
 namespace {
 
-constexpr double kSettled = 0.3;  // s at rest before a stop counts: longer than any packet is on its way
+constexpr double kSettled = 0.3;  // s of rest before a stop counts: longer than any packet's delay
 
 std::int32_t next_axis(const Travel& travel, std::int32_t leg) {
   return travel.on_leg(leg + 1) ? travel.legs[static_cast<std::size_t>(leg) + 1].axis : -1;
@@ -119,13 +119,13 @@ void TravelMeasure::see(const Glance& glance) {
   if (velocity.norm() > kMoving) moved_ = t;
   if (in.tool.health != Health::ok || in.tool.t == stamp_) return;
   stamp_ = in.tool.t;
-  // Over a wire a position is some milliseconds old.
+  // A position read over a network is some milliseconds old.
   const Vec<'W'> since(Vec3(age(glance.tick.t, in.tip.t) * velocity));
   const Point<'W'> tip = scene.X_WR * in.tip.value.X_RH.origin() + since;
   const Tool& tool = scene.tools[static_cast<std::size_t>(in.tool.value.tool)];
   const Vec3 error = (scene.X_WC * in.tool.value.X_CT * tool.tip.centre - tip).e();
   sums_.largest = std::max(sums_.largest, error.norm());
-  // On the way to a start nothing counts but the stop at its end.
+  // A leg to a start counts only for the stop at its end.
   const bool at_rest = now.phase == TravelPhase::dwell && t - moved_ > kSettled;
   const std::int32_t axis = leg.axis >= 0 ? leg.axis : next_axis(*scene.travel(), now.leg);
   if (axis < 0 || (leg.axis < 0 && !at_rest)) return;

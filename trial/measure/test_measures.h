@@ -1,4 +1,4 @@
-// The tests that a machine makes without a hand: what an indentation test and a tracking test have measured.
+// Results of the tests that a machine makes without a hand: indentation test and tracking test.
 #pragma once
 
 #include <array>

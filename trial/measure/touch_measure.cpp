@@ -48,7 +48,7 @@ void TouchMeasure::see(const Glance& glance) {
 }
 
 void TouchMeasure::see_motors(const Glance& glance) {
-  constexpr double kAtOnce = 0.020;  // s: an impact is over sooner
+  constexpr double kAtOnce = 0.020;  // s: an impact is shorter
   const double dt = glance.scene.dt;
   const auto see = [&](Acted& limit, std::uint32_t why) {
     limit.now = (glance.out.why & why) != 0 ? limit.now + dt : 0.0;
@@ -60,7 +60,7 @@ void TouchMeasure::see_motors(const Glance& glance) {
   see(heat_, kHot);
 }
 
-// A hold in between makes no other contact.
+// A hold within a contact does not split it.
 void TouchMeasure::see_contact(const Glance& glance) {
   if (glance.out.mode == Mode::hold) return;
   const bool touching = glance.out.mode == Mode::contact;
@@ -80,8 +80,8 @@ void TouchMeasure::see_contact(const Glance& glance) {
   touching_ = true;
 }
 
-// An arm measures no force: it takes for touched what it believes to be. A belief that is wrong is mended by
-// the next pictures, so what lasts no longer than a finger may stay unseen is late, and not empty.
+// An arm measures no force: its contacts are the core's estimates. The next pictures correct a wrong
+// estimate. So a contact shorter than the allowed loss of tracking is late data, not an empty contact.
 void TouchMeasure::end_contact(const Glance& glance) {
   touching_ = false;
   const bool arm = glance.family.takes_force;
@@ -90,7 +90,7 @@ void TouchMeasure::end_contact(const Glance& glance) {
   if (glance.simulated ? !contact_.touched : !believed) empty_.push_back(contact_.began);
 }
 
-// A hold is no swing, nor what is before it.
+// Neither a hold nor the time before it counts as an oscillation.
 void TouchMeasure::forget_swing() {
   if (!swings_.empty() && swings_.back().from == now_.from) swings_.pop_back();
   swing_ = Swing{};
@@ -113,14 +113,14 @@ void TouchMeasure::filter_swing(const Glance& glance, double force) {
   filter(swing_, force, depth);
 }
 
-// What dies out soon is no swing that the loop keeps up.
+// An oscillation that dies out soon is not a limit cycle.
 void TouchMeasure::end_swing(double t) {
   const bool told = !swings_.empty() && swings_.back().from == now_.from;
   if (told && touching_ && t - now_.from < kLong) swings_.pop_back();
   now_ = SwingFigures{};
 }
 
-// A wide swing leaves the contact and comes back to it.
+// A large oscillation leaves the contact and returns to it.
 void TouchMeasure::see_swing(const Glance& glance) {
   const Outputs& out = glance.out;
   const double dt = glance.scene.dt;

@@ -17,7 +17,7 @@
 namespace enc::trial {
 namespace {
 
-// m: how far the machine gets from its zero along a direction of R, straight and without turning.
+// m: reach of the machine from its zero along a direction of R, straight and without rotation.
 double reach_along(const Reach& reach, const Vec3& direction) {
   const Pose<'R', 'H'> zero = reach.machine.zero();
   double reached = 0.0, beyond = 0.5;
@@ -84,7 +84,7 @@ Answer ask(const std::string& question, const std::function<bool()>& stopped) {
   while (!stopped()) {
     char c = 0;
     pollfd ready{STDIN_FILENO, POLLIN, 0};
-    if (poll(&ready, 1, 100) <= 0) continue;  // a signal may have come before it waited
+    if (poll(&ready, 1, 100) <= 0) continue;  // the signal may have come before poll() waited
     const ssize_t got = read(STDIN_FILENO, &c, 1);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return Answer::no;
@@ -105,11 +105,11 @@ void refuse_unasked() {
 
 int Operator::signal() const noexcept {
   if (const int caught = Signals::caught(); caught != 0) return caught;
-  return stops_ && keys_.lost() ? SIGHUP : 0;  // nobody can stop it by hand any more
+  return stops_ && keys_.lost() ? SIGHUP : 0;  // the operator can no longer stop the motion
 }
 
 bool Operator::stop() noexcept {
-  // A clock that waits for long asks only this; nothing moves before the keys are read.
+  // A clock in a long wait calls only this function. Nothing moves before the keys are read.
   const bool at_rest = !stops_ || !listens_;
   if (at_rest && Signals::take_suspension()) suspend();
   return signal() != 0 || quits_;
@@ -124,7 +124,7 @@ void Operator::suspend() noexcept {
 }
 
 Hand Operator::next() noexcept {
-  // On the tick before, what moves was stopped.
+  // The tick before has stopped all motion.
   if (suspending_) suspend();
   suspending_ = false;
   if (Signals::take_continued()) keys_.renew();

@@ -1,5 +1,5 @@
-// The operator of a run: the question before an armed machine moves for the first time, and the stop and the
-// end of the motion.
+// The operator of a run: the question before an armed machine first moves, and the stop and the end of the
+// motion.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ enum class Answer : std::uint8_t { yes, no, stopped };
 // pauses it.
 class Operator {
  public:
-  // A suspension pauses the run, which then continues. After this call, a suspension first stops everything
-  // that moves, and it stays stopped until the operator resumes.
+  // Normally a suspension pauses the run, which then continues. After this call, a suspension first stops
+  // everything that moves, and it stays stopped until the operator resumes.
   void stops_when_suspended() noexcept { stops_ = true; }
 
   // Call these in order: begin() makes signals only end the run; listen() reads the keys of the terminal.
@@ -45,7 +45,7 @@ class Operator {
     signals_.begin();
     signals_.take_suspensions();
   }
-  // Between begin() and listen(): asks (consent.h), until a signal comes.
+  // Call between begin() and listen(): asks (consent.h), until a signal comes.
   [[nodiscard]] Answer confirm(const std::string& question);
   void listen() {
     listens_ = true;

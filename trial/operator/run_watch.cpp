@@ -26,7 +26,7 @@ void RunWatch::compare(const Glance& glance) noexcept {
       before = lost;
     });
   }
-  // A reason that comes on top of others is news; one that goes is not.
+  // An additional reason is an event; a reason that ends is not.
   if ((why & ~why_) != 0) push({Kind::hold, {}, why});
   if (why == 0 && why_ != 0) push({Kind::hold_over, {}, 0, out.mode});
   why_ = why;
@@ -38,7 +38,7 @@ void RunWatch::compare(const Glance& glance) noexcept {
 }
 
 void RunWatch::note(RunEvent::Kind kind, int signal) noexcept {
-  if (kind == RunEvent::Kind::resumed) lost_ = {};  // a link that is still lost is news again
+  if (kind == RunEvent::Kind::resumed) lost_ = {};  // report a link that is still lost once more
   RunEvent event;
   event.kind = kind;
   event.signal = signal;

@@ -6,7 +6,7 @@ namespace enc::trial {
 namespace {
 
 volatile std::sig_atomic_t begun = 0, first_end = 0, halts = 0, resumes = 0, suspensions = 0, continued = 0;
-// What a fault of this program did before, by its number.
+// Earlier handling of the fault signals, by number.
 std::array<struct sigaction, 32> faults_before{};
 
 extern "C" {
@@ -20,8 +20,8 @@ void note_resume(int) { resumes = 1; }
 void note_suspension(int) { suspensions = 1; }
 void note_continued(int) { continued = 1; }
 
-// Another process sent it, as a supervisor may: it asks for the end. Otherwise this program is at fault, and
-// the signal does what it did before: the faulty instruction runs again, or abort() raises it again.
+// A signal from another process, such as a supervisor, requests the end. Otherwise this program is at fault,
+// and the signal gets its earlier handling: the faulty instruction runs again, or abort() raises it again.
 void note_fault(int number, siginfo_t* info, void*) {
   if (info->si_code == SI_USER && info->si_pid != getpid()) return note_end(number);
   sigaction(number, &faults_before[static_cast<std::size_t>(number)], nullptr);
@@ -42,7 +42,7 @@ Signals::Signals() {
   for (volatile std::sig_atomic_t* flag : {&begun, &first_end, &halts, &resumes, &suspensions, &continued})
     *flag = 0;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) take(signal, note_end, Spared::ignored);
-  // A profiler or a test may have a handler for one of these.
+  // A profiler or a test may handle one of these signals.
   for (const int signal : {SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGIO, SIGPWR, SIGSTKFLT})
     take(signal, note_end, Spared::handled);
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) take(signal, note_end, Spared::handled);

@@ -8,8 +8,8 @@
 
 namespace enc::trial {
 
-// Only one at a time. Before begin() a terminating signal ends the process at once, with exit code 128 + its
-// number: a start-up may compute for minutes. After begin() signals are only noted.
+// Only one object may exist at a time. Before begin() a terminating signal ends the process at once, with
+// exit code 128 + its number: a start-up may compute for minutes. After begin() signals are only noted.
 //
 // A signal that was ignored before, as by nohup, stays ignored. A pipe without a reader (SIGPIPE) and a file
 // that may not grow (SIGXFSZ) become errors of that file. Terminal access from the background (SIGTTIN,

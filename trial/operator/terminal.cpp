@@ -15,22 +15,22 @@
 
 namespace enc::trial {
 
-// A file description of our own never blocks, and leaves the one that the shell shares as it is. Where the
-// system gives none, standard input itself is asked, after a look whether a key is there.
+// A separate file description never blocks, and does not change the one shared with the shell. If the system
+// provides none, standard input itself is read when poll() reports a key.
 struct Keys::Terminal {
   int fd = open("/proc/self/fd/0", O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   termios before{};
   ~Terminal() {
     if (fd >= 0) close(fd);
   }
-  // How many bytes came; 0: none yet; -1: the terminal was closed.
+  // Number of bytes read; 0: no key; -1: the terminal was closed.
   [[nodiscard]] ssize_t read(std::span<char> into) const noexcept {
     pollfd ready{STDIN_FILENO, POLLIN, 0};
     if (fd < 0 && poll(&ready, 1, 0) <= 0) return 0;
     errno = 0;
     const ssize_t got = ::read(fd >= 0 ? fd : STDIN_FILENO, into.data(), into.size());
     if (got > 0) return got;
-    // A read from the background fails, too, and another program may have made Ctrl-D an end.
+    // A read from the background also fails, and another program may have set Ctrl-D to end the input.
     return errno != EAGAIN && isatty(STDIN_FILENO) == 0 ? -1 : 0;
   }
 };
@@ -51,7 +51,7 @@ void Keys::begin() {
 
 void Keys::look(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kTurn{5};
-  constexpr int kSettings = 40;  // turns
+  constexpr int kSettings = 40;  // turns between two checks of the settings
   for (int turn = 1; !stop.stop_requested(); ++turn) {
     std::this_thread::sleep_for(kTurn);
     const std::lock_guard lock(mutex_);
@@ -85,7 +85,7 @@ void Keys::take_now() noexcept {
   tcsetattr(STDIN_FILENO, TCSANOW, &now);
 }
 
-// In the background the terminal belongs to another program.
+// A background process leaves the terminal alone, since it belongs to another program.
 void Keys::release() {
   const std::lock_guard lock(mutex_);
   active_ = false;
@@ -101,7 +101,7 @@ std::size_t Keys::read(std::span<char> into) noexcept {
 
 StandardError::StandardError() : terminal_(isatty(STDERR_FILENO) != 0) {
   struct stat what {};
-  // A file takes what it is given, and has a place of its own in each description.
+  // A file never blocks, and a second description would have its own write position.
   if (fstat(STDERR_FILENO, &what) != 0 || S_ISREG(what.st_mode)) return;
   own_ = open("/proc/self/fd/2", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
@@ -111,7 +111,8 @@ StandardError::~StandardError() {
 }
 
 std::size_t StandardError::write(std::string_view text) const noexcept {
-  // A socket, say, cannot be opened again: it takes so much at once or says beforehand that it does not.
+  // A socket, for example, cannot be opened again. It either takes this many bytes at once, or poll() reports
+  // that it does not.
   constexpr std::size_t kMostAtOnce = 1024;  // bytes; PIPE_BUF is 4096
   std::size_t taken = 0;
   while (taken < text.size()) {

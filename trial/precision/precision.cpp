@@ -17,13 +17,13 @@ namespace {
 struct Run {
   std::vector<Vec3> force, tip;
   std::vector<char> touching;
-  std::optional<std::vector<double>> quantities;  // none: the force is compared
+  std::optional<std::vector<double>> quantities;  // unset: the force is compared
   double cpu = kUnset, yards = kUnset, simulated = 0.0;
   std::string failure;
   [[nodiscard]] std::int64_t touched() const { return std::count(touching.begin(), touching.end(), 1); }
 };
 
-// `looks`: for the quantities that are compared, which takes time of its own.
+// `looks`: computes the compared quantities, which takes extra time.
 Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double seconds, bool looks = true) {
   Run run;
   TrialOptions options;
@@ -56,12 +56,13 @@ Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double s
   return run;
 }
 
-// A programme that waits for a touch may end earlier or later with another step: what both have is compared.
+// A programme that waits for a touch may end at another time with another step. Only the common ticks are
+// compared.
 void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
   point.failure = run.failure;
   if (!run.failure.empty()) return;
   const std::size_t ticks = std::min(run.force.size(), truth.force.size());
-  constexpr std::size_t kApart = 1000;  // ticks: more is another course
+  constexpr std::size_t kApart = 1000;  // ticks: a larger difference is another course of events
   if (std::max(run.force.size(), truth.force.size()) - ticks > kApart) {
     point.failure =
         fmt::format("ends after {}, not after {}", counted(run.force.size(), "tick"), truth.force.size());
@@ -118,7 +119,7 @@ std::vector<PrecisionPoint> points_of(const PrecisionOptions& options, const sim
   return points;
 }
 
-// What is compared with what, before any run.
+// The plan of the comparison, before any run.
 Precision plan_of(const PrecisionOptions& options, const sim::Stepping& shipped, double period) {
   Precision all;
   all.table = shipped.table;
@@ -138,7 +139,7 @@ void keep_truth(const Run& truth, Precision& all) {
     throw Error("there is no error of a force: nothing touched in this scene's programme");
 }
 
-// Of a point's rounds, as Run has them.
+// Times of a point's rounds, as in Run.
 struct Times {
   std::vector<double> cpu, yards;
 };
@@ -155,11 +156,11 @@ struct Converged {
   const Run &truth, &second;
 };
 
-// All points, in rounds.
+// Runs all points, round by round.
 void run_points(const SetupWith& setup_with, const PrecisionOptions& options, double seconds,
                 const Converged& runs, const std::function<void(double)>& tell, Precision& all) {
   std::vector<Times> times(all.points.size());
-  // What looks for quantities is not timed, and what is timed does not look.
+  // Computing the quantities takes time, so a round either computes them or is timed.
   const int first = options.quantities ? -1 : 0;
   for (int round = first; round < options.rounds; ++round)
     for (std::size_t i = 0; i < all.points.size(); ++i) {

@@ -1,5 +1,5 @@
 // Error against computing time of a scene: the result of each integrator and time step of its twin, compared
-// with a converged run of the same scene, seed and so hand.
+// with a converged run. That run has an equal scene and seed, and so an equal hand.
 //
 // The error is the true force on the held body, N rms, over the ticks with a touch in either run. Two
 // converged runs differ slightly: a sensor count that falls the other way goes around the loop. This
@@ -101,10 +101,10 @@ struct PrecisionOptions {
   std::function<void(double)> progress{};
 };
 
-// The scene with these settings; later ones win.
+// The scene with these settings; later ones take precedence.
 using SetupWith = std::function<models::Setup(const std::vector<std::string>& set)>;
 
-// Throws Error for a scene that cannot touch, because it has no simulated hand.
+// Throws Error for a scene without a simulated hand, which cannot touch anything.
 [[nodiscard]] Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options);
 
 // The scene's default setting; null: not among the points, because settings have replaced it.

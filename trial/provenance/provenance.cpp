@@ -9,8 +9,8 @@
 
 namespace enc::trial {
 
-// A program that prints the commit links another one of these, which the build writes (enc_commit). All
-// others, such as tests, keep this one, and a new commit links none of them anew.
+// Default version. A program that prints the commit links another version, which the build writes
+// (enc_commit). All other programs, such as tests, keep this one, so a new commit does not link them again.
 [[gnu::weak]] BuiltCommit built_commit() noexcept { return {"unknown", "unknown"}; }
 
 std::string program_words() {

@@ -12,7 +12,7 @@
 namespace enc::trial {
 
 void Faults::apply(Inputs& in) {
-  if (in.tool.health != Health::absent && in.tool.t != tool_.t) {  // else it is what the core was told last
+  if (in.tool.health != Health::absent && in.tool.t != tool_.t) {  // else the core already has it
     if (in.tool.t != read_) ++samples_;
     read_ = in.tool.t;
     const bool told = tool_.health != Health::absent;
@@ -54,7 +54,7 @@ std::string SteeringLog::text() const {
 }
 
 SteeringLog SteeringLog::read(const std::string& text, const std::string& record) {
-  constexpr double kMostTicks = 1e12, kFarthest = 10.0;  // m
+  constexpr double kMostTicks = 1e12, kFarthest = 10.0;  // ticks; m
   models::CsvReader rows(text, record + " (hand)");
   rows.header({"tick", "steered", "x_m", "y_m", "z_m", "changes_tool", "faults"});
   const auto whole = [&](std::size_t column, double most, const char* what) {

@@ -1,5 +1,5 @@
-// What the person who steers the twin's hand asks for during a run: places, tools and device faults, and the
-// log of it, which a record keeps and a later run plays back (docs/reference/record.md, "hand").
+// The steering of the twin's hand during a run: requested places, tools and device faults. A record keeps the
+// log of these requests, and a later run plays it back (docs/reference/record.md, "hand").
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class Faults {
   std::uint8_t bits_ = 0;
   Stamped<TrackedTool> tool_;  // last sample passed to the core
   Time read_{};                // stamp of the newest sample read
-  std::int64_t samples_ = 0;   // since then
+  std::int64_t samples_ = 0;   // samples since the first
 };
 
 // Request at a tick.

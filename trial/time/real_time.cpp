@@ -18,7 +18,7 @@
 namespace enc::trial {
 namespace {
 
-// Reads a line of /proc/self/status, "CapEff:\t000001ffffffffff".
+// Reads a line of /proc/self/status, as "CapEff:\t000001ffffffffff".
 bool has_capability(unsigned number) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -30,8 +30,8 @@ bool has_capability(unsigned number) {
   return false;
 }
 
-// The first user namespace maps every number to itself. In another one a capability counts for nothing
-// outside.
+// The first user namespace maps every number to itself. A capability in another namespace has no effect
+// outside of it.
 bool in_first_user_namespace() {
   std::ifstream map("/proc/self/uid_map");
   std::uint64_t inside = 1, outside = 1, count = 0;
@@ -55,7 +55,7 @@ RealTimeRights real_time_rights() {
 
 std::string real_time_refusal(int error, const RealTimeRights& rights) {
   if (error != EPERM) return fmt::format("the system refuses SCHED_FIFO: {}", std::strerror(error));
-  // The kernel refuses a process that has the right where its control group has no real-time budget.
+  // Despite the right, the kernel refuses a process whose control group has no real-time budget.
   if (rights.sys_nice || rights.most >= RealTime::kPriority)
     return "the container or control group has no real-time budget: docker run --cpu-rt-runtime=950000 "
            "--ulimit rtprio=41 --cap-add=SYS_NICE, or sysctl -w kernel.sched_rt_runtime_us=-1 on the host";

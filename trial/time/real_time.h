@@ -38,7 +38,7 @@ class RealTime {
   RealTime(const RealTime&) = delete;
   RealTime& operator=(const RealTime&) = delete;
 
-  // "SCHED_FIFO 40, memory locked"; or the reason for a refusal and the remedy. Empty: not requested.
+  // Returns "SCHED_FIFO 40, memory locked", or the reason for a refusal and the remedy. Empty: not requested.
   [[nodiscard]] const std::string& words() const { return words_; }
   [[nodiscard]] bool granted() const { return first_; }                  // priority granted
   [[nodiscard]] const std::string& refusal() const { return refusal_; }  // empty: granted

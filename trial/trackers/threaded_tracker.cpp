@@ -23,13 +23,13 @@ ThreadedTracker::~ThreadedTracker() {
   thread_.join();
 }
 
-// Nothing is thrown here: a tracker's poll() is noexcept, and its failures are healths.
+// Nothing throws here: a tracker's poll() is noexcept, and reports failures as Health.
 void ThreadedTracker::work() noexcept {
   Word word;
   Time now;
   while (true) {
     calls_.wait(word.calls);
-    word.calls = calls_;  // before the time is fetched: that of this call, or newer
+    word.calls = calls_;  // read before the time, which is then the time of this call or newer
     if (stop_) return;
     if (!now_.read(now)) continue;
     const std::lock_guard lock(at_work_);

@@ -1,5 +1,5 @@
-// A tracker that works in its own thread, such as vision with a real camera; and its stand-in in virtual
-// time, whose results arrive as irregularly and are repeatable.
+// A tracker that works in its own thread, such as vision with a real camera. Also its stand-in in virtual
+// time, whose results arrive equally irregularly but repeatably.
 #pragma once
 
 #include <algorithm>

@@ -55,14 +55,15 @@ using models::LoopPoint;
 
 constexpr double kMean = 0.01;  // s
 
-// m/s, with which a push comes to its first reading.
+// m/s, speed of a push at its first reading.
 double speed_in(const std::vector<LoopPoint>& push) {
   const LoopPoint& later = push[std::min<std::size_t>(push.size() - 1, 10)];
   const double time = later.time - push.front().time;
   return time > 0.0 ? std::max(1e-6, (later.deflection - push.front().deflection) / time) : 1e-6;
 }
 
-// From when the ball was left until the first reading: free, then in from the surface at a steady speed.
+// Advances the ball to the first reading: free since the last push, then pressed in from the surface at a
+// steady speed.
 void come_in(const sim::BallPlant& ball, sim::BallPlantState& state, const std::vector<LoopPoint>& push,
              double free_since, double nearer) {
   const double depth = std::max(0.0, push.front().deflection + nearer);
@@ -134,19 +135,19 @@ Eigen::VectorXd force_of(const BallLoops& loops, const StandingBall& ball) {
   return loops.predicted(sim::BallPlant(ball.law), ball.nearer);
 }
 
-// A point of the search: the ball, what is left of the readings, and both whitened beside the Jacobian.
+// A point of the search: the ball and the residual of the readings, with the whitened residual and Jacobian.
 class Search {
  public:
   Search(const BallLoops& loops, const BallFitOptions& options) : loops_(loops), ball_(options.start) {
     for (std::size_t i = 0; i < kBallNumbers; ++i) (options.free[i] ? free_ : held_).push_back(i);
-    // A mean does not move what is not pressed: each push costs its own zero.
+    // A constant offset carries no information, because each push has its own zero.
     if (loops.means().size() < 2 * loops.pushes() + free_.size() + 10)
       throw Error("there are too few readings for so many numbers", "loop");
     left_ = loops_.measured() - force_of(loops_, ball_);
     slopes_ = ball_jacobian(loops_, ball_, free_);
   }
 
-  // Levenberg and Marquardt, with the noise as it is thought to be; until a step is nothing beside the
+  // Levenberg-Marquardt with the present noise estimate, until a step is small compared with the standard
   // errors.
   void settle() {
     double damping = 1e-4;
@@ -160,7 +161,7 @@ class Search {
       const Eigen::VectorXd left = loops_.measured() - force_of(loops_, next);
       const double cost = whitened(left).squaredNorm();
       if (!(cost <= residual_.squaredNorm())) {
-        if ((damping *= 10.0) > 1e9) return;  // no better ball is near: rounding
+        if ((damping *= 10.0) > 1e9) return;  // rounding: no better ball is near
         continue;
       }
       ball_ = next;
@@ -172,7 +173,7 @@ class Search {
     throw Error("the fit of the ball does not settle; hold a number that is known", "loop");
   }
 
-  // What the residuals say about the noise; false where nothing new.
+  // Estimates the noise from the residuals; returns false if it hardly changed.
   bool learn_noise() {
     const models::DriftingNoise found = drifting_noise(loops_.means(), left_, slopes_);
     const bool news = std::abs(std::log(found.walk / noise_.walk)) > 0.1;
@@ -207,7 +208,7 @@ class Search {
     residual_ = whitened(left_);
     jacobian_ = whitened(slopes_);
   }
-  // A thousandth of the standard errors, or of nothing.
+  // True for a step below a thousandth of the standard errors, or of a tiny constant.
   [[nodiscard]] bool small(const Eigen::MatrixXd& gram, const Eigen::VectorXd& slope) const {
     const double gain = slope.dot(gram.ldlt().solve(slope));
     return gain <= std::max(1e-6 * residual_.squaredNorm() / static_cast<double>(residual_.size()), 1e-24);
@@ -223,7 +224,8 @@ class Search {
     return ball;
   }
 
-  // The inverse of the information; a direction that the readings do not tell is infinitely uncertain.
+  // The inverse of the information matrix. A direction that the readings do not determine is infinitely
+  // uncertain.
   void estimate(BallFit& fit, double freedom) const {
     const Eigen::VectorXd doubt = doubts();
     const Eigen::MatrixXd gram = jacobian_.transpose() * jacobian_;
@@ -255,7 +257,7 @@ class Search {
     }
   }
 
-  // Logarithms of the estimates' variances if the walk were exp(by) times what it is.
+  // Logarithms of the estimates' variances for a walk changed by the factor exp(by).
   [[nodiscard]] Eigen::VectorXd log_variances(double by) const {
     Eigen::MatrixXd columns(left_.size(), slopes_.cols() + 1);
     columns << left_, slopes_;
@@ -265,7 +267,7 @@ class Search {
     const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
     return (columns.col(0).squaredNorm() * inverse.diagonal()).array().abs().log();
   }
-  // Satterthwaite: an interval knows no more than the size of the noise that it depends on. 1 / degrees of
+  // Satterthwaite: an interval is as uncertain as the noise estimate behind it. Returns 1 / degrees of
   // freedom.
   [[nodiscard]] Eigen::VectorXd doubts() const {
     constexpr double kStep = 0.25;
@@ -273,7 +275,7 @@ class Search {
     return slope.cwiseAbs2() / std::max(noise_.sureness, 1e-3);
   }
 
-  // To first order: how the estimates give way when a held number is another.
+  // Changes of the estimates for a change of each held number, to first order.
   void hold(BallFit& fit) const {
     const Eigen::MatrixXd columns = whitened(ball_jacobian(loops_, ball_, held_));
     const Eigen::MatrixXd moves =
@@ -293,18 +295,18 @@ class Search {
   const BallLoops& loops_;
   StandingBall ball_;
   std::vector<std::size_t> free_, held_;
-  models::DriftingNoise noise_{0.02};  // 1/s: the rig's own, to begin with
-  Eigen::VectorXd left_;               // N, measured less predicted
-  Eigen::MatrixXd slopes_;             // of the prediction, N per scale
-  Eigen::VectorXd residual_;           // the same, whitened
-  Eigen::MatrixXd jacobian_;           // whitened, a column for each free number
+  models::DriftingNoise noise_{0.02};  // 1/s: start value, that of the rig
+  Eigen::VectorXd left_;               // N, measured minus predicted
+  Eigen::MatrixXd slopes_;             // slopes of the prediction, N per scale
+  Eigen::VectorXd residual_;           // left_, whitened
+  Eigen::MatrixXd jacobian_;           // whitened, one column for each free number
   int steps_ = 0;
 };
 
 }  // namespace
 
 double BallEstimate::width() const {
-  // Where the ball stands has no size of its own.
+  // The ball's position has no size of its own, so use its scale.
   const double size = number == kNearer ? ball_numbers()[kNearer].scale : std::abs(interval.value);
   return 2.0 * interval.half / size;
 }

@@ -38,7 +38,7 @@ struct BallNumber {
   double unit;            // SI value of 1
   double scale;           // SI, a usual value: the unit of the fit's steps
   bool elastic;           // changes the elastic force
-  bool positive;          // 0 or less is not a ball
+  bool positive;          // true if 0 or less is not a ball
   double& (*of)(StandingBall&);
   std::string_view remedy;  // remedy if the loops do not determine it
 };
@@ -83,7 +83,7 @@ enum class Known : std::uint8_t { well, poorly, not_at_all };
 struct BallEstimate {
   std::size_t number = 0;     // index in ball_numbers()
   models::Interval interval;  // 95 %, SI; half is infinite if nothing is known
-  double alone = kUnset;      // half, if all the others were given
+  double alone = kUnset;      // half-width if all other numbers were known
   std::size_t tied = 0;       // the number with the most correlated error
   double correlation = 0.0;
   [[nodiscard]] double width() const;  // full width over the value; for nearer_mm over 0.1 mm

@@ -9,10 +9,10 @@
 namespace enc::trial {
 namespace {
 
-constexpr int kJointSteps = 25;    // of the grid of joints
-constexpr double kMargin = 20.0;   // px that a place keeps from the images' edges
-constexpr double kSpeed = 0.2;     // m/s, mean, of a KinematicArm
-constexpr double kSettling = 0.5;  // s, of a KinematicArm, to come to rest
+constexpr int kJointSteps = 25;    // steps of the grid for each joint
+constexpr double kMargin = 20.0;   // px, distance of a place from the images' edges
+constexpr double kSpeed = 0.2;     // m/s, mean speed of a KinematicArm
+constexpr double kSettling = 0.5;  // s, time of a KinematicArm to come to rest
 constexpr double kPi = 3.14159265358979323846;
 
 bool well_in_view(const sim::StereoPoints& eyes, const sim::CameraTruth& camera, const Point<'C'>& p) {
@@ -54,7 +54,7 @@ std::vector<Point<'W'>> places_in_view(const Arm& arm, double least_dexterity, c
   std::vector<Point<'W'>> places;
   const auto joint = [&](std::size_t j, int step) {
     const ArmDrive& drive = arm.machine().drives[j];
-    return drive.low + (drive.high - drive.low) * (step + 0.5) / kJointSteps;  // never at a stop
+    return drive.low + (drive.high - drive.low) * (step + 0.5) / kJointSteps;  // never at a joint limit
   };
   const auto steps = [&](std::size_t j) { return j < arm.joints() ? kJointSteps : 1; };
   for (int a = 0; a < steps(0); ++a)
@@ -75,7 +75,7 @@ std::vector<Point<'W'>> well_spread(const std::vector<Point<'W'>>& places, std::
   if (places.empty()) return chosen;
   Vec3 middle = Vec3::Zero();
   for (const Point<'W'>& p : places) middle += p.e() / static_cast<double>(places.size());
-  std::vector<double> nearest(places.size());  // to what is chosen; at first, to the middle
+  std::vector<double> nearest(places.size());  // distance to the chosen places; at first, to the middle
   std::transform(places.begin(), places.end(), nearest.begin(),
                  [&](const Point<'W'>& p) { return (p.e() - middle).norm(); });
   while (chosen.size() < std::min(count, places.size())) {

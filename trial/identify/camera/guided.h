@@ -1,7 +1,7 @@
 // The guided registration [VisHap 2.2]. An arm's tip moves to positions that are well spread in the camera's
-// view, and stands still at each for a number of frames. Then the camera measures these, and the data of
-// camera and arm are kept. The arm's motion is independent of the camera's noise, so one walk serves any
-// number of seeds.
+// view, and stands still at each for a number of frames. The camera then measures the tip, and the data of
+// camera and arm are kept. The arm's motion is independent of the camera's noise, so one sequence of visits
+// serves any number of seeds.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct TipStand {
   PerJoint joints{};
 };
 
-// The mover of the tip.
+// Moves the tip.
 class MovedArm {
  public:
   virtual ~MovedArm() = default;
@@ -36,7 +36,7 @@ class MovedArm {
 // steps.
 class KinematicArm final : public MovedArm {
  public:
-  // believed: the controller's model. truth.machine: the true one.
+  // `believed`: the controller's model. `truth.machine`: the true one.
   KinematicArm(const ArmMachine& believed, const sim::ArmTruth& truth);
   double go(const Point<'W'>& wanted) override;
   TipStand read(double later) override;
@@ -56,8 +56,8 @@ class KinematicArm final : public MovedArm {
 [[nodiscard]] std::vector<Point<'W'>> places_in_view(const Arm& arm, double least_dexterity,
                                                      const Pose<'W', 'C'>& X_WC,
                                                      const sim::CameraTruth& camera);
-// The first is the farthest from the middle of all, each next one the farthest from those before. The first n
-// of a longer list are the list for n.
+// The first place is the farthest from the middle of all, each next one the farthest from those before. The
+// first n of a longer list are the list for n.
 [[nodiscard]] std::vector<Point<'W'>> well_spread(const std::vector<Point<'W'>>& places, std::size_t count);
 
 // A position at which the tip stood.
@@ -65,7 +65,7 @@ struct TipVisit {
   double still = kUnset;  // s of experiment until it stood
   std::vector<TipStand> frames;
 };
-// rate: of the camera, Hz.
+// `rate`: frame rate of the camera, Hz.
 [[nodiscard]] std::vector<TipVisit> visit_places(MovedArm& arm, const std::vector<Point<'W'>>& places,
                                                  double rate, std::size_t frames);
 
@@ -74,7 +74,7 @@ class TipEyes {
  public:
   virtual ~TipEyes() = default;
   virtual void move() {}  // the tip has moved to another position
-  // Measures the tip in one frame; empty if it is not seen.
+  // Measures the tip in one frame; empty if the frame does not show it.
   virtual std::optional<Point<'C'>> see(const TipStand& tip) = 0;
 };
 

@@ -18,7 +18,7 @@ Vec3 error_of(const Pose<'W', 'C'>& X_WC, const models::PointPair& pair) {
   return (X_WC * pair.camera - pair.device).e();
 }
 
-// The pose without pair k, unless the others do not fix it: then it tells nothing.
+// The pose without pair k; empty if the other pairs do not determine it.
 std::optional<models::Registration> without(std::vector<models::PointPair> pairs, std::size_t k) {
   pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(k));
   try {
@@ -28,13 +28,13 @@ std::optional<models::Registration> without(std::vector<models::PointPair> pairs
   }
 }
 
-// The turn from one rotation to another about the fixed axes: they are near.
+// The rotation vector between two rotations that differ little, about the fixed axes.
 Vec3 turn_between(const Quat& from, const Quat& to) {
   const Eigen::AngleAxisd turn(to * from.conjugate());
   return turn.angle() * turn.axis();
 }
 
-// Half of the 95 % interval of a number whose estimates without one pair each are given.
+// Half of the 95 % interval of a number, from its estimates without one pair each.
 double jackknife(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   if (values.size() < models::kFewestPairs) return kUnset;
@@ -81,8 +81,8 @@ void leave_one_out(const std::vector<models::PointPair>& pairs, PointStudy& stud
   study.usual_error = models::median(sizes);
 }
 
-// Noise of a frame from its scatter within pairs; what is left over beyond it stays however many are
-// averaged.
+// Splits the error: the scatter within pairs gives the noise of a frame; the rest stays, however many frames
+// are averaged.
 void split_noise(const models::PointSet& places, PointStudy& study) {
   Vec3 within = Vec3::Zero(), averaged = Vec3::Zero();
   double freedom = 0.0;
@@ -98,13 +98,13 @@ void split_noise(const models::PointSet& places, PointStudy& study) {
   study.frame_noise = variance.cwiseSqrt();
   for (const models::SeenPlace& place : places)
     averaged += variance / static_cast<double>(place.frames.size() * places.size());
-  // Six numbers were fitted to 3 n: that much less is left over than there was.
+  // Six numbers were fitted to 3 n values, which reduces the residual: correct for it.
   const auto n = static_cast<double>(places.size());
   const Vec3 left = study.found.rms_error.cwiseAbs2() * n / (n - 2.0);
   study.standing = (left - averaged).cwiseMax(0.0).cwiseSqrt();
 }
 
-// Mean |error| at the pairs that were not drawn.
+// Mean |error| at the pairs left out of a random draw.
 std::optional<Vec3> draw(const models::PointSet& places, std::size_t pairs, std::size_t frames,
                          sim::Stream& random) {
   std::vector<std::size_t> order(places.size());
@@ -126,7 +126,7 @@ std::optional<Vec3> draw(const models::PointSet& places, std::size_t pairs, std:
       sum += error_of(found.X_WC, places[order[i]].average()).cwiseAbs();
     return Vec3(sum / static_cast<double>(order.size() - pairs));
   } catch (const Error&) {
-    return std::nullopt;  // on a line, by chance
+    return std::nullopt;  // the drawn points lie on a line by chance
   }
 }
 

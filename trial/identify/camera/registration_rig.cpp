@@ -57,7 +57,7 @@ RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs)
   for (const Point<'W'>& p : all) middle += p.e() / static_cast<double>(all.size());
   const std::size_t step = std::max<std::size_t>(1, all.size() / kTargets);
   for (std::size_t i = 0; i < all.size(); i += step) places.targets.push_back(all[i]);
-  // From the middle outwards, so that both are at an end of the list.
+  // Sort from the middle outwards, so that the nearest and the farthest are at the ends of the list.
   const auto distance = [&](const Point<'W'>& p) { return (p.e() - middle).norm(); };
   std::stable_sort(places.targets.begin(), places.targets.end(),
                    [&](const Point<'W'>& a, const Point<'W'>& b) { return distance(a) < distance(b); });
@@ -67,12 +67,12 @@ RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs)
 
 namespace {
 
-constexpr double kNear = 10e-3;     // m: less than the margin that places keep from the images' edges
-constexpr double kStill = 0.1e-3;   // m: some counts of the encoders
-constexpr double kStillTime = 0.5;  // s that a tip at rest has been within that
-constexpr double kPatience = 3.0;   // s beyond what the target's way takes
+constexpr double kNear = 10e-3;     // m: less than the distance of places from the images' edges
+constexpr double kStill = 0.1e-3;   // m: some steps of the encoders
+constexpr double kStillTime = 0.5;  // s, rest time of the tip within that distance
+constexpr double kPatience = 3.0;   // s, in addition to the target's travel time
 
-// The arm alone. That the core asks for a tracker does not mean that there is a finger.
+// Keeps only the arm. The core needs a tracker, but there is no finger.
 models::Setup bare(models::Setup rig) {
   rig.scene = SceneSpec{};
   rig.scene.arm.emplace();
@@ -110,8 +110,8 @@ void DrivenArm::tick() {
         {}, ErrorKind::device);
 }
 
-// Joints within their limits all the way, none of which leaps: beyond the turret's axis, or around a fold, an
-// arm that is pulled straight ahead gets stuck.
+// True if all joints stay within their limits on a straight path, and none jumps. Beyond the turret's axis,
+// or around a fold, an arm pulled straight ahead gets stuck.
 bool DrivenArm::straight_way(const Point<'W'>& to) const {
   constexpr double kStep = 5e-3;  // m
   constexpr double kLeap = 0.5;   // rad or m
@@ -133,7 +133,7 @@ bool DrivenArm::straight_way(const Point<'W'>& to) const {
 double DrivenArm::go(const Point<'W'>& wanted) {
   ++places_;
   const double began = now_;
-  if (!straight_way(wanted)) bring(Point<'W'>(0, 0, 0), 0.0);  // over its zero, W's origin
+  if (!straight_way(wanted)) bring(Point<'W'>(0, 0, 0), 0.0);  // passes its zero, W's origin
   bring(wanted, kStillTime);
   due_ = now_;
   return now_ - began;
@@ -147,7 +147,7 @@ double DrivenArm::time_limit(const Point<'W'>& to) const {
 void DrivenArm::bring(const Point<'W'>& to, double still_time) {
   sent_ = to;
   const double began = now_, limit = time_limit(to);
-  Point<'W'> stood = reading();  // where it was when it last moved, and when that was
+  Point<'W'> stood = reading();  // position at the last motion, and its time below
   double since = now_;
   while (now_ - since < still_time || (reading() - to).norm() > kNear) {
     if (now_ - began > limit) give_up(to, limit);
@@ -173,7 +173,7 @@ void DrivenArm::give_up(const Point<'W'>& at, double after) const {
           : "lower rig.arm.stiffness_N_per_m, or see friction and counts of truth.arm, which let it rest"));
 }
 
-// To the tick that is due, so that periods which are no whole ticks do not add up to a drift.
+// Advances to the due tick. Periods that are not whole ticks then do not add up to a drift.
 TipStand DrivenArm::read(double later) {
   due_ += later;
   while (now_ < due_ - 0.5 * trial_.scene().dt) tick();
@@ -197,7 +197,7 @@ PictureEyes::PictureEyes(std::unique_ptr<StereoCamera> camera, std::unique_ptr<B
 
 std::optional<Point<'C'>> PictureEyes::see(const TipStand& tip) {
   if (show_) show_(tip);
-  // In the middle between two exposures, so that each is due once.
+  // The time is in the middle between two exposures, so that each frame is due once.
   const Time now(from_seconds((static_cast<double>(frames_++) + 0.5) * period_));
   Stamped<StereoFrame> frame;
   if (!camera_->poll(now, frame) || frame.health != Health::ok) {

@@ -45,11 +45,11 @@ struct RegistrationPlaces {
 //                                             physics -> true tip -> the camera's frames
 //                                            encoders -> rig's kinematics -> the device's reading
 //
-// The arm moves alone: a bare tip, no object, no finger. It judges only by the device's readings, as a real
+// The arm moves alone: a bare tip, no object, no finger. It uses only the device's readings, as a real
 // procedure must.
 class DrivenArm final : public MovedArm {
  public:
-  // rig: read without a scene. Throws Error with the place in the rig file.
+  // `rig`: read without a scene. Throws Error with the place in the rig file.
   explicit DrivenArm(models::Setup rig);
   DrivenArm(const DrivenArm&) = delete;
   DrivenArm& operator=(const DrivenArm&) = delete;
@@ -81,8 +81,8 @@ class DrivenArm final : public MovedArm {
 using TipThings = std::function<std::vector<sim::Thing>(const TipStand& tip)>;
 [[nodiscard]] TipThings ball_at_tip(const Pose<'W', 'C'>& X_WC, const sim::CameraTruth& camera);
 
-// The ball in the frames of any stereo camera, one after the other at its rate. For the twin's camera, `show`
-// first receives the tip.
+// Finds the ball in the frames of any stereo camera, one after the other at its rate. For the twin's camera,
+// `show` first receives the tip.
 class PictureEyes final : public TipEyes {
  public:
   using Show = std::function<void(const TipStand& tip)>;

@@ -18,28 +18,28 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kSpeed = 0.020;       // m/s, of the tip: as in [VHMR 4.1]
+constexpr double kSpeed = 0.020;       // m/s, speed of the tip as in [VHMR 4.1]
 constexpr double kTurning = 0.10;      // rad/s: the platform is 0.2 m below the tip, so its joints do 20 mm/s
-constexpr double kPeak = 1.875;        // of a minimum-jerk way: its greatest speed over the mean one
-constexpr double kShareOfSpeed = 0.8;  // of what the machine can
-constexpr double kAcceleration = 0.1;  // m/s^2, a quarter of what the machine can
-constexpr double kPeakAcceleration = 5.7735;  // of a minimum-jerk way: over length / time^2
+constexpr double kPeak = 1.875;        // peak over mean speed of a minimum-jerk motion
+constexpr double kShareOfSpeed = 0.8;  // share of the machine's limits
+constexpr double kAcceleration = 0.1;  // m/s^2, a quarter of the machine's limit
+constexpr double kPeakAcceleration = 5.7735;  // peak of a minimum-jerk motion, over length / time^2
 constexpr double kClosing = 5.0;              // s: no gripper takes longer
 constexpr double kPatience = 5.0;             // s, to come to rest
-constexpr double kTurnOff = M_PI / 180.0;     // rad, beside what it lags behind
+constexpr double kTurnOff = M_PI / 180.0;     // rad, in addition to the servo's lag
 constexpr double kTurnPatience = 0.050;       // s
-// Of the weight: a tilt by 10 degrees changes it by 2 sin(5 degrees), 0.174 of it, and a machine that speeds
-// up by 0.1 m/s^2 by 0.01.
+// Largest change of the force, as a share of the weight: a tilt by 10 degrees gives 2 sin(5 degrees), 0.174,
+// and an acceleration of 0.1 m/s^2 gives 0.01.
 constexpr double kWeightTurned = 0.22;
-constexpr double kTouched = 10.0;       // N: a cable is less, and whoever is in the way feels no more
+constexpr double kTouched = 10.0;       // N: more than a cable's; a person in the way feels no more
 constexpr double kLongestHold = 1.0;    // s
 constexpr double kStillSpeed = 0.2e-3;  // m/s
-constexpr double kNear = 0.2e-3;        // m, of what rests from where it was sent
+constexpr double kNear = 0.2e-3;        // m, distance of the resting tip from its target
 constexpr double kNearTurn = 2e-3;      // rad
-constexpr double kStillTime = 0.3;      // s of rest before anything counts
+constexpr double kStillTime = 0.3;      // s of rest before the measurement
 constexpr double kMeasured = 1.0;       // s
 
-// The tool, what carries, watches and weighs it, and nothing else.
+// Keeps only the tool and the devices that carry, watch and weigh it.
 models::Setup bare(models::Setup setup) {
   SceneSpec& scene = setup.scene;
   if (!scene.gripper || !scene.manipulator)
@@ -55,7 +55,7 @@ models::Setup bare(models::Setup setup) {
   scene.display.reset();
   if (setup.rig.force.driver != "none" && !scene.force) scene.force.emplace();
   if (setup.rig.tracker.driver != "none" && !scene.tracker) scene.tracker.emplace();
-  // Whatever it says of ways: the machine is sent from here.
+  // Replaces the scene's own path, because this file commands the machine.
   scene.travel.emplace();
   scene.travel->speed = std::min(scene.travel->speed, setup.rig.manipulator.speed);
   scene.travel->start = Vec3::Zero();
@@ -67,7 +67,7 @@ Pose<'W', 'H'> between(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, dou
   return {from.q().slerp(share, to.q()), Vec3(from.p() + share * (to.p() - from.p()))};
 }
 
-// A rig that is slow goes and turns slowly.
+// Time of a motion, s. A slow rig moves and turns slowly.
 double way_time(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, const Reach& reach) {
   const double length = (to.p() - from.p()).norm();
   const double speed = std::min(kSpeed, kShareOfSpeed * reach.speed);
@@ -77,7 +77,7 @@ double way_time(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, const Reac
                    std::sqrt(kPeakAcceleration * length / acceleration)});
 }
 
-// Mean of turns that differ by little.
+// Mean of rotations that differ little.
 class MeanTurn {
  public:
   void add(const Quat& q) { sum_ += sum_.dot(q.coeffs()) < 0.0 ? Eigen::Vector4d(-q.coeffs()) : q.coeffs(); }
@@ -104,7 +104,7 @@ CarriedTool::CarriedTool(models::Setup setup, TrialOptions options)
 
 TrialOptions CarriedTool::with_law(TrialOptions options) {
   options.seconds = std::numeric_limits<double>::infinity();
-  // The core keeps places within reach; a turn comes on top.
+  // The core limits the position to the reach, but not the rotation added to it.
   options.law = [this](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
     const Pose<'R', 'H'> before = out.tip;
     carry(scene, tick, in, wanted_, state, out);
@@ -131,7 +131,7 @@ void CarriedTool::tick() {
   watch();
 }
 
-// A calibration has no reason to go on after any trouble: whoever is there sees to it and begins again.
+// Ends the calibration at the first problem. The operator removes the cause and starts again.
 void CarriedTool::watch() {
   const auto fail = [](const std::string& what) { throw Error(what, {}, ErrorKind::device); };
   const Scene& scene = trial_.scene();
@@ -167,7 +167,7 @@ void CarriedTool::watch() {
         more, most));
 }
 
-// Where the machine stands, and until the jaws hold what it shall carry.
+// Waits at the machine's present pose until the jaws hold the tool.
 void CarriedTool::begin() {
   const double began = now_;
   const auto ready = [&] {
@@ -243,12 +243,12 @@ void CarriedTool::rest() {
 CarriedStand CarriedTool::stand() {
   const RigSpec& rig = trial_.setup().rig;
   const Scene& scene = trial_.scene();
-  // What is on its way from before shows a machine that moved.
+  // Packets still under way show the moving machine, so start later.
   const double first = now_, begin = now_ + (scene.has_tracker ? rig.tracker.usual_age : 0.0);
   CarriedStand stand;
   Vec3 place = Vec3::Zero(), seen = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
   MeanTurn turn, seen_turn;
-  std::size_t places = 0, moved = 0;  // ticks
+  std::size_t places = 0, moved = 0;  // number of ticks
   constexpr std::size_t kMostMoved = 100;
   Time told_force = trial_.inputs().wrench.t, told_tool = trial_.inputs().tool.t;
   while (now_ < begin + kMeasured) {
@@ -296,19 +296,19 @@ CarriedStand CarriedTool::stand() {
 namespace {
 
 constexpr double kTilt = 10.0 * kDegree, kTurn = 20.0 * kDegree;
-constexpr double kAside = 0.015, kUp = 0.008;  // m, of the tip to each side
-constexpr std::size_t kFewestPackets = 20;     // of a stand
-constexpr double kNotCarried = 0.05;           // rad between two turns of one body
-constexpr double kTipOff = 1e-3;               // m: who puts a tip on a tip by hand comes nearer
-constexpr double kMassOff = 0.3;       // of what a scale has told: a wrong unit is a factor of 4 or more
-constexpr double kLeastMassOff = 0.1;  // kg: of a light load a cable and the tool are a large share
+constexpr double kAside = 0.015, kUp = 0.008;  // m, motion of the tip to each side
+constexpr std::size_t kFewestPackets = 20;     // fewest packets for each stand
+constexpr double kNotCarried = 0.05;           // rad, between two rotations of one body
+constexpr double kTipOff = 1e-3;               // m: tips put together by hand are nearer
+constexpr double kMassOff = 0.3;       // share of the mass by a scale: a wrong unit is a factor of 4 or more
+constexpr double kLeastMassOff = 0.1;  // kg: cable and tool are a large share of a light load
 
 double fraction(double x) { return x - std::floor(x); }
 
-// The i-th of a sequence that fills a line evenly, whatever its length [Roberts 2018, R sequences].
+// The i-th number of a sequence that fills a line evenly, whatever its length [Roberts 2018, R sequences].
 double spread(std::size_t i, double ratio) { return fraction(0.5 + ratio * static_cast<double>(i + 1)); }
 
-// Before anything moves: all ways, and whether a fit of these poses tells weight from zero.
+// Checks before any motion: all paths within reach, and poses that separate weight from zero.
 void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Scene& scene) {
   const Reach& reach = scene.reach;
   const Pose<'W', 'R'>& X_WR = scene.X_WR;
@@ -337,7 +337,7 @@ void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Scene& scene) {
                 "manipulator.geometry");
 }
 
-// One body turns by one angle, whoever looks at it.
+// Machine and tracker must report equal rotation angles, because they observe one body.
 void check_carried(const CarriedStand& first, const CarriedStand& now) {
   const double machine = first.X_WH.q().angularDistance(now.X_WH.q()),
                tool = first.X_CT.q().angularDistance(now.X_CT.q());
@@ -350,7 +350,7 @@ void check_carried(const CarriedStand& first, const CarriedStand& now) {
         {}, ErrorKind::device);
 }
 
-// All axes of a sensor may read in another unit: nothing but a scale tells that.
+// All axes of a sensor may have a wrong unit, which only a scale reveals.
 void check_mass(const MachineCalibration& found, double believed) {
   const double mass = found.weight->mass.value - found.tool_mass;
   if (mass < 0.0)
@@ -368,7 +368,7 @@ void check_mass(const MachineCalibration& found, double believed) {
                     mass, found.tool_mass, believed, most));
 }
 
-// A lever of the machine that is wrong, too: only the tip tells it from the tracker's place.
+// Also detects a wrong lever of the machine: only the tip separates it from the tracker's position.
 void check_tip(const MachineCalibration& found, const Vec3& tip) {
   const Vec3 off = tip - found.hand_eye->tip.value;
   if (off.norm() <= kTipOff + found.hand_eye->tip.half.norm()) return;
@@ -402,7 +402,7 @@ std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W'
                      kUp * (2.0 * spread(i, kGolden * kRatios[0]) - 1.0));
     const Vec3 axis(std::cos(to), std::sin(to), 0.0);
     const Pose<'W', 'H'> before = poses.empty() ? zero : poses.back();
-    // Nearer to zero, until it is within reach.
+    // Shrink the pose until it is within reach.
     double size = 1.0;
     Pose<'W', 'H'> pose;
     do {
@@ -423,7 +423,7 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
   check_poses(poses, scene);
   MachineCalibration found;
   found.stands.reserve(count);
-  const CarriedStand* first = nullptr;  // in which the tool was seen
+  const CarriedStand* first = nullptr;  // first stand with a tracked tool
   for (const Pose<'W', 'H'>& pose : poses) {
     if (progress) progress(static_cast<double>(found.stands.size()) / static_cast<double>(count));
     tool.go(pose);

@@ -16,7 +16,7 @@
 
 namespace enc::trial {
 
-// Means over the time in which it stood.
+// Means over the time of a stand.
 struct CarriedStand {
   double time = kUnset;      // s of experiment, middle of that time
   Pose<'W', 'H'> X_WH;       // measured by the machine's own encoders
@@ -31,9 +31,9 @@ struct CarryingEnded {};
 
 class CarriedTool {
  public:
-  // `setup`: of a scene that clamps a tool. Its rendering is not built: the tool is carried, tracked and
-  // weighed. Used options: seed, drivers, armed, lockstep, pace, stop. Throws Error for everything that is
-  // refused before anything moves.
+  // `setup`: set-up of a scene that clamps a tool. Its rendering is not built: the machine only carries the
+  // tool, which is tracked and weighed. Used options: seed, drivers, armed, lockstep, pace, stop. Throws
+  // Error for all errors that can be detected before anything moves.
   CarriedTool(models::Setup setup, TrialOptions options);
   CarriedTool(const CarriedTool&) = delete;
   CarriedTool& operator=(const CarriedTool&) = delete;
@@ -75,13 +75,13 @@ struct MachineCalibration {
   std::optional<models::WeightFit> weight;     // unset: no force sensor
   std::optional<models::HandEyeFit> hand_eye;  // unset: no tracker
   std::int32_t clamped_tool = -1;              // index in the scene
-  double tool_mass = 0.0;                      // kg, of the clamped tool, from the scene
+  double tool_mass = 0.0;                      // kg, mass of the clamped tool in the scene
   std::size_t unseen = 0;                      // stands in which the tracker did not see the tool
   double time = kUnset;                        // s of experiment
 };
 
-// progress: share done. Ends at the machine's zero. Throws as CarriedTool does, and Error if the measurements
-// do not determine the result.
+// `progress`: share done. Ends at the machine's zero. Throws as CarriedTool does, and Error if the
+// measurements do not determine the result.
 [[nodiscard]] MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count = kUsualPoses,
                                                    const std::function<void(double)>& progress = {});
 

@@ -1,5 +1,5 @@
-// The channels, each of which adds its results, or the reason why this record does not allow a judgement, and
-// their bounds.
+// The channels and their bounds. Each channel adds its results, or the reason why this record does not allow
+// a judgement.
 #pragma once
 
 #include <string>
@@ -39,8 +39,8 @@ inline constexpr double kToolLatency = 1.5e-3;  // s
 // Stamps are compared with the machine's pose, which is queried: it may be a cycle older than its own stamp,
 // and so may the clock that reads the stamps of a protocol.
 inline constexpr double kToolStamps = 2.0e-3;  // s
-// The zero drifts by 0.002 N/sqrt(s), 0.01 N in the 20 s of a slow push, and steps are 0.025 N: some 1 % of 2
-// N, the force of half of a press. The same again for 10 um of position in 1 mm of depth.
+// The zero drifts by 0.002 N/sqrt(s), 0.01 N in the 20 s of a slow push, and steps are 0.025 N. That is some
+// 1 % of 2 N, the force of half of a press. Another 1 % is for 10 um of position in 1 mm of depth.
 inline constexpr double kStiffness = 0.02;  // share
 // Force steps of 0.025 N are 0.02 mm on an object of 1 N/mm; the point at which it begins to yield is known
 // to several of them.

@@ -12,39 +12,39 @@
 
 namespace enc::trial {
 
-// A real object that the machine presses with its probe: where the probe was says what the twin's object
-// would have pushed back with.
+// A real object that the machine presses with its probe. The recorded positions of the probe give the force
+// that the twin's object would have returned.
 
 namespace {
 
 constexpr double kForceBlock = 0.25;  // s
-constexpr double kBefore = 1e-3;      // m before the touch, from where on a push is looked at
-constexpr double kStep = 20e-6;       // m, of the difference that stands for a slope
-constexpr double kSlopeTime = 4e-3;   // s, likewise
-constexpr double kSame = 1e-4;        // N: of the softest object kStep is more
-constexpr double kFelt = 1.0;         // N: more than weight, inertia and drift are in a block of time
+constexpr double kBefore = 1e-3;      // m before the touch, where the evaluation of a push begins
+constexpr double kStep = 20e-6;       // m, step of the numerical slope
+constexpr double kSlopeTime = 4e-3;   // s, step of the numerical slope
+constexpr double kSame = 1e-4;        // N: kStep on the softest object gives more
+constexpr double kFelt = 1.0;         // N: above weight, inertia and drift in a block of time
 constexpr int kMostRounds = 10;
 constexpr double kBend = 0.5e-3;    // m
 constexpr double kSettled = 2e-6;   // m
-constexpr double kFarthest = 3e-3;  // m: what is farther away is another place
+constexpr double kFarthest = 3e-3;  // m: a larger distance is another place
 constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kPushed = 3;
 
 using Forces = std::vector<double>;  // N, along the push, tick by tick
 
-// What the sensor said, with its own stamp.
+// A force reading of the sensor, with its own stamp.
 struct Reading {
   double at;     // ticks after the first
   double force;  // N, along the push
 };
 
-// What is compared: the ticks of all pushes, and how each is numbered.
+// The compared ticks of all pushes, with the number of each push.
 struct Rows {
-  std::vector<std::ptrdiff_t> push;  // of each tick; -1: none
+  std::vector<std::ptrdiff_t> push;  // push of each tick; -1: no push
   std::ptrdiff_t pushes = 0;
   double begin = 0.0, dt = kUnset;
 };
 
-// A sensor without any error, in its true axes: errors are put on it again, of each seed.
+// A sensor without errors, in its true axes. Each seed adds errors later.
 models::Setup faultless(models::Setup twin) {
   sim::ForceTruth& force = twin.twin.force;
   force.quantum = force.torque_quantum = force.noise = force.torque_noise = 0.0;
@@ -53,7 +53,7 @@ models::Setup faultless(models::Setup twin) {
   return twin;
 }
 
-// The twin's sensor at each tick, in its true axes, its probe `nearer` further along the push.
+// The twin's sensor at each tick, in its true axes, with its probe `nearer` further along the push.
 std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, double nearer) {
   const Vec3 along = -(tape.scene.probe()->X_WN * Vec<'N'>(0, 0, 1)).e();
   const Vec3 shift = nearer * (tape.scene.X_WR.q().conjugate() * along);
@@ -65,7 +65,7 @@ std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, do
   return felt;
 }
 
-// Against the push, as the rig believes that the sensor stands.
+// Component against the push, with the sensor's pose from the rig file.
 class Along {
  public:
   explicit Along(const Tape& tape) : tape_(tape) {}
@@ -87,7 +87,7 @@ Forces along_push(const Along& along, const std::vector<Wrench>& felt) {
   return out;
 }
 
-// Force at a time between ticks.
+// Force between two ticks, interpolated.
 double force_at(const Forces& forces, double i) {
   const double last = static_cast<double>(forces.size() - 1);
   const double at = std::clamp(i, 0.0, last);
@@ -117,7 +117,8 @@ struct Compared {
   double rms = kUnset;
 };
 
-// measured(t) = alike * twin(t - late), its object nearer: all of them at once, and each push's own zero.
+// Fits measured(t) = alike * twin(t - late), with the object nearer. Fits all three at once, with one zero
+// for each push.
 Compared compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
                  const Forces& stepped, double late) {
   models::BlockFit fit(static_cast<std::size_t>(kPushed), kForceBlock);
@@ -142,7 +143,7 @@ Compared compare(const Rows& rows, const std::vector<Reading>& measured, const F
   return {found.values[kAlike], scaled(kNearer), scaled(kLate), found.rms};
 }
 
-// What the record's sensor said; what is said twice, or not to be believed, is no reading.
+// The readings of the record's sensor, without repeated and invalid ones.
 std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
   std::vector<Reading> out;
   Time newest = Time::min();
@@ -156,7 +157,8 @@ std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
   return out;
 }
 
-// N, between the blocks of time in which it felt least and most: whatever the probe was thought to press.
+// N, difference between the blocks of time with the largest and the smallest force, whatever the probe
+// pressed.
 double felt_at_most(const std::vector<Reading>& readings, double dt) {
   std::map<std::int64_t, std::pair<double, double>> blocks;  // sum and number
   for (const Reading& one : readings) {
@@ -172,7 +174,7 @@ double felt_at_most(const std::vector<Reading>& readings, double dt) {
   return std::max(0.0, most - least);
 }
 
-// And what the twin's would have said with this seed.
+// The readings of the twin's sensor with this seed.
 std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std::vector<Wrench>& felt,
                                  std::uint64_t seed) {
   std::vector<Reading> out;
@@ -193,14 +195,14 @@ std::vector<Reading> tick_by_tick(const Forces& forces) {
   return out;
 }
 
-// A probe that goes nearer and feels nothing more touches nothing: weight and inertia are the same.
+// A probe that moves nearer without more force touches nothing: weight and inertia do not change.
 bool alike_all(const Forces& twin, const Forces& stepped) {
   return std::equal(twin.begin(), twin.end(), stepped.begin(), stepped.end(),
                     [](double a, double b) { return std::abs(a - b) < kSame; });
 }
 
-// The twin's probe presses nothing. felt: by the record's; thought: by the twin's, where its object is
-// thought to be.
+// Reports that the twin's probe presses nothing. felt: force change of the record's probe; thought: that of
+// the twin's, at the assumed place of its object.
 void nothing_there(double felt, double thought, Shadow& shadow) {
   if (felt > kFelt)
     return diverges_grossly(
@@ -238,8 +240,8 @@ void see_probed(const Tape& tape, Shadow& shadow) {
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
     settled = std::abs(found.nearer.value) < kSettled;
     if (settled || round + 1 == kMostRounds) break;
-    // The twin presses as far as it must to feel what was felt; no farther at once than its law bends. Where
-    // what was felt is not alike at all, only more or less of it tells which way that is.
+    // Move the twin's probe until it measures the recorded force, in steps within which the law is nearly
+    // straight. If the shapes disagree completely, only the size of the force gives the direction.
     const double towards = pressed > *most - *least ? kBend : -kBend;
     nearer += found.alike.value > 0.0 ? std::clamp(found.nearer.value, -kBend, kBend) : towards;
     if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
@@ -274,7 +276,7 @@ void see_probed(const Tape& tape, Shadow& shadow) {
   models::Interval delay = beside_twins(found.late, time);
   delay.value += late;
   add(shadow, Channel::force, Quantity::force_time, delay, bounds::kForceTime);
-  // Legs that bend shake what hangs on them, and those of the twin are not moved here.
+  // Elastic legs shake their load, and the twin's legs do not move here, so skip their residual.
   if (!tape.twin.twin.structural())
     add(shadow, Channel::force, Quantity::force_rest, beside_twins({found.rms, 0.0}, rest),
         bounds::kForceRest);
@@ -283,13 +285,13 @@ void see_probed(const Tape& tape, Shadow& shadow) {
                                    counted(rows.pushes, "push"), found.rms, of_twins(rest).value)});
 }
 
-// A rendered object: what the sensor felt says how far the twin's object, rendered by the twin's machine,
-// would have given way. The core runs again with what the devices said; only the machine is the twin's.
+// A rendered object. The measured force gives the displacement of the twin's object, rendered by the twin's
+// machine. The core runs again on the devices' data; only the machine is the twin's.
 
 namespace {
 
 constexpr double kDepthBlock = 0.25;  // s
-constexpr double kDeep = 0.1e-3;      // m: less is no press that tells a slope
+constexpr double kDeep = 0.1e-3;      // m: a shallower press gives no slope
 constexpr Eigen::Index kDeeper = 0, kAfter = 1, kColumns = 2;
 
 struct Depth {
@@ -350,7 +352,7 @@ void see_rendered(const Tape& tape, Shadow& shadow) {
     Eigen::VectorXd row(kColumns);
     row(kDeeper) = one.twin;
     row(kAfter) = -one.speed;
-    fit.add(one.t, row, one.recorded, one.contact);  // each has its own beginning
+    fit.add(one.t, row, one.recorded, one.contact);  // each contact has its own offset
   }
   const models::BlockFit::Result found = fit.solve();
   const models::Interval& deeper = found.values[kDeeper];

@@ -1,4 +1,4 @@
-// What the machine was told, and where it says that it was.
+// The machine's commands, and the positions that it reported.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kMachineBlock = 0.25;  // s
 constexpr int kRounds = 6;
-constexpr std::size_t kMostRows = 100'000;  // of ticks that are compared
-constexpr double kMoves = 1e-3;             // m/s, of the twin: less is a stop
+constexpr std::size_t kMostRows = 100'000;  // most ticks to compare
+constexpr double kMoves = 1e-3;             // m/s, speed of the twin: below, it stands
 
-// Where the twin's machine was, tick by tick from the first; NaN where nobody knows.
+// Positions of the twin's machine, tick by tick from the first; NaN: unknown.
 struct TwinWay {
   double begin, dt;
   std::vector<Vec3> at{};
@@ -53,12 +53,12 @@ models::BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& sa
   return fit.solve();
 }
 
-// m rms, of all three axes: what neither time nor place explains, of what moves or of what stands, whichever
-// is more, so that neither hides behind the other.
+// m rms, of all three axes: residual beyond delay and offset. It is the larger one of the moving and the
+// standing part, so that neither hides behind the other.
 double rest_of(const TwinWay& way, const std::vector<Said>& said, double late,
                const models::BlockFit::Result& found) {
   const Vec3 off(found.values[0].value, found.values[1].value, found.values[2].value);
-  double squares[2] = {0.0, 0.0}, rows[2] = {0.0, 0.0};  // it stands, it moves
+  double squares[2] = {0.0, 0.0}, rows[2] = {0.0, 0.0};  // standing, moving
   for (const Said& one : said) {
     const Vec3 place = way.place(one.t - late), speed = way.speed(one.t - late);
     if (!place.allFinite() || !speed.allFinite()) continue;
@@ -72,7 +72,7 @@ double rest_of(const TwinWay& way, const std::vector<Said>& said, double late,
   return most;
 }
 
-// s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0 where it has none.
+// s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0: the driver has no such key.
 double wire_cycle(const RigSpec& rig) {
   const std::string text = models::driver_text(rig, rig.manipulator.driver, "cycle_ms");
   double ms = 0.0;

@@ -13,14 +13,14 @@
 namespace enc::trial {
 namespace {
 
-// Share of a bound that an interval of 95 % may fill. Of normal errors 1 % are then beyond it.
+// Share of a bound that a 95 % interval may fill. With normal errors 1 % are then beyond the bound.
 constexpr double kTold = 0.75;
 
 bool known_to(const models::Interval& off, double bound) { return off.known() && off.half <= kTold * bound; }
 
-// The twin runs from time 0 to the last tick, whatever the record holds of it.
+// Limits the length, because the twin runs from time 0 to the last tick, however few ticks the record holds.
 void check_length(const Tape& tape, std::int64_t ticks, const std::string& path) {
-  constexpr std::int64_t kLost = 100'000;  // cycles that may be lost, besides as many as there are ticks
+  constexpr std::int64_t kLost = 100'000;  // allowed lost cycles, in addition to the number of ticks
   const std::int64_t most = 2 * ticks + kLost;
   if (tape.last < most && in_seconds(tape.begin) <= static_cast<double>(most) * tape.scene.dt) return;
   throw Error(
@@ -88,7 +88,7 @@ Shadow shadow(RecordReader& record, const std::string& path, const models::Setup
                     path));
   try {
     for (const auto see : {see_machine, see_tool, see_probed, see_rendered}) see(tape, result);
-  } catch (const Error& e) {  // of a number that no plant takes
+  } catch (const Error& e) {  // a number that no plant accepts
     if (e.key().empty()) throw;
     throw Error(models::place_of(twin, e.key()) + ": " + e.what());
   }

@@ -65,7 +65,7 @@ struct Shadow {
   [[nodiscard]] bool diverges() const;
 };
 
-// twin: the record's own set-up, or that with other numbers. Throws Error if the record has no tick, or
+// `twin`: the record's own set-up, or that with other numbers. Throws Error if the record has no tick, or
 // another version.
 [[nodiscard]] Shadow shadow(RecordReader& record, const std::string& path, const models::Setup& twin);
 

@@ -11,7 +11,7 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kGap = 0.1;  // s: what the machine did meanwhile is not known
+constexpr double kGap = 0.1;  // s: the machine's motion in a longer gap is unknown
 
 TipSample between(const TipSample& a, const TipSample& b, double share) {
   const auto mixed = [&](const Vec<'R'>& x, const Vec<'R'>& y) {
@@ -121,7 +121,7 @@ void ToldMachine::advance(const RecordedTick& frame) {
     if (well) begin(frame.in.tip.value);
     return;
   }
-  // A link that is lost: what the machine was told last, nobody knows.
+  // After a lost link the machine's last command is unknown.
   if (frame.in.tip.health == Health::fault || frame.in.tip.health == Health::absent) {
     known_ = false;
     return;
@@ -138,8 +138,8 @@ TipSample ToldMachine::said() const {
 }
 
 void lead_world(const Tape& tape, const models::Setup& twin, const Vec3& shift, const SeeWorld& see) {
-  // Legs that bend would be shaken by a machine that is put from place to place; what it says is where its
-  // servo is, and that is what stands.
+  // Moving the machine from pose to pose would shake elastic legs. The reported pose is that of the servo, so
+  // use stiff legs.
   models::Setup placed = twin;
   placed.twin.hexapod.form = sim::HexapodForm::control;
   const std::unique_ptr<sim::World> world = make_world(placed, tape.scene, twin_seed(0));

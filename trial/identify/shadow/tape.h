@@ -50,7 +50,7 @@ struct Tape {
 
 // True if the machine's report is reliable.
 [[nodiscard]] bool is_well(const Stamped<TipSample>& tip);
-// True if its command of this tick was sent to it.
+// True if this tick's command was sent to the machine.
 [[nodiscard]] bool was_sent(const RecordedTick& frame);
 // True for a pose that came with this tick, of a tool of the scene. `newest`: stamp of the last one; it is
 // updated.
@@ -60,7 +60,7 @@ struct Tape {
 class ToldMachine {
  public:
   explicit ToldMachine(const Tape& tape);
-  // Advances to the tick of this frame, before its command; a machine that begins anew takes its reported
+  // Advances to the tick of this frame, before its command. A machine that begins anew takes its reported
   // pose.
   void advance(const RecordedTick& frame);
   void command(const Pose<'R', 'H'>& X_RH) { plant_.command(X_RH); }

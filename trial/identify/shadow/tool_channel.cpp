@@ -1,5 +1,5 @@
-// Where a tool that the machine carries, or that presses the tip, was, and where and when it was seen; how
-// old packets are.
+// A tool that the machine carries, or that presses the tip: its position by the machine and by the tracker,
+// and the delay and age of packets.
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t kFewestPackets = 30;
 constexpr double kAgeBlock = 0.25;  // s
-constexpr double kMost = 0.5;       // of the tool's motion, that the machine's does not explain
+constexpr double kMost = 0.5;       // share of the tool's motion that the machine's does not explain
 
-// Of those that came, and are of a time, at which it is known where the machine was.
+// Keeps the packets for whose arrival and stamp the machine's position is known.
 std::vector<SeenPacket> with_machine(const Tape& tape, std::vector<SeenPacket> packets) {
   std::erase_if(packets,
                 [&](const SeenPacket& one) { return !tape.tip.knows(one.t) || !tape.tip.knows(one.stamp); });
@@ -33,7 +33,7 @@ double median_pause(const std::vector<SeenPacket>& packets) {
   return models::median(pauses);
 }
 
-// The log that `encounter calibrate tracker` reads, of the same ticks for the record and its twins.
+// A log as for `encounter calibrate tracker`, with equal ticks for the record and its twins.
 models::TrackerLog with_packets(models::TrackerLog rows, const Scene& scene,
                                 const std::vector<SeenPacket>& packets) {
   rows.packets.reserve(packets.size());
@@ -47,13 +47,14 @@ bool goes_along(const models::LatencyFit& fit) {
   return fit.carried && fit.in_range && !(fit.unexplained > kMost);
 }
 
-// So well that nothing but another motion hides it: a real tracker may be ten times as noisy as the twin's.
+// True if only another motion could hide the agreement: a real tracker may be ten times as noisy as the
+// twin's.
 bool goes_clearly_along(const models::LatencyFit& fit) {
   constexpr double kClear = 0.1;
   return goes_along(fit) && !(fit.unexplained > kClear);
 }
 
-// How a tool that the machine carries does not go along with it.
+// Describes why a carried tool does not move along with the machine.
 std::string astray(const models::LatencyFit& fit) {
   if (!fit.carried) return "the tool moved while the machine that carries it stood still";
   if (fit.unexplained > kMost)
@@ -90,7 +91,8 @@ Pauses pauses_of(const std::vector<SeenPacket>& packets) {
   return out;
 }
 
-// What needs neither of both: age of packets by their stamps, and number of packets.
+// Judges the numbers that need neither tip nor machine: age of packets by their stamps, and number of
+// packets.
 void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
               const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow) {
   std::vector<double> ages, rates;
@@ -104,7 +106,7 @@ void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
     longest = std::max(longest, pauses.longest);
   }
   const models::Interval older = beside_twins(mean_age(recorded), ages);
-  // Over a wire the quickest packet is as old as the rig file says: the mean tells no more than the jitter.
+  // Over a network the quickest packet is as old as the rig file says, so the mean shows only the jitter.
   const bool wire = tape.twin.rig.tracker.driver != "sim";
   if (judge && wire) {
     cannot_judge(shadow, Channel::tool,
@@ -133,7 +135,7 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   lead_world(tape, tape.twin, Vec3::Zero(), [&](Time t, const sim::World& world, const TipSample& led) {
     rows.time.push_back(in_seconds(t));
     rows.tip.emplace_back((tape.scene.X_WR * led.X_RH.origin()).e());
-    const sim::TrackerPlant::State& seen = world.tracker->state();  // what its own tracker was shown
+    const sim::TrackerPlant::State& seen = world.tracker->state();  // input of the tracker of this world
     trackers.advance(t, seen.tool_before, seen.before);
   });
   const std::vector<SeenPacket> known = with_machine(tape, recorded);
@@ -156,7 +158,7 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   for (const std::vector<SeenPacket>& packets : trackers.packets())
     if (const std::vector<SeenPacket> seen = with_machine(tape, packets); seen.size() >= kFewestPackets)
       twins.push_back(models::fit_latency(with_packets(rows, tape.scene, seen)));
-  // A motion that is lost in the tracker's noise is lost in the twin's, too.
+  // A motion that vanishes in the tracker's noise also vanishes in the twin's.
   if (!carried && std::count_if(twins.begin(), twins.end(), goes_clearly_along) > std::ssize(twins) / 2)
     return diverges_grossly(shadow, Channel::tool, astray(found));
   if (!carried)
@@ -175,26 +177,25 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   if (!found.latency.known()) return;
   add(shadow, Channel::tool, Quantity::tool_latency,
       beside([](const models::LatencyFit& fit) { return fit.latency; }), bounds::kToolLatency);
-  // Packets that are older than their stamps say have stamps that are so much too late.
+  // Packets older than their stamps indicate have stamps that are too late by that difference.
   add(shadow, Channel::tool, Quantity::tool_stamps,
       beside([](const models::LatencyFit& fit) { return fit.stamp_error; }), bounds::kToolStamps);
 }
 
-// A tool that presses the tip. Both are round, so the middle of its tip is one known length away from the
-// haptic-tip's: how far apart they are seen says how far off the tool is seen, away from the tip. Sideways
-// nothing is known of it.
+// A tool that presses the tip. Both tips are round, so their centres are one known length apart. The tracked
+// distance gives the tool's offset away from the tip. The sideways offset stays unknown.
 
 constexpr double kPressBlock = 0.25;  // s
-constexpr double kFirm = 0.5;         // N: less may be a touch that is about to end
-constexpr double kAround = 0.03;      // s before and after a packet, in which it is pressed, too
+constexpr double kFirm = 0.5;         // N: a smaller force may be a touch that is about to end
+constexpr double kAround = 0.03;      // s before and after a packet that must be pressed too
 constexpr std::size_t kFewest = 30;   // packets
 
-// In which ticks the tip is pressed, how hard, and where the tool's tip is from the haptic-tip's.
+// Ticks with a pressed tip: force, and direction from the haptic-tip to the tool's tip.
 struct Pressed {
-  std::vector<Vec3> felt;  // N, in W, on the tip; NaN: it is not pressed
+  std::vector<Vec3> felt;  // N, in W, on the tip; NaN: not pressed
   double begin, dt;
-  std::vector<Vec3> away{};           // unit, of each tick
-  std::vector<TrackedTool> newest{};  // likewise
+  std::vector<Vec3> away{};           // unit vector for each tick
+  std::vector<TrackedTool> newest{};  // for each tick
 
   [[nodiscard]] std::ptrdiff_t tick(double t) const { return std::lround((t - begin) / dt); }
   [[nodiscard]] bool firm(std::ptrdiff_t i) const {
@@ -213,7 +214,7 @@ double length_between(const Scene& scene, const TrackedTool& tool) {
   return scene.tip_radius + scene.tools[static_cast<std::size_t>(tool.tool)].tip.radius;
 }
 
-// From the haptic-tip to the tool's, at a packet's stamp. NaN where it is not pressed.
+// Vector from the haptic-tip to the tool's tip, at a packet's stamp. NaN: not pressed.
 Vec3 from_tip(const Tape& tape, const Pressed& pressed, const SeenPacket& packet) {
   if (!pressed.firm_around(in_seconds(packet.stamp)) || !tape.tip.knows(packet.stamp))
     return Vec3::Constant(kUnset);
@@ -223,7 +224,7 @@ Vec3 from_tip(const Tape& tape, const Pressed& pressed, const SeenPacket& packet
 struct Seen {
   models::Interval away;    // m
   models::Interval stamps;  // s
-  models::Interval gives;   // m/N: they come nearer under load
+  models::Interval gives;   // m/N: approach of the tips under load
   std::size_t packets = 0;
 };
 
@@ -244,7 +245,7 @@ Seen seen_pressing(const Tape& tape, const Pressed& pressed, const std::vector<S
   return {found.values[0], found.values[2], found.values[1], fit.rows()};
 }
 
-// The line between both tips: what packets say of it in a contact, on the average.
+// The direction between both tips, as the mean of a contact's packets.
 void find_lines(const Tape& tape, const std::vector<SeenPacket>& recorded,
                 const std::vector<std::int32_t>& contact, Pressed& pressed) {
   std::vector<Vec3> sums(1, Vec3::Zero());
@@ -266,7 +267,7 @@ void find_lines(const Tape& tape, const std::vector<SeenPacket>& recorded,
   }
 }
 
-// Where the tool's markers truly are for the twin, whose tips touch; no tool where it does not know.
+// The true pose of the tool's markers in the twin, whose tips touch; no tool: unknown.
 struct Held {
   std::int32_t tool = -1;
   Pose<'W', 'T'> X_WT = Pose<'W', 'T'>::identity();
@@ -293,7 +294,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   tape.play([&](const RecordedTick& frame) {
     if (is_news(frame.in.tool, tape.scene, newest)) tool = frame.in.tool.value;
     const auto n = static_cast<std::size_t>(frame.tick.index - tape.first);
-    pressed.felt.resize(n, Vec3::Constant(kUnset));  // of lost cycles
+    pressed.felt.resize(n, Vec3::Constant(kUnset));  // fills lost cycles
     pressed.newest.resize(n, tool);
     contact.resize(n, frame.out.contacts);
     const bool touched = frame.out.mode == Mode::contact && frame.out.felt.finite();
@@ -335,7 +336,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   if (found.stamps.known()) {
     add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found.stamps, stamps),
         bounds::kToolStamps);
-    // By its stamp a packet is younger than it is by what that is late.
+    // A stamp that is too late makes a packet look younger by that error.
     const auto& own = ages.packets();
     std::vector<double> old;
     old.reserve(kTwins);
