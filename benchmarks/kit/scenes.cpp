@@ -99,10 +99,11 @@ std::string held_in(const trial::Trial& trial) {
 
 void refuse_held(const std::string& held) {
   if (!held.empty())
-    throw Error(held +
-                    "; what it has measured is worth nothing; see docs/guide/laboratory.md for what to do, "
-                    "and begin anew",
-                {}, ErrorKind::device);
+    throw Error(
+        held +
+            "; what it has measured is worth nothing; see docs/guide/troubleshooting.md for what to do, "
+            "and begin anew",
+        {}, ErrorKind::device);
 }
 
 }  // namespace enc::bench

@@ -1,4 +1,4 @@
-// A hexapod on a PI C-887 controller, over GCS 2.0 and TCP (docs/guide/laboratory.md).
+// A hexapod on a PI C-887 controller, over GCS 2.0 and TCP (docs/reference/devices.md).
 #include "core/devices/module.h"
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/drive/settings.h"

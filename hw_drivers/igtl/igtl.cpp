@@ -1,4 +1,4 @@
-// Tool data over OpenIGTLink (docs/guide/laboratory.md).
+// Tool data over OpenIGTLink (docs/reference/devices.md).
 #include "core/devices/module.h"
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"

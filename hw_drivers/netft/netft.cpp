@@ -1,4 +1,4 @@
-// A force/torque sensor on an ATI Net Box, over UDP and HTTP (docs/guide/laboratory.md).
+// A force/torque sensor on an ATI Net Box, over UDP and HTTP (docs/reference/devices.md).
 #include "core/devices/module.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"

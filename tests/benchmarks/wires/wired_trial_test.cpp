@@ -1,7 +1,7 @@
 // The scene of the tennis ball through the wires of the laboratory, in virtual time.
 // The real machine is told each millisecond, over EtherCAT; over GCS a set-point goes each ten or so. A press
 // of the ball, Table 1 and Fig 3 are equal with a cycle of 1 ms and without wires, and a press with one of 10
-// ms, too (docs/guide/laboratory.md).
+// ms, too (docs/reference/devices.md).
 #include "tests/benchmarks/wires/wired_trial.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST(WiredTrial, EachDeviceBehindItsWireGivesTheSamePress) {
   }
 }
 
-// What the cycle of set-points does (docs/guide/laboratory.md): up to 10 ms a press is the same; with 20 ms
+// What the cycle of set-points does (docs/reference/devices.md): up to 10 ms a press is the same; with 20 ms
 // it is felt twice; 50 ms is too slow for what the core believes of the machine, and it holds.
 TEST(WiredTrial, SlowerCyclesOfSetPoints) {
   for (const auto& [cycle, contacts, held] :

@@ -138,7 +138,7 @@ void CarriedTool::watch() {
   const Inputs& in = trial_.inputs();
   if (held_ > (wanted_.valid() ? 0.0 : kLongestHold))
     fail(fmt::format(
-        "the machine is in hold: {}; expected it to carry the tool; see docs/guide/laboratory.md, "
+        "the machine is in hold: {}; expected it to carry the tool; see docs/guide/troubleshooting.md, "
         "turn it back to zero and calibrate again",
         why_text(trial_.outputs().why & kHoldReasons)));
   if (out_of_reach_) fail("the machine was sent out of its reach; see rig.manipulator.geometry");
