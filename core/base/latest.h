@@ -32,7 +32,7 @@ class Latest {
   static constexpr unsigned kNews = 4, kPlace = 3;
   std::array<V, 3> places_{};
   unsigned written_ = 0;  // the writer's place
-  // the free place, with kNews until it is read
+  // free place, with kNews set until it is read
   std::atomic<unsigned> between_ = 1;
   unsigned read_ = 2;  // the reader's place
 };

@@ -4,8 +4,8 @@
 
 namespace enc {
 
-// Here and nowhere else: Eigen takes an SVD for opposite directions, which costs each file that has it eight
-// seconds.
+// The one file that calls FromTwoVectors: Eigen uses an SVD for opposite directions, which costs each file
+// that includes it eight seconds.
 Quat rotation_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
 
 Quat rotation_z_to(const Vec3& n) { return rotation_between(Vec3::UnitZ(), n); }

@@ -5,7 +5,7 @@
 namespace enc {
 namespace {
 
-// Each stage reads what the ones before it wrote. Where a task has none of its own, it has that of its
+// Each stage reads the results of the stages before it. A task without a stage of its own uses that of its
 // machine.
 template <class Task>
 void walk_through(stages::Walk& walk, const Task& task, State& state, Outputs& out) noexcept {
@@ -17,10 +17,10 @@ void walk_through(stages::Walk& walk, const Task& task, State& state, Outputs& o
   }
   Memory& memory = *found;
   if (walk.in.missed >= walk.scene.loop.late_cycles) walk.why |= kClockLate;
-  track(walk, task, state, memory);  // where are the tool and the tip
-  touch(walk, task, state, memory);  // which surface point is nearest, and how far
-  act(walk, task, state, memory);    // what is done about it
-  guard(walk, task, state, memory);  // and what of that the machine is told
+  track(walk, task, state, memory);  // poses of tool and tip
+  touch(walk, task, state, memory);  // nearest surface point and its gap
+  act(walk, task, state, memory);    // the task's reaction
+  guard(walk, task, state, memory);  // limited command to the machine
   report(walk, task, state, memory, out);
   state.held = stages::holding(walk);
 }

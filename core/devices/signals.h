@@ -10,7 +10,7 @@
 
 namespace enc {
 
-// What the display needs of a tick: the tools' poses and the mode.
+// Data of a tick for the display: the tools' poses and the mode.
 struct View {
   Time t{};
   std::int32_t tool = -1;    // index in the scene; -1: no tool seen

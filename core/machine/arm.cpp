@@ -16,7 +16,7 @@ namespace {
 // Feygin and Tendick (2002). Angles, lengths and bodies are those of PhantomGeometry.
 namespace phantom {
 
-// How far from the turret's axis the tip is, m; negative where the arm leans over backwards.
+// Distance of the tip from the turret's axis, m; negative if the arm leans over backwards.
 double reach(const PhantomGeometry& g, const PerJoint& q) {
   return g.l1 * std::cos(q[1]) + g.l2 * std::sin(q[2]);
 }
@@ -48,7 +48,7 @@ bool inverse(const PhantomGeometry& g, const Vec3& p, bool ahead, PerJoint& q) n
   const double r = side * std::hypot(p.x(), p.y());
   const double square = p.squaredNorm();
   const double least = g.l1 - g.l2, most = g.l1 + g.l2;
-  const double slack = 1e-12 * most * most;  // what rounding may push out of a stretched arm's reach
+  const double slack = 1e-12 * most * most;  // allowance for rounding at a stretched arm's reach
   if (!(square <= most * most + slack && square >= least * least - slack && square > slack)) return false;
   const auto angle = [](double cosine) { return std::acos(std::fmin(1.0, std::fmax(-1.0, cosine))); };
   const double straight = std::sqrt(square);
@@ -60,7 +60,7 @@ bool inverse(const PhantomGeometry& g, const Vec3& p, bool ahead, PerJoint& q) n
 }
 
 PerJoint gravity(const PhantomGeometry& g, const PerJoint& q, double payload, Payload form) noexcept {
-  // On its way to the tip the forearm's half counts; what hangs at the tip counts in full.
+  // Half of the forearm's mass counts at the tip; a payload at the tip counts in full.
   const double m_a = g.m_a + (form == Payload::published ? payload : 0.0);
   const double at_tip = form == Payload::exact ? payload : 0.0;
   const double second = (m_a + at_tip + 0.5 * g.m_c) * g.l1 + g.m_be * g.l5;
@@ -72,8 +72,8 @@ PerJoint gravity(const PhantomGeometry& g, const PerJoint& q, double payload, Pa
 Mat3 mass(const PhantomGeometry& g, const PerJoint& q, double payload) noexcept {
   const double c2 = std::cos(q[1]), s2 = std::sin(q[1]);
   const double c3 = std::cos(q[2]), s3 = std::sin(q[2]);
-  // Forearm and link c as if their masses were at their middles; be and df turn about the origin of R.
-  const double elbow = g.m_a + 0.25 * g.m_c;  // mass that moves as the elbow does
+  // Forearm and link c count as if their masses were at their middles; be and df turn about the origin of R.
+  const double elbow = g.m_a + 0.25 * g.m_c;  // mass that moves with the elbow
   const double crank = 0.25 * g.m_a * g.l2 * g.l2 + g.m_c * g.l3 * g.l3;
   const double both = 0.5 * g.l1 * (g.m_a * g.l2 + g.m_c * g.l3);  // couples upper arm and forearm
   const double turning = g.I_base + elbow * g.l1 * g.l1 * c2 * c2 + crank * s3 * s3 + 2.0 * both * c2 * s3 +
@@ -94,13 +94,13 @@ Mat3 mass(const PhantomGeometry& g, const PerJoint& q, double payload) noexcept 
 // a PHANToM. It reads ArmMachine::links; Arm ensures 1 to kMostJoints links with unit axes.
 namespace chain {
 
-// Poses of the links: each joint's place and axis, and the link's orientation behind it, in R.
+// Poses of the links: position and axis of each joint, and orientation of the link behind it, in R.
 struct Placed {
   std::array<Vec3, kMostJoints> joint, axis;
   std::array<Mat3, kMostJoints> R;
   std::size_t count = 0;
 
-  // Of a point that is fixed to link `last`.
+  // A point fixed to link `last`, in R.
   [[nodiscard]] Vec3 point(std::size_t last, const Vec3& p) const { return joint[last] + R[last] * p; }
 };
 
@@ -123,7 +123,7 @@ Placed place(const ArmMachine& machine, const PerJoint& q) {
   return placed;
 }
 
-// d p / d q of a point p of link `last`.
+// d p / d q for a point p of link `last`.
 Mat3 moves(const ArmMachine& machine, const Placed& placed, std::size_t last, const Vec3& p) {
   Mat3 J = Mat3::Zero();
   for (std::size_t i = 0; i <= last; ++i)
@@ -133,7 +133,7 @@ Mat3 moves(const ArmMachine& machine, const Placed& placed, std::size_t last, co
   return J;
 }
 
-// d omega / d q of link `last`.
+// d omega / d q for link `last`.
 Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
   Mat3 J = Mat3::Zero();
   for (std::size_t i = 0; i <= last; ++i)
@@ -141,8 +141,8 @@ Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
   return J;
 }
 
-// Levenberg-Marquardt whose damping is the squared distance [Sugihara 2011]: far away it is careful, near
-// the end it is Newton's. Kept within the limits.
+// Levenberg-Marquardt method whose damping is the squared distance [Sugihara 2011]: it is careful far away,
+// and becomes Newton's method near the end. Stays within the limits.
 bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
   constexpr double kThere = 1e-10;  // m
   for (int step = 0; step < 60; ++step) {
@@ -152,7 +152,7 @@ bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
     if (!std::isfinite(apart.squaredNorm())) return false;
     if (apart.norm() < kThere) return true;
     const Mat3 J = moves(machine, placed, placed.count - 1, at);
-    // A machine with fewer joints than ways goes to where it is nearest.
+    // A machine with fewer than three joints stops at the nearest point that it can reach.
     if (placed.count < kMostJoints && (J.transpose() * apart).norm() < 1e-2 * kThere) return true;
     Mat3 gram = J.transpose() * J;
     gram.diagonal().array() += apart.squaredNorm() + 1e-12;
@@ -182,8 +182,8 @@ Mat3 jacobian(const ArmMachine& machine, const PerJoint& q) noexcept {
 // most about 0.2 ms.
 bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept {
   const std::size_t joints = std::min(machine.links.size(), kMostJoints);
-  // From where the caller is; then from the quarters of the limits, one for each way to fold. The nearest of
-  // what is found counts: a machine with few joints may end where it is only nearer than round about.
+  // The search starts from the caller's joints, then from the quarters of the limits, one for each way to
+  // fold. The nearest result counts, because a machine with few joints may end at a local minimum.
   constexpr double kThere = 1e-9;  // m
   double least = std::numeric_limits<double>::infinity();
   PerJoint best = q;
@@ -230,7 +230,7 @@ Mat3 mass(const ArmMachine& machine, const PerJoint& q, double payload) noexcept
   for (std::size_t i = 0; i <= last; ++i) {
     const ChainLink& link = machine.links[i];
     const Mat3 linear = moves(machine, placed, i, placed.point(i, link.centre));
-    const Mat3 angular = placed.R[i].transpose() * turns(machine, placed, i);  // in the link's axes
+    const Mat3 angular = placed.R[i].transpose() * turns(machine, placed, i);  // along the link's axes
     M += link.mass * linear.transpose() * linear + angular.transpose() * link.inertia.asDiagonal() * angular;
   }
   return M;
@@ -239,7 +239,7 @@ Mat3 mass(const ArmMachine& machine, const PerJoint& q, double payload) noexcept
 }  // namespace chain
 
 constexpr double kNear = 0.05;   // dexterity below which the inverse of eq. 4 is damped
-constexpr double kSlack = 1e-9;  // rad or m that rounding may put a joint beyond its limit
+constexpr double kSlack = 1e-9;  // rad or m by which rounding may put a joint beyond its limit
 
 void need(bool good, const char* what) {
   if (!good) throw Error(what, "arm");
@@ -271,8 +271,8 @@ void check(ChainLink& link) {
        "a mass or inertia of the chain is negative; expected 0 or more");
 }
 
-// J^T J of the joints that are there. The others get a diagonal that lies between its least and largest
-// eigenvalue (a diagonal element always does), so that these stay what they are.
+// J^T J of the existing joints. Missing joints get a diagonal between its least and largest eigenvalue, as
+// any diagonal element is, so that these two eigenvalues do not change.
 Mat3 gram(const Mat3& J, std::size_t joints) {
   Mat3 G = J.transpose() * J;
   for (auto i = static_cast<int>(joints); i < 3; ++i) G(i, i) = G(0, 0);
@@ -335,8 +335,8 @@ PerJoint Arm::torque(const Mat3& J, const Vec<'R'>& force) const noexcept {
   return {torque.x(), torque.y(), torque.z()};
 }
 
-// Least squares, J (J^T J)^-1 tau, with damping where the pose is nearly singular: there a torque along the
-// lost direction becomes a bounded force instead of an infinite one [Nakamura and Hanafusa 1986].
+// Least squares, J (J^T J)^-1 tau, damped where the pose is nearly singular. There a torque along the lost
+// direction becomes a bounded force instead of an infinite one [Nakamura and Hanafusa 1986].
 Vec<'R'> Arm::force(const Mat3& J, const PerJoint& torque) const noexcept {
   Mat3 G = gram(J, joints_);
   const double size = G.trace();
@@ -351,8 +351,8 @@ double Arm::felt_mass(const Mat3& J, const Mat3& mass, const Vec<'R'>& way) cons
   Mat3 whole = Mat3::Identity();
   whole.topLeftCorner(n, n) = mass.topLeftCorner(n, n);
   const Vec3 row = J.transpose() * way.e();
-  // Joints are few, so Cramer's rule is exact enough.
-  const double mobility = row.dot(whole.inverse() * row);  // J M^-1 J^T along the way
+  // A machine has few joints, so Cramer's rule is exact enough.
+  const double mobility = row.dot(whole.inverse() * row);  // J M^-1 J^T along the direction
   return mobility > 1e-6 ? 1.0 / mobility : 0.0;
 }
 
@@ -365,7 +365,7 @@ double Arm::felt_mass(const Mat3& J, const Mat3& mass) const noexcept {
 
 Vec<'R'> Arm::force_to_accelerate(const Mat3& J, const Mat3& mass,
                                   const Vec<'R'>& acceleration) const noexcept {
-  constexpr double kDamped = 1e-6;  // m^2: near a singular pose no joint is asked for what it cannot
+  constexpr double kDamped = 1e-6;  // m^2: limits joint torques near a singular pose
   const Mat3 squared = J * J.transpose() + kDamped * Mat3::Identity();
   const Vec3 torque = mass * (J.transpose() * (squared.inverse() * acceleration.e()));
   return force(J, {torque(0), torque(1), torque(2)});

@@ -9,12 +9,12 @@
 namespace enc {
 namespace {
 
-// Puts together solids that are given in the frame of a link, or of the base.
+// Assembles solids that are given in the frame of a link, or of the base.
 class Shape {
  public:
   explicit Shape(const Pose<'W', 'R'>& X_WR) : X_WR_(X_WR) {}
 
-  // Of the link whose frame has its origin at `at` of R and these axes in R.
+  // Sets the link whose frame has its origin at `at` in R and these axes in R.
   void in(const Vec3& at, const Mat3& axes) {
     at_ = at;
     axes_ = axes;
@@ -37,7 +37,7 @@ class Shape {
 
 constexpr auto kCapsule = PartForm::capsule, kCylinder = PartForm::cylinder;
 
-// Frames of upper arm and forearm have x along the arm where it lies at q = 0, ahead, and z upwards.
+// The frames of upper arm and forearm have x along the arm as it lies at q = 0, ahead, and z upwards.
 void add_phantom(const PhantomGeometry& g, const PerJoint& q, Shape& shape) {
   const Mat3 turret = Eigen::AngleAxisd(q[0], Vec3::UnitZ()).toRotationMatrix();
   const auto lifted = [&](double angle) {
@@ -66,7 +66,7 @@ void add_phantom(const PhantomGeometry& g, const PerJoint& q, Shape& shape) {
 }
 
 void add_chain(const ArmMachine& machine, const PerJoint& q, Shape& shape) {
-  constexpr double kShort = 1e-3;  // m: what is nearer is not joined by a rod
+  constexpr double kShort = 1e-3;  // m: no rod joins parts that are closer
   const Vec3 o = Vec3::Zero();
   Vec3 at = o;
   Mat3 axes = Mat3::Identity();

@@ -65,11 +65,11 @@ std::optional<Hexapod::Solution> Hexapod::forward(const Lengths& lengths, const 
 
 ReachLimit Hexapod::limit(const Pose<'R', 'H'>& X_RH) const noexcept {
   const Mat3 R = X_RH.q().toRotationMatrix();
-  // Written so that NaN is "not reachable".
+  // The comparison makes NaN "not reachable".
   if (!((lengths(R, X_RH.p()).array() - zero_length_).abs().maxCoeff() <= geometry_.stroke))
     return ReachLimit::stroke;
   if (!(R(2, 2) >= least_upright_)) return ReachLimit::tilt;
-  if (R(1, 0) == 0.0 && R(0, 0) > 0.0) return ReachLimit::none;  // as commands are: they do not turn it
+  if (R(1, 0) == 0.0 && R(0, 0) > 0.0) return ReachLimit::none;  // commands do not turn the tip
   if (!(std::abs(std::atan2(R(1, 0), R(0, 0))) <= geometry_.yaw_limit)) return ReachLimit::yaw;
   return ReachLimit::none;
 }

@@ -19,7 +19,7 @@ double lowest_stable_stiffness(const LoopModel& loop) {
     return hand * machine * filter * std::exp(-s * loop.delay);
   };
   double lowest = 0.0;
-  // Fine steps in frequency, each sign change of the imaginary part narrowed by halving.
+  // Frequency rises in fine steps; bisection narrows each sign change of the imaginary part.
   constexpr double kStep = 1.002;
   double f = 0.1;
   Complex before = open_loop(f);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// How much of `wanted` fits beside `held` within +-most.
+// Share of `wanted` that fits beside `held` within +-most.
 double fits(double held, double wanted, double most) {
   const double room = wanted > 0.0 ? most - held : most + held;
   return wanted == 0.0 ? kInfinite : std::max(0.0, room) / std::abs(wanted);
@@ -88,7 +88,7 @@ Motors::Strength Motors::strength(const Arm& arm, const PerJoint& q, const PerJo
   Strength found{tip_, tip_};
   for (std::size_t i = 0; i < joints_; ++i) {
     found.peak = std::min(found.peak, fits(held[i], each[i], peak_[i]));
-    // For ever is where the winding has folded back to: its torque and its warmth agree.
+    // The continuous torque is where the folded-back winding settles: its torque and its temperature agree.
     double low = 0.0, high = peak_[i];
     for (int k = 0; k < 60; ++k) {
       const double middle = 0.5 * (low + high);

@@ -20,7 +20,7 @@ constexpr Sum kPi{3.1415926535897931160E+00, 1.2246467991473531772E-16};
 constexpr Sum kHalfPi{1.57079632679489655800e+00, 6.12323399573676603587e-17};
 constexpr std::uint32_t kOne = 0x3ff00000, kHalf = 0x3fe00000;  // high words
 
-// (asin(x) - x) / x of z = x^2, up to x = 0.5
+// (asin(x) - x) / x as a function of z = x^2, up to x = 0.5
 double ratio(double z) {
   const double p = z * (1.66666666666666657415e-01 +
                         z * (-3.25565818622400915405e-01 +
@@ -33,7 +33,7 @@ double ratio(double z) {
   return p / q;
 }
 
-// What |x| >= 1 gives, for asin and acos: at = the value at |x| = 1.
+// Value of asin and acos for |x| >= 1; `at`: the value at |x| = 1.
 double at_the_end(double x, double at) { return std::fabs(x) == 1.0 ? at : (x - x) / (x - x); }
 
 double arc_tangent(double x) {

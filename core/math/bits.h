@@ -14,7 +14,7 @@ inline std::uint32_t high_word(double x) { return static_cast<std::uint32_t>(bit
 inline double short_of(double x) { return from_bits(bits_of(x) & 0xffffffff00000000); }
 
 constexpr std::uint32_t kNoSign = 0x7fffffff;
-constexpr std::uint32_t kInfinite = 0x7ff00000;  // high word of infinity; NaNs are above
+constexpr std::uint32_t kInfinite = 0x7ff00000;  // high word of infinity; those of NaNs are above
 
 // hi + lo; lo is smaller than a rounding of hi.
 struct Sum {

@@ -29,7 +29,7 @@ constexpr std::uint64_t kSign = 0x8000000000000000;
 // Sign and exponent.
 std::uint32_t top12(double x) { return static_cast<std::uint32_t>(bits_of(x) >> 52); }
 
-// scale (1 + y), where scale's exponent has left its 11 bits: close to the largest and smallest numbers.
+// scale (1 + y) for a scale whose exponent exceeds its 11 bits, close to the largest and smallest numbers.
 double at_the_edge(double y, std::uint64_t scale_bits, std::uint64_t k) {
   if ((k & 0x80000000) == 0) {
     const double scale = from_bits(scale_bits - (1009ULL << 52));
@@ -38,7 +38,7 @@ double at_the_edge(double y, std::uint64_t scale_bits, std::uint64_t k) {
   scale_bits += 1022ULL << 52;
   const double scale = from_bits(scale_bits);
   double z = scale + scale * y;
-  if (std::fabs(z) < 1.0) {  // subnormal: rounded once, at its own last place
+  if (std::fabs(z) < 1.0) {  // subnormal: round once, at its own last place
     const double one = z < 0.0 ? -1.0 : 1.0;
     const double lo = scale - z + scale * y;
     const double hi = one + z;
@@ -48,7 +48,7 @@ double at_the_edge(double y, std::uint64_t scale_bits, std::uint64_t k) {
   return 0x1p-1022 * z;
 }
 
-// exp(x + tail), and minus that if so: x + tail = k ln2 / 128 + r. (negative: 0 or kMinus.)
+// exp(x + tail), negated if `negative` is kMinus and not 0: x + tail = k ln2 / 128 + r.
 constexpr std::uint64_t kMinus = 0x800 << 7;
 inline double exp_of(double x, double tail, std::uint64_t negative) {
   std::uint32_t range = top12(x) & 0x7ff;
@@ -76,7 +76,7 @@ inline double exp_of(double x, double tail, std::uint64_t negative) {
   return scale + scale * y;
 }
 
-// Whether y is no whole number, an odd or an even one.
+// Kind of y: not whole, odd or even.
 enum class Whole { no, odd, even };
 Whole whole(double y) {
   const double a = std::fabs(y);
@@ -85,12 +85,12 @@ Whole whole(double y) {
   return (static_cast<std::uint64_t>(a) & 1) != 0 ? Whole::odd : Whole::even;
 }
 
-// A subnormal's bits with an exponent below zero.
+// Bits of x; those of a subnormal get an exponent below zero.
 std::uint64_t normal_bits(double x) {
   return bits_of(x) >> 52 != 0 ? bits_of(x) : bits_of(x * 0x1p52) - (52ULL << 52);
 }
 
-// pow where x or y is zero, infinite or NaN.
+// pow if x or y is zero, infinite or NaN.
 double pow_of_special(double x, double y) {
   if (y == 0.0 || x == 1.0) return 1.0;
   if (x != x || y != y) return x + y;
@@ -137,7 +137,7 @@ Sum long_log(std::uint64_t bits) {
   return {y, hi - y + lo};
 }
 
-// log(x) times a constant, that as its first 26 bits and what they lack.
+// log(x) times a constant, given as its first 26 bits and their remainder.
 double log_times(double x, Sum factor) {
   if (special(x) || x < 0.0) return x == 0.0 ? -kInf : x < 0.0 ? kNan : x;
   const Sum log = long_log(normal_bits(x));
@@ -153,7 +153,7 @@ double exp_m1(double x) {
   if (x != x || top < 0x3c900000) return x;  // 2^-54
   if (x > 7.09782712893383973096e+02) return std::numeric_limits<double>::infinity();
   if (x < 0.0 && top >= 0x4043687A) return -1.0;  // 56 ln2
-  // x = k ln2 + y, and c what rounding took of y
+  // x = k ln2 + y; c is the rounding error of y
   int k = 0;
   double c = 0.0;
   double y = x;
@@ -206,7 +206,7 @@ double pow(double x, double y) noexcept {
   if (range < 0x3be) return x > 1.0 ? 1.0 + y : 1.0 - y;                            // |y| < 2^-65
   if (range >= 0x43e) return x == 1.0 ? 1.0 : (x > 1.0) == (y > 0.0) ? kInf : 0.0;  // |y| >= 2^63
   const Sum log = long_log(normal_bits(x));
-  // y log(x) as a sum: products of half as many bits are exact.
+  // y log(x) as a sum: products of numbers with half as many bits are exact.
   const double y_hi = from_bits(bits_of(y) & -1ULL << 27);
   const double log_hi = from_bits(bits_of(log.hi) & -1ULL << 27);
   return exp_of(y_hi * log_hi, (y - y_hi) * log_hi + y * (log.hi - log_hi + log.lo), negative);

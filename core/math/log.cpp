@@ -22,7 +22,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// log(1 + r) beside zero
+// log(1 + r) near zero
 double log_near_one(double r) {
   constexpr double B[] = {-0x1p-1,
                           0x1.5555555555577p-2,
@@ -87,7 +87,7 @@ double log1p(double x) noexcept {
   const std::uint32_t top = high_word(x);
   if (x <= -1.0) return x == -1.0 ? -kInf : kNan;
   if ((top & kNoSign) >= kInfinite || (top & kNoSign) < 0x3ca00000) return x;  // or below 2^-53
-  // 1 + x = 2^k (1 + f), and c what rounding took of 1 + x
+  // 1 + x = 2^k (1 + f); c is the rounding error of 1 + x
   double f = x, c = 0.0, k = 0.0;
   const bool near = x < 0.0 ? top <= 0xbfd2bec4 : top < 0x3fda827a;  // sqrt(2)/2 - 1, sqrt(2) - 1
   if (!near) {

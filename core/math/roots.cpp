@@ -1,5 +1,5 @@
-// cbrt, hypot, and exp and the size of a complex number. After FreeBSD's s_cbrt.c (by way of musl 1.2.3) and
-// musl's hypot.c (MIT, Rich Felker and others).
+// cbrt, hypot, and exp and the absolute value of a complex number. After FreeBSD's s_cbrt.c (by way of musl
+// 1.2.3) and musl's hypot.c (MIT, Rich Felker and others).
 /*
  * ====================================================
  * Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
@@ -63,7 +63,7 @@ double cbrt(double x) noexcept {
     top = top / 3 + 715094163;
   else
     top = (high_word(x * 0x1p54) & kNoSign) / 3 + 696219795;
-  // to 5 bits, then 23, then (Newton) all
+  // accurate to 5 bits, then 23, then (Newton) all
   double t = std::copysign(from_bits(static_cast<std::uint64_t>(top) << 32), x);
   const double r = (t * t) * (t / x);
   t = t * ((1.87595182427177009643 + r * (-1.88497979543377169875 + r * 1.621429720105354466140)) +

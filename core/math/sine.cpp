@@ -41,22 +41,22 @@ struct Reduced {
 __extension__ using Wide = unsigned __int128;
 __extension__ using SignedWide = __int128;
 
-constexpr double kRound = 0x1.8p52;  // added and taken away again: the nearest whole number
+constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
 constexpr double kTwoByPi = 6.36619772367581382433e-01;
-// pi/2 in pieces of 33 bits, so that n times a piece is exact; and after each piece what is left.
+// pi/2 in pieces of 33 bits, so that n times a piece is exact; and the remainder after each piece.
 constexpr double kPiece[] = {1.57079632673412561417e+00, 6.07710050630396597660e-11,
                              2.02226624871116645580e-21};
 constexpr double kLeft[] = {6.07710050650619224932e-11, 2.02226624879595063154e-21,
                             8.47842766036889956997e-32};
 
-// The bits of 2/pi, the first of them worth a half.
+// The bits of 2/pi; the first one is worth a half.
 constexpr std::uint64_t kTwoByPiBits[] = {
     0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, 0xfe5163abdebbc561, 0xb7246e3a424dd2e0,
     0x06492eea09d1921c, 0xfe1deb1cb129a73e, 0xe88235f52ebb4484, 0xe99c7026b45f7e41, 0x3991d639835339f4,
     0x9c845f8bbdf9283b, 0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
     0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab, 0xf0cfbc209af4361d};
 
-// 64 bits of 2/pi from bit `at` on; before the first there are zeros.
+// 64 bits of 2/pi from bit `at` on; bits before the first are zero.
 std::uint64_t two_by_pi_from(int at) {
   const auto get = [](int i) { return i < 0 ? 0 : kTwoByPiBits[i]; };
   if (at < 0) return get(0) >> -at;
@@ -64,8 +64,8 @@ std::uint64_t two_by_pi_from(int at) {
   return shift == 0 ? get(i) : get(i) << shift | get(i + 1) >> (64 - shift);
 }
 
-// x = m 2^e with whole m. The bits of 2/pi above 2^(2-e) make whole turns and are left out; of the next 192,
-// which are multiplied by m modulo whole turns, 139 are right, and at most 62 of these cancel.
+// x = m 2^e with whole m. The bits of 2/pi above 2^(2-e) make whole turns and are left out. The next 192 bits
+// are multiplied by m modulo whole turns; 139 of them are right, and at most 62 of these cancel.
 Reduced reduce_large(double x) {
   const std::uint64_t bits = bits_of(x);
   const std::uint64_t m = (bits & 0xfffffffffffff) | 0x10000000000000;
@@ -80,7 +80,7 @@ Reduced reduce_large(double x) {
   unsigned quadrant = static_cast<unsigned>(top >> 126);
   top = top << 2 | last >> 62;
   last <<= 2;
-  const bool above = (top >> 127) != 0;  // more than half a quadrant: it is one more, less the rest
+  const bool above = (top >> 127) != 0;  // more than half a quadrant: one quadrant more, less the rest
   if (above) {
     ++quadrant;
     top = ~top;
@@ -91,7 +91,7 @@ Reduced reduce_large(double x) {
     top = top << 1 | last >> 63;
     last <<= 1;
   }
-  // Times pi/2, as a whole number again: the rest is product 2^(-127 - zeros).
+  // Multiply by pi/2, also as a whole number: the rest is product 2^(-127 - zeros).
   constexpr std::uint64_t kHalfPi = 0xc90fdaa22168c235;
   const Wide product = (top >> 64) * kHalfPi + (static_cast<std::uint64_t>(top) * Wide{kHalfPi} >> 64);
   const double hi = static_cast<double>(product);
@@ -110,7 +110,7 @@ Reduced reduce(double x) {
   double r = x - n * kPiece[0];
   double w = n * kLeft[0];
   double y = r - w;
-  // The more bits cancel, the more of pi is needed: 85, 118, 151 bits; the last does for every double.
+  // The more bits cancel, the more bits of pi are needed: 85, 118, 151. The last suffices for every double.
   const auto lost = [&] {
     return static_cast<int>(top >> 20) - static_cast<int>((high_word(y) >> 20) & 0x7ff);
   };
@@ -149,7 +149,7 @@ double kernel_cos(Sum x) {
   return one + (((1.0 - one) - half) + (z * r - x.hi * x.lo));
 }
 
-// tan(x), or where odd -1 / tan(x).
+// tan(x), or -1 / tan(x) if odd.
 double kernel_tan(Sum a, bool odd) {
   constexpr double T[] = {3.33333333333334091986e-01, 1.33333333333201242699e-01, 5.39682539762260521377e-02,
                           2.18694882948595424599e-02, 8.86323982359930005737e-03, 3.59207910759131235356e-03,

@@ -1,4 +1,4 @@
-// Those in single precision that libmujoco calls: of the double's.
+// Single-precision functions that libmujoco calls, computed by those of double.
 #include <cmath>
 
 extern "C" {

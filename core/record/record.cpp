@@ -40,7 +40,7 @@ struct LayoutHash {
   void operator()(std::string_view name, T&) {
     for (const char c : name) add(c);
     add('\0');
-    // Kind and size: an int that becomes a double, or grows, is another layout.
+    // Kind and size: an int that becomes a double, or grows, makes another layout.
     add(std::is_floating_point_v<T> ? 'f'
         : std::is_enum_v<T>         ? 'e'
         : std::is_integral_v<T>     ? 'i'
@@ -56,7 +56,7 @@ LayoutHash frame_layout() {
   all_fields(hash, frame);
   return hash;
 }
-// A frame holds the hash of the state, so a state of another make is another layout, too.
+// A frame contains the hash of the state, so another form of state makes another layout, too.
 template <class Memory>
 std::uint64_t layout_with(Memory memory) {
   LayoutHash hash = frame_layout();
@@ -96,7 +96,7 @@ constexpr std::uint32_t kChunk = 0x4b4e4843;  // "CHNK"
 constexpr std::uint32_t kEnd = 0x54584554;    // "TEXT"
 constexpr std::uint32_t kSeal = 0x4c414553;   // "SEAL"
 constexpr std::size_t kChunkBytes = 64 * 1024;
-constexpr std::size_t kHeaderBytes = 64 * 1024 * 1024;  // more is damage, not a scene
+constexpr std::size_t kHeaderBytes = 64 * 1024 * 1024;  // a larger header is damage, not a scene
 constexpr std::size_t kWord = sizeof(std::uint64_t);
 
 std::uint64_t head(std::uint32_t tag, std::size_t size) {
@@ -120,7 +120,7 @@ struct GetLeaves {
   }
 };
 
-// Texts as bytes, filled up to whole words.
+// Texts as bytes, padded to whole words.
 std::vector<std::uint64_t> packed_texts(const RecordTexts& texts) {
   std::string bytes;
   const auto number = [&](std::size_t n) {
@@ -164,7 +164,7 @@ std::string hex(std::uint64_t x) {
   return text;
 }
 
-// What a file says of itself, as a terminal may show it.
+// A text of the file, made safe for a terminal.
 std::string shown(std::string text) {
   constexpr std::size_t kMost = 80;
   text.resize(std::min(text.size(), kMost));
@@ -184,7 +184,7 @@ std::string writer_of(const RecordTexts& texts) {
          text_or(texts, "commit", "not said");
 }
 
-// What leads to the version that wrote it.
+// The remedy that names the version that wrote the record.
 std::string way_to_writer(const RecordTexts& texts) {
   const std::string commit = text_or(texts, "commit", "unknown");
   if (commit == "unknown") return "use the version of Encounter that wrote it";
@@ -202,7 +202,7 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
 constexpr const char* kCut =
     "the record is cut off here, or the run was not ended: it has no seal; give --partial for what is whole";
 
-// What a head announces; none: nothing that may stand there.
+// The part that a head announces; none: a head that cannot stand there.
 enum class Part { none, frames, texts, seal };
 Part part_of(std::uint64_t head, bool told_end, std::uint32_t format) {
   const auto tag = static_cast<std::uint32_t>(head);
@@ -228,7 +228,7 @@ RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, st
       most_((kChunkBytes / kWord - 2) / frame_words()),
       chunks_(chunks),
       words_(kChunkBytes / kWord) {
-  for (Chunk& one : chunks_) {  // the memory is there, and not only promised
+  for (Chunk& one : chunks_) {  // touches the memory now, so that the system really provides it
     one.resize(most_);
     one.clear();
   }
@@ -249,7 +249,7 @@ RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, st
     throw Error(error() + "; give a file in a folder that exists and may be written");
   }
   std::setvbuf(file_, nullptr, _IONBF,
-               0);  // our chunk is the buffer: what put() has accepted is with the system
+               0);  // our chunk is the buffer: put() hands its data straight to the system
   put(header.data(), header.size() * kWord);
   if (full()) {
     std::fclose(file_);
@@ -341,7 +341,7 @@ std::string RecordWriter::error() const {
 
 RecordReader::RecordReader(const std::string& path, Partial partial) : path_(path), partial_(partial) {
   std::error_code none;
-  if (std::filesystem::is_fifo(path, none))  // it is read twice
+  if (std::filesystem::is_fifo(path, none))  // the reader reads it twice
     throw Error(path + ": is a pipe; expected a file; write the record into one");
   file_.open(path, std::ios::binary);
   if (!file_) throw Error("cannot read the record '" + path + "': " + std::generic_category().message(errno));
@@ -431,7 +431,7 @@ bool RecordReader::read_chunk() {
     return read_chunk();
   }
   done_ = true;
-  // After rewind() ticks_ is known and the same; a seal that says otherwise was written by something else.
+  // rewind() leaves ticks_ known and unchanged; a seal with another number comes from another writer.
   const std::string sealed = std::to_string(chunk_[0]), there = std::to_string(ticks_);
   if (sealed != there) return stop(at, "the seal is for " + sealed + " ticks, but " + there + " are there");
   char more = 0;

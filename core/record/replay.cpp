@@ -10,7 +10,7 @@ struct Leaf {
   std::uint64_t bits = 0;
   bool real = false;
 };
-// Room is kept from tick to tick.
+// Keeps its memory from tick to tick.
 struct Leaves {
   std::vector<Leaf> list;
   template <class T>
@@ -31,7 +31,7 @@ std::string text_of(const Leaf& leaf) {
   return {text.data(), end.ptr};
 }
 
-// "force_N[2]": which of the leaves of one name.
+// "force_N[2]": a leaf's name and its index among the leaves of that name.
 std::string name_of(const std::vector<Leaf>& list, std::size_t i) {
   std::size_t first = i;
   while (first > 0 && list[first - 1].name == list[i].name) --first;

@@ -13,7 +13,7 @@ enum class Interaction : std::uint8_t {
   press,  // the response curve at the point of first touch; a hexapod renders this
   slide,  // a wall: a spring along the normal, free along the surface [VisHap 2.3.3]
   click,  // a button: resistance, trigger, bottom
-  // A real thing in its place: the prop meets the finger without virtual force.
+  // A real object in its place: the prop meets the finger without virtual force.
   passive,
   hit,    // a free ball that is knocked away
   shift,  // a tile that slides along one direction to its end

@@ -76,7 +76,7 @@ struct ObjectSpec {
   Vec3 normal{0, 0, 1};                    // plane, button: outward, unit, in W
   double width = kUnset, height = kUnset;  // button: size of its face, m [VisHap 2.2]
   double thickness = 0.050;                // button: thickness of the solid behind its face, m
-  std::string behaviour;                   // name; empty: a real thing, only for [probe]
+  std::string behaviour;                   // name; empty: a real object, only for [probe]
   double limit = kUnset;                   // deflection limit, m; unset: the behaviour's
   // Alternative to `limit`, m: contact k of the experiment takes limit k; the last limit stays
   // (ContactLimits).

@@ -1,4 +1,4 @@
-// How a machine renders: [admittance] and [arm] of a rig file. Parts of rig_spec.h.
+// Rendering by a machine: [admittance] and [arm] of a rig file. Parts of rig_spec.h.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ struct AdmittanceRig {
 enum class GravityForm : std::uint8_t {
   none,       // none: the tip sags below its target, and falls without a command
   published,  // eq. 5 with the prop added to m_a
-  // Eq. 5 with the prop at its true place, the tip.
+  // Eq. 5 with the prop at its actual place, the tip.
   exact
 };
 constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }

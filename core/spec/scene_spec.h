@@ -46,7 +46,7 @@ struct ManipulatorSpec {
   ManipulatorKind kind = ManipulatorKind::hexapod;
 };
 struct ArmSpec {};  // the rig defines the arm
-// The prop at the arm's tip [VisHap 2]: a thing with a front that the finger touches.
+// The prop at the arm's tip [VisHap 2]: a body with a front that the finger touches.
 struct PropSpec {
   PropKind kind = PropKind::plate;
   double mass = 0.020;  // kg

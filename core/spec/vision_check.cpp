@@ -13,7 +13,7 @@ namespace {
   throw Error(what, std::string("rig.") + key);
 }
 
-// Whole numbers as files have them: all that a schema asks is asked here, too, of whoever needs no file.
+// Whole numbers as files write them. Callers without a file get the limits of the schema here, too.
 void within(const char* key, double value, double least, double most) {
   const auto text = [](double v) {
     std::string digits = std::to_string(v);

@@ -26,8 +26,8 @@ struct FingerTracker::Parts {
   LookStats stats;
   std::optional<Time> newest;
   Time last_seen{};
-  Point<'C'> last_place;  // where it was seen last; NaN: nowhere
-  // m, widths when they were recognised: of the cap that is followed, and of the one that was found.
+  Point<'C'> last_place;  // last seen position; NaN: never seen
+  // m, cap widths at recognition: of the tracked finger, and of the detected one.
   double cap = kUnset, found_cap = kUnset;
 
   [[nodiscard]] Refused usable(const StereoFrame& frame, Time exposed) const;
@@ -49,7 +49,7 @@ Refused FingerTracker::Parts::usable(const StereoFrame& frame, Time exposed) con
   return Refused::no;
 }
 
-// Where the finger is sought. The filter is at this frame's exposure already.
+// Search window of the finger. The filter is already at this frame's exposure.
 Region FingerTracker::Parts::window() const {
   if (!filter.known()) return search;
   const Triplet at = filter.at();
@@ -66,17 +66,17 @@ Region FingerTracker::Parts::window() const {
       Region{static_cast<int>(std::floor(at.column - w)), static_cast<int>(std::floor(at.row - h)),
              static_cast<int>(std::ceil(at.column + w)) + 1, static_cast<int>(std::ceil(at.row + h)) + 1}
           .cut(scene.frame());
-  return window.empty() ? search : window;  // it has gone out of the image: it comes back anywhere
+  return window.empty() ? search : window;  // the finger left the image and may come back anywhere
 }
 
-// After more than two frames without it a finger has to be recognised anew.
+// After more than two frames without the finger it must be recognised anew.
 HandScene::Followed FingerTracker::Parts::followed() const {
   constexpr int kMisses = 2;
   if (stats.whole_frame) return {};
   return {filter.at(), stats.misses <= kMisses ? cap : kUnset};
 }
 
-// For a hand to have come there from where it was seen last. Whoever comes long after is another one.
+// True if no hand moves that fast from the last seen position. After a long gap it is another hand.
 bool FingerTracker::Parts::too_fast(const HandScene::Seen& seen, Time exposed) const {
   constexpr double kFastest = 3.0, kVague = 0.02, kForgotten = 0.5;  // m/s, m, s
   const double since = age(exposed, last_seen);
@@ -126,7 +126,7 @@ void FingerTracker::Parts::take(bool found, Time exposed, const Triplet& at, con
     filter.begin(track, exposed, at, variance);
 }
 
-// A filter that has run away tells nothing, and nothing is sought by it.
+// Resets a diverged filter, so that no search relies on it.
 void FingerTracker::Parts::forget_nonsense() {
   const Triplet at = filter.at(), rate = filter.rate();
   if (filter.known() && !(at.e().allFinite() && rate.e().allFinite() && filter.variance().allFinite()))
@@ -202,7 +202,7 @@ Finger FingerTracker::see(const StereoFrame& frame, Time exposed) noexcept {
   Triplet at;
   Vec3 variance = Vec3::Constant(kUnset);
   const bool found = p.look(frame, exposed, at, variance);
-  if (found && lost) p.filter.forget();  // so much has happened meanwhile that nothing is foreseen any more
+  if (found && lost) p.filter.forget();  // too much may have happened since for a prediction
   p.take(found, exposed, at, variance);
   p.forget_nonsense();
   return p.told(exposed);

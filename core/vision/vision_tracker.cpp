@@ -29,8 +29,8 @@ std::string text_of(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
 }
 
-// What the frame alone shows: the core has a filter of its own, and what two of them smooth one after the
-// other comes late. Its covariance along the view, and the mean of the two sides.
+// The position from this frame alone, because the core has a filter of its own and two filters in series lag.
+// Gives its covariance along the view, and the mean of both sides across.
 TrackedTool tool_of(const Finger& finger) {
   const Vec3 view = finger.shown.e().normalized();
   const double along = view.dot(finger.shown_covariance * view);
@@ -63,7 +63,7 @@ std::vector<std::string> VisionTracker::remarks() const {
     lines.emplace_back(
         "vision: a finger stood in the frames of which the background was learned, and is seen badly there; "
         "start again without it");
-  constexpr int kMany = 20;  // frames: in fewer a hand may not have come yet
+  constexpr int kMany = 20;  // frames: with fewer, the hand may not have come yet
   if (looked_ >= kMany && seen_ == 0)
     lines.push_back(
         "vision: none of " + std::to_string(looked_) +
@@ -92,7 +92,7 @@ void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
   looked_ += finger.state == FingerState::learning ? 0 : 1;
   ++doubtful_[static_cast<std::size_t>(tracker_.stats().doubt)];
   seen_ += finger.state == FingerState::seen ? 1 : 0;
-  if (count_ == line_.size()) {  // loses the oldest, as a socket's buffer would
+  if (count_ == line_.size()) {  // drops the oldest, as a socket's buffer would
     first_ = (first_ + 1) % line_.size();
     --count_;
   }
@@ -111,7 +111,7 @@ bool VisionTracker::stalled(Time now, Stamped<TrackedTool>& newest) {
 bool VisionTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   if (camera_->poll(now, frame_)) take(now, frame_);
   bool due = false;
-  while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(wait_)) {  // the newest that is due
+  while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(wait_)) {  // up to the newest that is due
     told_ = line_[first_];
     first_ = (first_ + 1) % line_.size();
     --count_;

@@ -5,10 +5,10 @@
 namespace enc {
 namespace {
 
-constexpr double kTolerance = 0.5e-3;  // m: play, bending, what the model leaves out
+constexpr double kTolerance = 0.5e-3;  // m: play, bending and other effects outside the model
 constexpr double kPatience = 0.050;    // s
 
-// Whether p is within `distance` of what is between a and b; mostly it is near one of them.
+// True if p is within `distance` of the segment from a to b; usually it is near one of its ends.
 bool near_segment(const Vec3& p, const Vec3& a, const Vec3& b, double distance) {
   const double most = distance * distance;
   if ((p - a).squaredNorm() <= most || (p - b).squaredNorm() <= most) return true;
@@ -26,8 +26,8 @@ bool follows(const ServoModel& servo, const Point<'R'>& command, const Vec<'R'>&
   const Vec3 pull = servo.pull * (command - state.expected).e();
   state.velocity = Vec<'R'>(Vec3((state.velocity.e() + pull) * servo.left));
   state.expected = state.expected + servo.dt * state.velocity;
-  // The model may lag by no more than the believed lag allows, or a rig that believes in a servo of 1e-6 Hz
-  // would never find out a machine that stands.
+  // The model may lag by no more than the accepted lag allows. Otherwise a rig file with a servo of 1e-6 Hz
+  // would never detect a machine that stands still.
   const double allowed = kTolerance + state.straying.excused(velocity.norm(), servo.lag, servo.dt);
   const Vec3 behind = (state.expected - command).e();
   if (behind.squaredNorm() > allowed * allowed)

@@ -16,17 +16,18 @@ struct Wall {
 };
 
 constexpr std::size_t kWalls = 4;
-constexpr double kClose = 1e-7;   // m: of a place on several walls
-constexpr double kSlack = 15e-6;  // m: of what the centre may be less deep; the guard's own limit is 50 um
-constexpr double kCut = 10e-6;    // m: and this much less on its way
-// Steps from wall to wall, until the deepest place so far has to do (assumed: no source).
+constexpr double kClose = 1e-7;   // m: distance within which a point lies on a wall
+constexpr double kSlack = 15e-6;  // m: accepted lack of depth of the centre; the guard's own limit is 50 um
+constexpr double kCut = 10e-6;    // m: additional lack of depth accepted on the path
+// Steps from wall to wall before the deepest position so far is taken (assumed: no source).
 constexpr int kTries = 12;
-// m: a step along a braking way (derived: at a hollow edge, an arc of the tip's radius, it cuts off 9 um).
+// m: a step along a braking path (derived: at a hollow edge, an arc of the tip's radius, it cuts off 9 um).
 constexpr double kLeastStep = 0.6e-3;
-constexpr int kMostSteps = 64;      // of a braking way (assumed: who needs more is too fast)
-constexpr double kParallel = 1e-6;  // of a determinant of unit vectors
+constexpr int kMostSteps = 64;      // steps of a braking path (assumed: a tip that needs more is too fast)
+constexpr double kParallel = 1e-6;  // determinant of unit vectors
 
-// Solves G y = r for the walls of a set, at most three, G being their normals' products. False: parallel.
+// Solves G y = r for the walls of a set, at most three. G holds the products of their normals. False if they
+// are parallel.
 bool solve(const std::array<std::array<double, 3>, 3>& G, const std::array<double, 3>& r, std::size_t n,
            std::array<double, 3>& y) {
   if (n == 1) {
@@ -49,8 +50,8 @@ bool solve(const std::array<std::array<double, 3>, 3>& G, const std::array<doubl
   return true;
 }
 
-// The point within all walls that is nearest to x: of the sets of walls that it may lie on, the one that
-// holds it there. False: there is none.
+// The point within all walls that is nearest to x. It lies on one of the sets of walls, and the search tries
+// these sets. False if there is no such point.
 bool project(const std::array<Wall, kWalls>& walls, std::size_t count, const Vec3& x, Vec3& out) {
   for (unsigned set = 1; set < 1U << count; ++set) {
     std::array<const Wall*, 3> on{};
@@ -123,7 +124,7 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
     next = (next + 1) % kWalls;
     count = std::min(count + 1, kWalls);
     Vec3 to = p.e();
-    // Walls that leave no room: of what is thin, or concave. Then only the last one counts.
+    // These walls leave no room, because the object is thin or concave there. Then only the last wall counts.
     if (!project(walls, count, from.e(), to)) {
       walls[0] = walls[(next + kWalls - 1) % kWalls];
       count = next = 1;
@@ -134,20 +135,22 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
   return object_.X_WO * best_p + shift_;
 }
 
-// Whether it may go at v: where it would come to rest is deep enough, and so is the way there. `met`: what is
-// nearest to the place that is not.
+// True if the tip may move at v: both its stopping position and the path there are deep enough. `met`:
+// nearest surface point of the first position that is not deep enough.
 bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Nearest& met) noexcept {
   const Vec3 way = braking_way(v, brake.acceleration, brake.dt);
   const double length = way.norm();
   const double least = stop_depth(depth);
-  if (depth - length >= least) return true;  // no depth changes faster than the place
+  if (depth - length >= least) return true;  // depth changes no faster than position
   met = at(local(Point<'W'>(Vec3(brake.at.e() + way))));
   if (!(-met.distance >= least)) return false;
-  if (0.5 * (depth - met.distance - length) >= least) return true;                 // as above, from both ends
-  if (!std::holds_alternative<MeshSurface>(object_.surface.shape())) return true;  // the others are convex
-  // Along the way: where it is after this tick, for then it may think better of it; and on, in steps that no
-  // side can come into. At a hollow edge what is deep enough ends in an arc of the tip's radius, of which a
-  // step cuts off 9 um.
+  // the bound above, from both ends
+  if (0.5 * (depth - met.distance - length) >= least) return true;
+  // all other shapes are convex
+  if (!std::holds_alternative<MeshSurface>(object_.surface.shape())) return true;
+  // Check the path: first the position after this tick, where the command may still change, then steps so
+  // short that no side can enter between them. At a hollow edge the allowed region ends in an arc of the
+  // tip's radius; a step cuts off 9 um of it.
   const double floor = std::min(least, margin_ - kSlack - kCut);
   double gone = brake.dt * v.norm();
   if (depth - floor > gone) gone = std::max(depth - floor, kLeastStep);
@@ -162,8 +165,8 @@ bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Neare
   return true;
 }
 
-// Where it comes to rest it is `margin` deep, but for the slack. On the way there it may cut off twice a
-// little more, between two steps; who is farther out than that goes to where it is deeper.
+// The stopping position is `margin` deep, less the slack. The path may cut off a little more between two
+// steps, twice. A tip that is farther out moves to deeper positions.
 double Inside::stop_depth(double here) const {
   return here < margin_ - kSlack - 2.0 * kCut ? here : margin_ - kSlack;
 }
@@ -174,7 +177,7 @@ Vec3 Inside::velocity(const Brake& brake, double here, const Vec3& wanted) noexc
   const double most = brake.acceleration * brake.dt;
   const double least = stop_depth(here);
   Vec3 v = wanted;
-  for (int i = 0; i < 3; ++i) {  // along the wall that is met, and along the next
+  for (int i = 0; i < 3; ++i) {  // along the first wall met, then along the next
     const Vec3 normal = object_.X_WO.q() * met.normal.e();
     const double lever = brake.dt + v.norm() / (2.0 * brake.acceleration);
     v -= (least + met.distance) / lever * normal;
@@ -183,7 +186,7 @@ Vec3 Inside::velocity(const Brake& brake, double here, const Vec3& wanted) noexc
     if (v.norm() > brake.speed) v *= brake.speed / v.norm();
     if (stops_inside(brake, here, v, met)) return v;
   }
-  // To brake was possible a tick ago, so it is now.
+  // Braking was possible a tick ago, so it is possible now.
   const Vec3 braked = slowed(brake.velocity, most);
   double good = 0.0;
   for (double bad = 1.0; bad - good > 0.1;) {

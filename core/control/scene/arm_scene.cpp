@@ -40,7 +40,7 @@ void check_gains(const ArmRig& rig, double rate) {
                   std::string("rig.arm.") + key);
 }
 
-// At home; elsewhere the law keeps the ratio.
+// Only the ratio at home is checked; elsewhere the law keeps it.
 void check_damping(const Impedance& law) {
   const double ratio = damping_ratio(law.rig, law.home_mass);
   if (ratio >= 1.0) return;
@@ -100,7 +100,7 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
   return object;
 }
 
-// What only holds a real thing gives out no push of a law.
+// An arm that only holds a real object gives out no push of a law.
 void check_arm_passivity(const ArmRig& rig, const Scene& scene) {
   const auto rendered = [](const Object& object) { return object.interaction.kind != Interaction::passive; };
   if (rig.passivity == PassivityForm::none || std::ranges::any_of(scene.objects, rendered)) return;
@@ -109,7 +109,7 @@ void check_arm_passivity(const ArmRig& rig, const Scene& scene) {
                    "rig.arm.passivity");
 }
 
-// m, along the axis of R along which it is most.
+// m, along the axis of R with the largest count.
 double count_of(const Impedance& law, double dt) {
   double most = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -126,7 +126,7 @@ bool gets_to(const Scene& scene, const Point<'W'>& p) {
   return law.arm.reaches(scene.X_WR.inverse() * p, law.rig.least_dexterity, q);
 }
 
-// How much of a unit way the tip can go: 1 for a machine with three joints.
+// Share of a unit direction along which the tip can move: 1 for a machine with three joints.
 double share_along(const Mat3& jacobian, const Vec3& way) {
   Eigen::ColPivHouseholderQR<Mat3> ways(jacobian);
   ways.setThreshold(1e-5);
@@ -134,10 +134,11 @@ double share_along(const Mat3& jacobian, const Vec3& way) {
   return along.head(ways.rank()).norm();
 }
 
-// Share of a unit normal along which a machine with few joints must go (assumed: no source).
+// Smallest such share of a unit normal for a machine with few joints (assumed: no source).
 constexpr double kLeastAlong = 0.1;
 
-// What is flat has one normal, and is rendered along it. A machine with few joints may not go that way.
+// A flat object has one normal and is rendered along it. A machine with few joints may be unable to move that
+// way.
 void check_ways(const SceneSpec& spec, const Scene& scene) {
   const Impedance& law = *scene.impedance();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -158,7 +159,7 @@ void check_ways(const SceneSpec& spec, const Scene& scene) {
   }
 }
 
-// The arm gets to a place of the object, and to where the user presses one.
+// The arm must reach some part of each object, and the point that the user presses.
 void check_arm_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
@@ -170,7 +171,8 @@ void check_arm_reach(const SceneSpec& spec, const Scene& scene) {
                     "', or only near a singular pose; move it nearer to the origin of W, the arm's home",
                 "object." + spec.objects[i].name + ".position");
   }
-  if (!spec.user || spec.user->kind != UserKind::press_release) return;  // others choose what is in reach
+  // other users choose points within reach
+  if (!spec.user || spec.user->kind != UserKind::press_release) return;
   const Object& pressed = scene.objects[pressed_object(spec.objects, spec.user->object, "user")];
   if (!pressed.met_in_its_middle() && !gets_to(scene, press_point(spec, *spec.user).point))
     throw Error(
@@ -187,7 +189,7 @@ double damping_ratio(const ArmRig& rig, double mass) {
 
 namespace {
 
-// The law of the rig's arm with the scene's prop, in a loop of period `dt`.
+// The law of the rig's arm with the scene's prop, for a loop of period `dt`.
 Impedance law_of(const SceneSpec& spec, const RigSpec& rig, double dt) {
   Impedance law{Arm(rig.arm.machine), rig.arm};
   if (spec.prop) {
@@ -235,7 +237,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   Impedance law = law_of(spec, rig, scene.dt);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   static_cast<Impedance&>(scene.task.emplace<Meet>()) = std::move(law);
-  scene.tip_radius = 0.0;  // a prop has a front
+  scene.tip_radius = 0.0;  // a prop has its surface in front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
   check_arm_passivity(rig.arm, scene);

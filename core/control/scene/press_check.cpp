@@ -15,7 +15,8 @@
 namespace enc {
 namespace {
 
-// All is round about H's z axis, so a half plane will do: distance from the axis, and height above H.
+// Everything is symmetric about H's z axis, so a half plane is enough: distance from the axis, and height
+// above H.
 using Place = Eigen::Vector2d;
 
 double to_segment(const Place& p, const Place& a, const Place& b) {
@@ -30,9 +31,9 @@ struct Body {
   [[nodiscard]] double to(const Place& p) const {
     return Place(std::max(p.x() - radius, 0.0), std::max({p.y() - top, bottom - p.y(), 0.0})).norm();
   }
-  // Of the line from a to b, where a is nearer to the axis. 0 where it passes through.
+  // Distance to the part of the line from a to b; a is nearer to the axis. 0 if the line passes through.
   [[nodiscard]] double to(const Place& a, const Place& b) const {
-    double from = 0.0, until = 1.0;  // share of the line that lies between top and bottom
+    double from = 0.0, until = 1.0;  // share of the line between top and bottom
     const double rise = b.y() - a.y();
     if (rise != 0.0) {
       const double one = (top - a.y()) / rise, other = (bottom - a.y()) / rise;
@@ -90,7 +91,7 @@ double steepest_press(const Scene& scene, const Tool& tool) {
 
 namespace {
 
-// The middle of a triangle, its outward normal and its area.
+// Centre of a triangle, its outward normal and its area.
 struct Facet {
   Vec3 on, normal;
   double area = 0.0;
@@ -103,7 +104,7 @@ Facet facet_of(const Mesh& mesh, std::size_t i) {
   return {(corner[0] + corner[1] + corner[2]) / 3.0, across.normalized(), 0.5 * across.norm()};
 }
 
-// A place of that depth near p; false where none is found.
+// Finds a position of that depth near p; false if no such position exists.
 bool place_of_depth(const Object& object, double depth, const Vec3& p, Point<'O'>& at) {
   ObjectHint hint;
   stages::Inside inside(object, depth, Vec<'W'>::zero(), hint);
@@ -112,7 +113,7 @@ bool place_of_depth(const Object& object, double depth, const Vec3& p, Point<'O'
   return inside.depth(found) >= depth - 1e-6;
 }
 
-// The deepest place near p, by halves.
+// Finds the deepest position near p by bisection.
 void deepen(const Object& object, double margin, const Vec3& p, Room& room) {
   double high = margin;
   Vec3 from = p;
@@ -129,8 +130,8 @@ void deepen(const Object& object, double margin, const Vec3& p, Room& room) {
   }
 }
 
-// The object has room if there is a place of it. Few triangles answer that mostly; all are asked before it is
-// said that there is none.
+// The object has room if one position has it. A few triangles usually show that. All triangles are tried
+// before the answer is no.
 void find_room(const Object& object, const Mesh& mesh, double margin, Room& room) {
   constexpr std::size_t kFew = 200;
   const std::size_t all = mesh.triangles.size();
@@ -149,11 +150,11 @@ void find_room(const Object& object, const Mesh& mesh, double margin, Room& room
   }
 }
 
-// Cosine between the normals of two sides that are opposite (assumed: no source).
+// Cosine between the normals of two opposite sides (assumed: no source).
 constexpr double kOpposite = -0.5;
 
-// Where the side opposite is nearer than the tip needs. Beside an edge another side is near, but not
-// opposite.
+// Finds where the opposite side is nearer than the tip needs. Near an edge another side is close, but it is
+// not opposite.
 void find_thin(const Object& object, const Mesh& mesh, double margin, Room& room) {
   room.thinnest = std::numeric_limits<double>::infinity();
   double area = 0.0, thin = 0.0;
@@ -167,7 +168,7 @@ void find_thin(const Object& object, const Mesh& mesh, double margin, Room& room
     if (-near.distance >= margin - 1e-6 || near.normal.e().dot(facet.normal) >= kOpposite) continue;
     thin += facet.area;
     if (margin - near.distance >= room.thinnest) continue;
-    room.thinnest = margin - near.distance;  // from this side to that one
+    room.thinnest = margin - near.distance;  // distance to the opposite side
     room.thin_at = Point<'O'>(facet.on);
   }
   room.thin = area > 0.0 ? thin / area : 0.0;

@@ -36,7 +36,7 @@ double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   return std::min(limit, curve);
 }
 
-// The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the
+// The deflection, at most `wanted`, up to which the object pushes back with at most `strength`. So the
 // machine is not asked to hold more than it can.
 double carried(const Response& response, double wanted, double strength) {
   if (response.press(wanted) <= strength) return wanted;
@@ -117,7 +117,7 @@ PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
 
 namespace {
 
-// What the user holds; null where there is nothing to hold.
+// The tool that the user holds; null if the scene has no tool.
 const Tool* used_tool(const SceneSpec& spec, const Scene& scene) {
   if (scene.tools.empty()) return nullptr;
   const auto named = std::find_if(spec.tools.begin(), spec.tools.end(),
@@ -125,14 +125,14 @@ const Tool* used_tool(const SceneSpec& spec, const Scene& scene) {
   return &scene.tools[named == spec.tools.end() ? 0 : static_cast<std::size_t>(named - spec.tools.begin())];
 }
 
-// A user's press must be possible from the first touch to the limit; an object nobody is told to press must
-// be touchable somewhere.
+// A user's press must be possible from the first touch to the limit. An object without a prescribed press
+// must be touchable somewhere.
 void check_reach(const SceneSpec& spec, const Scene& scene) {
   const std::string advice =
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.probe() != nullptr && scene.probe()->object == static_cast<std::int32_t>(i))
-      continue;  // it was looked at
+      continue;  // this object is checked already
     const Object& object = scene.objects[i];
     const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
@@ -198,8 +198,8 @@ LoopModel loop_of(const RigSpec& rig) {
 
 namespace {
 
-// How far along a ray a triangle is met; infinite if it is not [Moeller and Trumbore 1997]. A ray through an
-// edge must not slip through between two triangles, so they reach a little beyond it.
+// Distance along a ray to a triangle; infinite if the ray misses it [Moeller and Trumbore 1997]. A ray
+// through an edge must not slip through between two triangles, so they extend a little beyond it.
 double way_to(const Vec3& from, const Vec3& along, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   constexpr double kBeyond = 1e-9;
@@ -215,8 +215,8 @@ double way_to(const Vec3& from, const Vec3& along, const Vec3& a, const Vec3& b,
   return u >= -kBeyond && v >= -kBeyond && u + v <= 1.0 + kBeyond && way >= 0.0 ? way : kNever;
 }
 
-// Where a line that comes from outside along -axis and passes through `through` first meets the mesh, in O;
-// and the normal of the face there.
+// First point of the mesh, in O, on a line along -axis from outside through `through`; and the normal of the
+// face there.
 std::pair<Point<'O'>, Vec<'O'>> first_met(const Mesh& mesh, const Vec3& through, const Vec3& axis) {
   const auto corner = [&](std::int32_t i) { return Vec3(mesh.vertices[static_cast<std::size_t>(i)].data()); };
   double far = 0.0;
@@ -265,7 +265,7 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 
 namespace {
 
-// The task that the scene file asks for; where it asks for none, something is rendered.
+// The task that the scene file asks for; rendering if it asks for none.
 template <class... Task>
 void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& scene) {
   const auto ask = [&]<class One>(std::type_identity<One>) {
@@ -275,7 +275,7 @@ void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& sce
   (ask(std::type_identity<Task>{}), ...);
 }
 
-// The law of what is rendered, until another task is chosen.
+// The law of the rendered object, until another task is chosen.
 void set_law(const RigSpec& rig, Scene& scene) {
   if (rig.admittance.damping == Damping::observed)
     std::get<Render>(scene.task)
@@ -314,7 +314,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (const ToolSpec* tool = clamped_tool(spec)) {
     scene.clamped_tool = static_cast<std::int32_t>(tool - spec.tools.data());
     scene.grip_force = rig.gripper.force;
-    scene.force.mass += tool->mass;  // it is behind the sensor, too
+    scene.force.mass += tool->mass;  // the tool is behind the sensor, too
   }
   if (!scene.has_manipulator)
     throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
@@ -334,9 +334,9 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   return scene;
 }
 
-// ---- Checks that the chains of poses close: puts a ground truth together with plain matrices from the
-// numbers of the files, sends what the devices would read of it through the stages of a tick, and compares
-// the results.
+// ---- Checks that the chains of poses close. They build a ground truth with plain matrices from the numbers
+// of the files. Then they run the readings that devices would take of it through the stages of a tick, and
+// compare the results.
 
 namespace {
 
@@ -356,7 +356,7 @@ Mat4 back(const Mat4& M) {
   return matrix(turn, -turn * place_in(M));
 }
 
-// About fixed x, then y, then z, written out.
+// Rotation about fixed x, then y, then z, written out.
 Mat4 matrix(const PoseSpec& spec) {
   const double cx = std::cos(spec.rotation.x()), sx = std::sin(spec.rotation.x());
   const double cy = std::cos(spec.rotation.y()), sy = std::sin(spec.rotation.y());
@@ -373,7 +373,7 @@ Pose<A, B> pose(const Mat4& M) {
   return {Quat(turn_of(M)), place_in(M)};
 }
 
-// Somewhere, and turned: no pose of these is like another.
+// Arbitrary positions and rotations; all these poses differ.
 const PoseSpec kTool{{0.012, -0.021, 0.034}, {0.3, -0.5, 0.7}};
 const PoseSpec kTip{{0.004, -0.003, 0.006}, {0.02, -0.03, 0.05}};
 const PoseSpec kHeadset{{0.5, 0.2, -0.3}, {-0.2, 0.4, 1.1}};
@@ -392,7 +392,7 @@ class Chains {
   }
 
  private:
-  void add(double apart) {  // what is no number is no residual
+  void add(double apart) {  // NaN counts as an infinite residual
     worst_ = std::max(worst_, std::isfinite(apart) ? apart : std::numeric_limits<double>::infinity());
   }
   void compare(const Vec3& said, const Vec3& truth) { add((said - truth).norm()); }
@@ -467,8 +467,8 @@ class Chains {
     return W_R_ * matrix(Mat3::Identity(), arm.tip.e());
   }
 
-  // The nearest point to a place, queried in O and queried in W. A normal says nothing of the rotation about
-  // itself.
+  // Compares the surface point nearest to a position, queried in O and queried in W. A normal does not
+  // determine the rotation about itself.
   void object(const ObjectSpec& spec, const Object& object) {
     Mat4 W_O = matrix({spec.position, spec.rotation});
     if (!has_triangles(spec.shape)) {
@@ -487,7 +487,7 @@ class Chains {
     add(std::abs(in_W.distance - in_O.distance));
   }
 
-  const Vec3 kForce{1.0, -2.0, 3.0};  // on the tip, in W, N
+  const Vec3 kForce{1.0, -2.0, 3.0};  // acts on the tip, in W, N
   const SceneSpec& spec_;
   const RigSpec& rig_;
   const Scene& scene_;

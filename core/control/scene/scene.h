@@ -80,7 +80,7 @@ struct PressPoint {
 // first.
 struct PushedPoint {
   PressPoint at;
-  double depth = kUnset, force = kUnset;  // m, N: on the object's curve
+  double depth = kUnset, force = kUnset;  // m, N: by the object's curve
 };
 [[nodiscard]] PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene);
 

@@ -18,16 +18,16 @@ namespace enc {
 namespace {
 
 constexpr double kHold = 6.0, kWatched = 3.0;        // s
-constexpr std::array kDepths{1.0, 0.75, 0.5, 0.25};  // of the deepest, that are tried
-constexpr double kWaits = 2e-3;                      // m above the surface, where the push begins
-// The contact threshold over what wakes a swing that the loop could keep up, rms: 0.1 N over 0.02 N, the
-// noise of the paper's sensor (0.0144 N with its steps) and the tremor of who pushes.
+constexpr std::array kDepths{1.0, 0.75, 0.5, 0.25};  // shares of the largest depth that are tried
+constexpr double kWaits = 2e-3;                      // m above the surface, start of the push
+// Contact threshold over the rms of a disturbance that could start a sustained oscillation: 0.1 N over 0.02
+// N. The latter is the noise of the paper's sensor (0.0144 N with its steps) and the operator's tremor.
 constexpr double kOverNoise = 5.0;
-// What the twin and the loop here differ by, at most (derived: docs/notes/stiffness.md).
+// Largest difference between the twin and the loop here (derived: docs/notes/stiffness.md).
 constexpr double kMargin = 1.1;
-constexpr double kCareful = 0.75;  // of what counts as still, for the same reason
+constexpr double kCareful = 0.75;  // share of kStill, for that reason
 
-// White noise of rms 1, the same in every run.
+// White noise of rms 1, identical in every run.
 struct Noise {
   std::uint64_t state = 1;
   double operator()() {
@@ -36,7 +36,7 @@ struct Noise {
   }
 };
 
-// Second order with limits, as machines of this kind move.
+// Second order with limits, like machines of this kind.
 struct Machine {
   double at = 0.0, speed = 0.0;
   void move(double wanted, const LoopModel& loop, double acceleration, double most, double h) {
@@ -47,7 +47,7 @@ struct Machine {
   }
 };
 
-// The guard's limits, on a line.
+// The guard's limits in one dimension.
 struct Command {
   double at = 0.0, speed = 0.0;
   void go(double target, double acceleration, double most, double dt) {
@@ -82,6 +82,7 @@ LoopModel with_margin(LoopModel loop) {
 }
 
 }  // namespace
+   // machine gives way.
 
 Steadiness::Steadiness(const RigSpec& rig)
     : loop_(with_margin(loop_of(rig))),
@@ -97,7 +98,7 @@ Steadiness::Steadiness(const RigSpec& rig)
 
 double Steadiness::swing(const Response& object, double depth, double limit, double ramp,
                          double share) const {
-  // The servo's period in no less than 40 steps; 1 ms in no less than 4.
+  // Take at least 40 steps in the servo's period and at least 4 in 1 ms.
   const auto steps = static_cast<int>(std::ceil(dt_ * std::max(4e3, 40.0 * loop_.servo_hz)));
   const double h = dt_ / steps;
   const auto late = static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround(loop_.delay / dt_)));
@@ -123,7 +124,7 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
     const double pressed = std::max(0.0, force - threshold_);
     double target = 0.0;
     if (seen) {
-      // All that pushes on it, and so what the damper beside it takes, is as much more to a softer object.
+      // A softer object scales up everything that pushes on it, and with it the damper's part.
       carried = law_ ? share * law_->carry(object, at, carried / share, pressed / share,
                                            law_->observe(*seen, force, machine.at) / share, limit)
                      : pressed;
@@ -173,7 +174,7 @@ double Steadiness::softest(double depth, double force, double ramp) const {
     return stands(spring, most, limit, ramp);
   };
   constexpr double kSteps = 1.3, kNear = 1.02;
-  double high = 8.0 * loop_.hand_stiffness;  // of a loop that is of any use this is stable
+  double high = 8.0 * loop_.hand_stiffness;  // any useful loop is stable at this stiffness
   while (!so_soft(high) && high < 1e6) high *= 2.0;
   double low = high / kSteps;
   while (so_soft(low)) {

@@ -16,7 +16,7 @@ namespace enc {
 struct RigSpec;
 
 // A push of the rig's operator model along the normal: a minimum-jerk ramp, then a hold. A quick push can
-// start an oscillation where a slow one does not, because commands lag at the machine's acceleration.
+// start an oscillation that a slow one does not start, because commands lag at the machine's acceleration.
 class Steadiness {
  public:
   // m, peak to peak: a smaller oscillation counts as stable. Assumed: a person feels 0.3 mm, but not as a

@@ -9,16 +9,16 @@
 namespace enc::stages {
 namespace {
 
-// m, m/s, m/s^2: a sample beyond these is wrong (assumed: a hundred times a machine's reach and speed).
+// m, m/s, m/s^2: a sample beyond these is invalid (assumed: a hundred times a machine's reach and speed).
 constexpr double kFarthest = 10.0, kFastest = 10.0, kMostAcceleration = 1e3;
-// rad: a machine turned by more must be turned back by its own means first (assumed: no source).
+// rad: a machine turned by more must first be turned back by its own means (assumed: no source).
 constexpr double kTurned = 2e-3;
-// m and N: jaws that are open farther or press harder are wrong (assumed: a hundred times any gripper).
+// m and N: jaws that are open farther or press harder are invalid (assumed: a hundred times any gripper).
 constexpr double kWidestJaws = 1.0, kMostGrip = 1e4;
 // m: the machine is back where its command is (assumed: no source).
 constexpr double kBack = 1e-3;
 
-// The core commands nothing before the machine has reported its position, and begins anew there.
+// The core sends no command before the machine has reported its position, and starts from there.
 void begin_anew(CommonState& state, Commanded& now) {
   state.started = false;
   state.entered = false;
@@ -45,7 +45,7 @@ void track_tip(Walk& walk, CommonState& state, Commanded& now) {
   }
   walk.X_WH = walk.scene.X_WR * tip.X_RH;
   if (!state.started) {
-    // Commands keep W's axes: a machine that stands turned must be turned back by its own means first.
+    // Commands keep W's axes, so a turned machine must first be turned back by its own means.
     if (walk.X_WH.q().angularDistance(Quat::Identity()) > kTurned) {
       walk.why |= kTipInvalid;
       return;
@@ -53,7 +53,7 @@ void track_tip(Walk& walk, CommonState& state, Commanded& now) {
     state.started = true;
     now.command = tip.X_RH.origin();
   }
-  // A withheld command needs no following, and is forgotten.
+  // A withheld command needs no following check, so that check starts anew.
   if (walk.in.withheld)
     now.following = Following{};
   else if (!follows(walk.scene.servo, now.command, now.command_velocity, tip.X_RH.origin(), now.following))
@@ -82,8 +82,8 @@ void grip(Walk& walk) noexcept {
     walk.why |= kToolNotHeld;
 }
 
-// A machine that did not follow may go on at any time: the hold lasts until the tool has gone and the command
-// is back where the machine is; where nobody sees a tool, to the end.
+// A machine that did not follow may move on at any time. The hold lasts until the tool has gone and the
+// command is back at the machine's position. Without a view of the tool it lasts to the end.
 void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept {
   if (!now.following.lost) return;
   const bool back = (walk.X_WH.origin() - walk.scene.X_WR * now.command).norm() < kBack;  // false for NaN
@@ -97,15 +97,16 @@ void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept {
   }
 }
 
-// ---- Force on the haptic-tip: zero error, weight and inertia of the parts behind the sensor are subtracted,
-// and the rest is low-passed [VHMR 3.4].
+// ---- Force on the haptic-tip: the zero error, and the weight and inertia of the parts behind the sensor,
+// are subtracted. The rest is low-passed [VHMR 3.4].
 
 namespace {
 
-constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind reads more
-constexpr double kFreeTareTime = 2.0;  // s: how slowly the zero follows while the tool is clear
+constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind measures more
+constexpr double kFreeTareTime = 2.0;  // s: time constant of the zero while the tool is clear
 
-// The zero is the mean of the last window but one: no part of a touch is in it, however slowly it begins.
+// The zero is the mean of the last window but one, so it contains no part of a touch, however slowly that
+// begins.
 void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
   if (now.tare_window == 0.0 || !clear) now.tare_mean = Vec<'F'>::zero();
   if (!clear) {
@@ -121,7 +122,7 @@ void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commande
   now.tare_window = 0.0;
 }
 
-// The running mean of the first tare_time becomes the zero; after that it is as the rig says.
+// The running mean of the first tare_time becomes the zero; after that the rig's setting applies.
 void tare(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
   const ForceRig& rig = walk.scene.force;
   const bool first = now.tared < rig.tare_time;
@@ -134,7 +135,7 @@ void tare(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now
 
 }  // namespace
 
-// A tool that is not seen may be anywhere, and in a hold nothing is as it should be: then nothing is learnt.
+// The force zero does not change while the tool is unseen or in a hold: the tool may be anywhere.
 void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept {
   if (!walk.scene.has_force) return;
   const auto& sample = walk.in.wrench;

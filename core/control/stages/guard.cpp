@@ -8,7 +8,7 @@
 namespace enc::stages {
 namespace {
 
-// The part of the way to the target that the machine can reach.
+// The part of the path to the target that the machine can reach.
 Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
   const Quat q = walk.scene.X_WR.q().conjugate();
   const auto ok = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
@@ -23,9 +23,9 @@ Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
   return from + lo * (to - from);
 }
 
-// Speed and acceleration stay within the machine's limits. The way along the normal comes first and is
-// one-dimensional, so that the command can never overshoot the surface or the deflection limit, whatever the
-// target does; the sideways way gets the rest.
+// Keeps speed and acceleration within the machine's limits. The normal comes first and is one-dimensional, so
+// the command can never overshoot the surface or the deflection limit, whatever the target does. The sideways
+// motion gets the rest.
 Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& before) {
   const double dt = walk.scene.dt;
   const Reach& reach = walk.scene.reach;
@@ -38,10 +38,10 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   const double v0 = walls.normal.dot(before);
   const Vec3 side_before = before - v0 * walls.normal;
   double wanted = std::copysign(toward(std::abs(along)), along);
-  // Beyond the surface the way leads back in.
+  // Beyond the surface, move back in.
   const double outward = walls.out >= 0.0 ? toward(walls.out) : -toward(-walls.out);
   wanted = std::clamp(wanted, std::min(outward, -toward(std::max(0.0, walls.in))), outward);
-  // Not faster than what the sideways way can make room for in this tick.
+  // Not faster than the sideways motion can make room for in this tick.
   const double side_least = std::max(0.0, side_before.norm() - kSideShare * most);
   const double room = std::sqrt(std::max(0.0, reach.speed * reach.speed - side_least * side_least));
   const double v =
@@ -64,11 +64,11 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   return side + v * walls.normal;
 }
 
-// The walls know the side that is nearest; beside an edge there are others.
+// The walls describe the nearest side only; beside an edge there are others.
 Vec3 kept_inside(Walk& walk, CommonState& state, const Commanded& now, const Walls& walls,
                  const Vec3& wanted) {
   if (std::isnan(walls.depth)) return wanted;
-  // Mostly there is room for the whole way that it takes to stop.
+  // Usually there is room for the whole stopping distance.
   const double speed = wanted.norm();
   const double way = speed * (walk.scene.dt + speed / (2.0 * walk.scene.reach.acceleration));
   if (walls.depth - way >= least_depth(walk)) return wanted;
@@ -84,13 +84,14 @@ Vec3 commanded(Walk& walk, CommonState& state, const Commanded& now, const Walls
   const double acceleration = walk.scene.reach.acceleration;
   const Vec3 straight = slowed(before, acceleration * dt);
   if ((walk.why & kNotFollowing) != 0 && walk.X_WH.valid())
-    // Back to where the machine is, or it would leap to the command as soon as it can.
+    // Move back to the machine's position. Otherwise the machine would jump to the command as soon as it can
+    // move.
     return kept_inside(
         walk, state, now, walls,
         next_velocity(walk, walls, walk.X_WH.p() - (walk.scene.X_WR * now.command).e(), before));
   if (holding(walk)) {
-    // Straight to a standstill, unless that would carry the tip out of the object; a tip that is outside is
-    // brought back in.
+    // Brake straight to standstill, unless that would carry the tip out of the object. A tip that is outside
+    // is brought back in.
     const bool safe = walls.out >= 0.0 &&
                       walls.normal.dot(straight) <= approach_speed(walls.out, kAlongShare * acceleration, dt);
     return safe ? straight
@@ -106,13 +107,13 @@ Vec3 commanded(Walk& walk, CommonState& state, const Commanded& now, const Walls
                      next_velocity(walk, walls, walk.scene.X_WR.q() * (target - now.command).e(), before));
 }
 
-// From base to platform, in R.
+// Vector from base to platform, in R.
 Vec3 strut_of(const Hexapod& machine, const Point<'R'>& at, const Mat3& R, int leg) {
   return at.e() + R * machine.platform_joint(leg) - machine.base_joint(leg);
 }
 
-// Legs have a shortest length, so the reach is not convex: a way of 3 mm between two points within it can
-// leave it by 8 um. Each leg is shortest where the way is at right angles to it.
+// Legs have a shortest length, so the reach is not convex: a path of 3 mm between two points within it can
+// leave it by 8 um. Each leg is shortest where the path is at right angles to it.
 bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const Vec3& way) {
   const double shortest = machine.zero_length() - machine.geometry().stroke;
   const Mat3 R = from.q().toRotationMatrix();
@@ -128,17 +129,17 @@ bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const 
 // the machine is slow).
 constexpr double kAtEnd = 0.1e-3;
 
-// Along the edge of the reach: without what shortens a leg that is shortest or lengthens one that is longest.
-// The way to a place within it may begin with one that leads out of it, as the reach is not convex and the
-// way along a normal comes first; who stops there stays there.
+// Velocity along the edge of the reach, without the part that shortens the shortest leg or lengthens the
+// longest one. The path to a reachable target may start outwards, because the reach is not convex and the
+// normal comes first. A tip that stopped there would stay there.
 Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity, double braking_time) {
   const Mat3 R = at.q().toRotationMatrix();
   const double stroke = machine.geometry().stroke;
-  for (int again = 0; again < 3; ++again) {  // what helps one leg may not help the one beside it
+  for (int again = 0; again < 3; ++again) {  // a correction for one leg may not suit the next one
     for (int leg = 0; leg < 6; ++leg) {
       const Vec3 strut = strut_of(machine, at.origin(), R, leg);
       const double out = strut.norm() - machine.zero_length(), along = strut.dot(velocity);
-      // Straight on at right angles to it a leg gets longer: by v^2 t / 2 of the way in the time t.
+      // Straight motion at right angles to a leg lengthens it by v^2 t / 2 over its length in the time t.
       const double longer = velocity.squaredNorm() * braking_time;
       if (out < kAtEnd - stroke && along < 0.0) velocity -= strut * (along / strut.squaredNorm());
       if (out > stroke - kAtEnd && along > -longer)
@@ -164,8 +165,8 @@ void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& 
   const Quat q_RH = q_WR.conjugate();
   const Vec3 before = now.command_velocity.e();
   Vec3 after = q_RH * commanded(walk, state, now, walls, q_WR * before);
-  // Where the machine would come to rest if it braked from the next tick on: that must be within reach, and
-  // the way there, too.
+  // If the machine braked from the next tick on, its stopping position and the path there must be within
+  // reach.
   const Reach& reach = walk.scene.reach;
   const Pose<'R', 'H'> from(q_RH, now.command);
   const auto safe = [&](const Vec3& velocity) {
@@ -175,7 +176,7 @@ void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& 
   };
   if (!safe(after) && reach.contains(from)) {
     walk.why |= kUnreachable;
-    // It does not go along the edge where it shall stand. Inside of an object it stays inside on that way.
+    // A held machine does not move along the edge. Inside an object, the tip stays inside on that path.
     const bool goes = !holding(walk);
     const double braking_time = dt + after.norm() / (2.0 * acceleration);
     Vec3 aside = goes ? along_edge(reach.machine, from, after, braking_time) : before;

@@ -6,8 +6,8 @@
 namespace enc {
 namespace {
 
-// Where the haptic-tip will be when this view is seen, in the middle: carried on by its own velocity. No
-// deeper than the object's limit, where the machine stops it.
+// Extrapolates the haptic-tip by its own velocity to the middle of the time for which this view is shown. It
+// goes no deeper than the object's limit, where the machine stops it.
 Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const CommonState& state, const Contact& contact) {
   const TipSample& sample = walk.in.tip.value;
   const double ahead = walk.scene.display.lead + age(walk.tick.t, walk.in.tip.t);
@@ -19,7 +19,8 @@ Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const CommonState& state, 
   return over > 0.0 ? tip + over * (contact.X_WN * Vec<'N'>(0, 0, 1)) : tip;
 }
 
-// The same of a tool that does not press, by the tracker's prediction; where it holds, nothing is ahead.
+// Extrapolates a tool that does not press, by the tracker's prediction; Prediction::hold extrapolates
+// nothing.
 Point<'W'> free_tip_ahead(const stages::Walk& walk, const CommonState& state) {
   const TrackerRig& rig = walk.scene.tracker;
   if (rig.prediction == Prediction::hold) return walk.tool_tip;
@@ -46,10 +47,10 @@ SeenTool seen_tool(const stages::Walk& walk, const CommonState& state, const Con
   const Point<'W'> free = free_tip_ahead(walk, state);
   Vec<'W'> shift = free - walk.tool_tip;
   if (contact != nullptr && state.mode == Mode::contact && walk.felt.finite() && walk.X_WH.valid()) {
-    // Before the low-pass: a tool that has left is not to be held back by what was felt of it.
+    // Use the force before the low-pass: the filtered force would hold back a tool that has left.
     const double force = -dot(walk.felt, contact->X_WN * Vec<'N'>(0, 0, 1));
     const double apart = walk.tool_radius + walk.scene.tip_radius - rig.compliance * std::max(0.0, force);
-    // The direction from now, the place from then.
+    // The direction is the present one, the position the extrapolated one.
     const Vec<'W'> beside = touching(walk.X_WH.origin(), apart, walk.tool_tip) - walk.X_WH.origin();
     const double share = pressing_share(force, walk.scene.force.contact);
     shift = shift + share * (haptic_tip_ahead(walk, state, *contact) + beside - free);
@@ -80,7 +81,7 @@ void report_common(const Walk& walk, const CommonState& state, const Quat& q_WN,
 }
 
 void report_displaced(const Walk& walk, const Commanded& now, Outputs& out) noexcept {
-  // Also in hold: to let go would drop the tool.
+  // Also in a hold: opening the jaws would drop the tool.
   if (walk.scene.clamped_tool >= 0) out.grip = {true, walk.scene.grip_force};
   out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate(), now.command);
 }

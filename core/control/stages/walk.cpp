@@ -8,8 +8,8 @@
 
 namespace enc::stages {
 
-// ---- Pose of the tool and its tip at this tick: the newest pose carried on to now, with a check of its age
-// [VHMR 3.3].
+// ---- Pose of the tool and its tip at this tick: the newest pose extrapolated to now, with a check of its
+// age [VHMR 3.3].
 
 namespace {
 
@@ -34,7 +34,7 @@ void judge_age(Walk& walk, const CommonState& state) {
   if (old <= walk.scene.tracker.lost_age) {
     walk.why |= kToolPredicted;
   } else if (state.mode == Mode::away) {
-    walk.tool_known = false;  // nobody is near: a tool out of sight is simply away
+    walk.tool_known = false;  // mode is away: a tool out of sight is simply away
     walk.why |= kToolUnseen;
   } else {
     walk.why |= kToolLost;
@@ -50,8 +50,8 @@ void take_in(const Walk& walk, CommonState& state, bool pressing) {
           noise_of(rig, pose, walk.scene.X_WC), state.tip_motion, pressing);
 }
 
-// The way from `from` to `to` ends where the tool's tip meets the haptic-tip: a prediction knows nothing of a
-// touch before the poses show it, and would see the tool go on right through the machine.
+// The path from `from` to `to` ends where the tool's tip meets the haptic-tip. A prediction ignores a touch
+// until the poses show it, and would carry the tool right through the machine.
 Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
   if (!walk.stops_tool || !walk.X_WH.valid()) return to;
@@ -68,8 +68,8 @@ Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>
   return share < 1.0 ? Point<'W'>(Vec3(from.e() + share * way)) : to;
 }
 
-// The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
-// felt of it, and where it turns the tip, that is in the tip's own motion.
+// Extrapolates the tip from the newest pose. The tool moves with the tip and keeps that pose's rotation: its
+// rotation is not rendered, and its effect on the tip is part of the tip's own motion.
 void carry_on(Walk& walk, const CommonState& state) {
   const TipMotion& motion = state.tip_motion;
   const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
@@ -97,7 +97,7 @@ void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept {
     walk.why |= kToolUnseen;
     return;
   }
-  // A clamped tool is seen, recorded and drawn, but it presses nothing: it goes where the tip goes.
+  // A clamped tool is seen, recorded and drawn, but it presses nothing: it moves with the tip.
   walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
@@ -131,11 +131,11 @@ struct Query {
   const CommonScene& scene;
   std::span<const Moved> moved;
   Point<'W'> p;
-  double radius = 0.0;         // of what asks, m
-  bool touched_first = false;  // what is touched comes before all that is not
+  double radius = 0.0;         // radius of the finger, tool or tip, m
+  bool touched_first = false;  // prefer any touched object to every untouched one
 };
 
-// The surface where it stands now.
+// The surface at its present position.
 NearestInWorld nearest(const Query& query, std::int32_t index, ObjectHint& hint) noexcept {
   const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
   if (object.moving < 0) return stages::nearest(query.scene, index, query.p, hint);
@@ -159,14 +159,14 @@ bool is_button(const Query& query, std::int32_t index) {
   const Surface& surface = query.scene.objects[static_cast<std::size_t>(index)].surface;
   return std::holds_alternative<Button>(surface.shape());
 }
-// A button is touched on its face alone: beside it the gap is the way to its edge.
+// Only the face of a button is touched. Beside the face, the gap is the distance to its edge.
 bool beside(const Query& query, const ObjectHint& at) {
   return at.feature == kButtonSide && is_button(query, at.object);
 }
 
-// The less, the sooner an object is taken. Another one must be nearer than that of last time by
-// follow.hysteresis, so that a tool between two does not flicker. But an arm renders what is touched: there
-// any object that is touched comes before all that are not.
+// The object with the smallest score is chosen. Another object must be nearer than the previous one by
+// follow.hysteresis, so that a tool between two does not make the choice flicker. An arm renders touch, so
+// for an arm any touched object precedes all others.
 constexpr double kTouched = 10.0;  // m
 double score_of(const Query& query, const Candidate& found, double favour) {
   const bool first = query.touched_first && found.at.distance <= query.radius && !beside(query, found.hint);
@@ -177,8 +177,8 @@ double least_score(const Query& query, const Object& object) {
   return query.touched_first && least <= query.radius ? least - kTouched : least;
 }
 
-// The nearest object. Objects whose ball is farther than the best so far are not asked; the one of last time
-// is asked first, so that these are many.
+// The nearest object. Objects whose bounding ball is farther than the best so far are skipped. The previous
+// object is queried first, so that this skips many.
 Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
   const std::vector<Object>& objects = query.scene.objects;
   Candidate best;
@@ -203,8 +203,9 @@ Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
   return best;
 }
 
-// Where the finger or the tool will be, but not beyond the first surface on its way: a machine needs time to
-// go from one object to the next, and a hand that comes obliquely changes its nearest object at the last.
+// Position of the finger or the tool after follow.ahead, but not beyond the first surface on its path. A
+// machine needs time to move from one object to the next, and a hand on an oblique path changes its nearest
+// object late.
 Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
   Query later = query;
   const double way = query.scene.follow.ahead * velocity.norm();
@@ -213,7 +214,8 @@ Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
   return later;
 }
 
-// The nearest object; if the scene looks ahead that of the time ahead, or of the place where it will touch.
+// The nearest object. If the scene looks ahead, it is the object nearest at the extrapolated time or at the
+// predicted touch.
 Candidate chosen_object(const Query& query, const CommonState& state, const Point<'W'>& comes_to,
                         Hints& hints) {
   const Candidate here = nearest_object(query, state.object, hints);
@@ -227,7 +229,7 @@ Candidate chosen_object(const Query& query, const CommonState& state, const Poin
   return there;
 }
 
-// Of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
+// Surface of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
 NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHint& hint) {
   const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
   Query over = query;
@@ -239,12 +241,12 @@ NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHin
   return nearest(over, index, hint);
 }
 
-// m: the surface point moves farther than the tool by so much only where another part has become the nearest
+// m: the surface point moves this much farther than the tool only if another part has become the nearest
 // (assumed: no source).
 constexpr double kJump = 1e-3;
 
-// The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
-// does not; by more only where another part has become the nearest.
+// Over a bulge, the point under the tool moves no faster than the tool, and elsewhere hardly faster. It moves
+// farther only if another part has become the nearest.
 void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const Point<'W'>& query) {
   // Before the first tick with a tool, `before` is unset, and that is no jump.
   const double moved = (query - before).norm();
@@ -256,8 +258,8 @@ void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const
 }  // namespace
 
 void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept {
-  // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
-  // makes a contact.
+  // Without a tracker the tip itself is the query. It then waits at its own nearest surface point, and force
+  // alone makes a contact.
   const bool by_tool = walk.scene.has_tracker;
   const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
   if (by_tool && !walk.tool_known) return;

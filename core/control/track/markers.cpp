@@ -11,7 +11,7 @@
 namespace enc {
 namespace {
 
-// A way to take what is seen for a tool's markers: of each that is seen, the number of its marker.
+// An assignment of seen points to a tool's markers: the marker's index for each seen point.
 using Order = std::array<std::size_t, kMostMarkers>;
 
 struct RigidFit {
@@ -19,8 +19,8 @@ struct RigidFit {
   double rms = std::numeric_limits<double>::infinity();
 };
 
-// The rigid motion that takes the markers to where they are seen best: least squares, by the singular values
-// of the product of both [Arun 1987; Umeyama 1991].
+// The rigid motion that best fits the markers to the seen points: least squares, by the singular values of
+// their product [Arun 1987; Umeyama 1991].
 RigidFit fitted_motion(std::span<const Vec3> seen, std::span<const Vec3> markers, const Order& order) {
   const auto count = static_cast<double>(seen.size());
   Vec3 middle_C = Vec3::Zero(), middle_T = Vec3::Zero();
@@ -41,7 +41,7 @@ RigidFit fitted_motion(std::span<const Vec3> seen, std::span<const Vec3> markers
   return {{Quat(turn).normalized(), Vec3(middle_C - turn * middle_T)}, std::sqrt(squares / count)};
 }
 
-// Every order in which all distances agree, each to `judge`, until that says false: enough.
+// Passes each order in which all distances agree to `judge`, until that returns false.
 template <class Judge>
 class Orders {
  public:
@@ -72,7 +72,7 @@ class Orders {
     return true;
   }
 
-  // Of ways that are begun. Markers of a tool whose distances all differ need some hundred.
+  // Limit on attempted orders. Markers of a tool whose distances all differ need some hundred.
   static constexpr int kMostWays = 100'000;
   int ways_ = 0;
   std::span<const Vec3> seen_, markers_;

@@ -6,13 +6,14 @@
 namespace enc {
 namespace {
 
-// A hand does not leap by more than this between two poses: another tool was taken for it, or it came back.
+// A hand does not jump by more than this between two poses: another tool was recognised, or the hand came
+// back.
 constexpr double kFastest = 5.0;  // m/s
 constexpr double kLeap = 5e-3;    // m
-// What is known of a tool that has just come into view.
+// Prior uncertainty of a tool that has just come into view.
 constexpr double kSpeed = 0.3;         // m/s rms
 constexpr double kAcceleration = 3.0;  // m/s^2 rms
-// After the longest prediction the tip is thought to come to rest within this time (sources/tracking 5: 200
+// After the longest prediction, the tip is assumed to come to rest within this time (sources/tracking 5: 200
 // ms in all).
 constexpr double kSlowDown = 0.1;  // s
 
@@ -29,13 +30,13 @@ void begin(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& t
   }
 }
 
-// The time for which speed and acceleration may be carried on from a pose that is `old`, s.
+// Time for which speed and acceleration may be extrapolated from a pose of age `old`, s.
 double carried_on(const TrackerRig& rig, double old) {
   const double late = std::clamp(old - rig.longest_prediction, 0.0, kSlowDown);
   return std::clamp(old, 0.0, rig.longest_prediction) + late - 0.5 * late * late / kSlowDown;
 }
 
-// A covariance h s later. White noise drives the acceleration (constant velocity) or the jerk (constant
+// The covariance h s later. White noise drives the acceleration (constant velocity) or the jerk (constant
 // acceleration) [Bar-Shalom, Estimation with Applications, 6.2]; `noise` is its density.
 void propagate(const TrackerRig& rig, double h, double noise, AxisDoubt& d) {
   // P <- F P F', F = [1 h h^2/2; 0 1 h; 0 0 1], row by row.
@@ -73,12 +74,12 @@ void propagate(const TrackerRig& rig, double h, double noise, TipMotion& m) {
   propagate(rig, h, noise, m.across);
 }
 
-// Times sigma (derived: of three axes together, noise alone is beyond four sigma once in 900 poses, beyond
-// three once in 34: that would be in every tenth approach).
+// Times sigma (derived: with three axes together, noise alone exceeds four sigma once in 900 poses and three
+// sigma once in 34, which would be in every tenth approach).
 constexpr double kSigmas = 4.0;
 
-// A hand keeps its speed for long and then changes it at once: a pose that is farther off than kSigmas is
-// explained by as much acceleration as it takes, and not by noise [Bar-Shalom 11.2].
+// A hand keeps its speed for long and then changes it suddenly. A pose farther off than kSigmas is explained
+// by as much acceleration as it takes, not by noise [Bar-Shalom 11.2].
 double surprised(const TrackerRig& rig, double h, const Vec3& innovation, const TipNoise& noise,
                  const TipMotion& m) {
   const double along = m.along.xx + square(noise.along);
@@ -86,7 +87,8 @@ double surprised(const TrackerRig& rig, double h, const Vec3& innovation, const 
   const double deep = square(noise.view.e().dot(innovation)), all = innovation.squaredNorm();
   const double far = across > 0.0 ? (all - deep) / across + (along > 0.0 ? deep / along : 0.0) : HUGE_VAL;
   if (rig.surprise_noise <= rig.acceleration_noise || far <= square(kSigmas)) return 0.0;
-  // x = q h^3 / 3 more on each axis makes it usual: deep / (along + x) + (all - deep) / (across + x) = 3.
+  // Adding x = q h^3 / 3 on each axis makes the innovation usual: deep / (along + x) + (all - deep) / (across
+  // + x) = 3.
   const double half = 0.5 * (along + across - all / 3.0);
   const double rest = along * across - (deep * across + (all - deep) * along) / 3.0;
   const double x = std::sqrt(std::max(0.0, half * half - rest)) - half;
@@ -100,7 +102,7 @@ struct Gains {
 Gains correct(double noise, AxisDoubt& d) {
   Gains k;
   const double s = d.xx + square(noise);
-  if (s > 0.0) k = {d.xx / s, d.xv / s, d.xa / s};  // neither noise nor doubt: the pose is the truth
+  if (s > 0.0) k = {d.xx / s, d.xv / s, d.xa / s};  // neither noise nor uncertainty: the pose is exact
   d.vv -= k.v * d.xv;
   d.va -= k.v * d.xa;
   d.aa -= k.a * d.xa;
@@ -131,7 +133,7 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
   if (rig.prediction == Prediction::hold || motion.tool != tool)
     return begin(rig, tool, t, tip, noise, motion);
   const double h = age(t, motion.t);
-  // What was known of its speed is worth nothing after so long.
+  // After so long, the estimated speed is worthless.
   if (h > rig.longest_prediction) return begin(rig, tool, t, tip, noise, motion);
   TipMotion next = motion;
   const bool velocity = rig.prediction == Prediction::constant_velocity;
@@ -152,7 +154,7 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
 
 void correct_now(const TrackerRig& rig, Time now, const Vec<'W'>& off, TipMotion& motion) noexcept {
   if (rig.prediction == Prediction::hold || motion.tool < 0) return;
-  // Depth alone is what pictures know badly, and what they are corrected by.
+  // Only depth is corrected, because pictures measure it badly.
   const AxisDoubt& d = motion.along;
   const double h = carried_on(rig, age(now, motion.t)), k = 0.5 * h * h;
   const double x = d.xx + h * d.xv + k * d.xa, v = d.xv + h * d.vv + k * d.va, a = d.xa + h * d.va + k * d.aa;

@@ -12,28 +12,26 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr double kCrosses = 0.7;  // share of a correction's time at which it crosses the surface
 constexpr MinimumJerk kAtCrossing(kCrosses);
-constexpr double kOverlap =
-    0.8;  // a correction begins when at least so much of the first movement's time is over
-constexpr double kLongest = 3.0;  // longest correction over the shortest
-constexpr double kLeastShare =
-    0.6;                       // of its way a first movement has made, at least, where it crosses the surface
-constexpr double kWide = 1.0;  // m, m/s: where a hand is and goes, as long as nothing is known of it
-constexpr double kVague = 1.0 / (kWide * kWide);  // 1/m^2, 1/(m/s)^2: the weight of that
-constexpr double kExact = 1e8;                    // 1/m^2: the weight of what is so to 0.1 mm
-// Share of the hands that come with an even speed, or pass by. Chosen: these are told best with a large one,
-// and to reaches, which the pictures tell apart by themselves, it makes no difference from 0.2 to 0.99.
+constexpr double kOverlap = 0.8;     // least share of the first movement's time before a correction
+constexpr double kLongest = 3.0;     // longest correction over the shortest
+constexpr double kLeastShare = 0.6;  // least share of a first movement at the surface
+constexpr double kWide = 1.0;        // m, m/s: position and speed of a hand before anything is known about it
+constexpr double kVague = 1.0 / (kWide * kWide);  // 1/m^2, 1/(m/s)^2: the weight of that prior
+constexpr double kExact = 1e8;                    // 1/m^2: the weight of a value known to 0.1 mm
+// Share of the hands that come at constant speed or pass by. Chosen: a large value predicts these best. It
+// makes no difference to reaches from 0.2 to 0.99, because the pictures distinguish them by themselves.
 constexpr double kEven = 0.95;
-constexpr double kLength = 0.17;    // m, of a first movement, to begin with
-constexpr double kShortest = 0.02;  // m, of one that is found
-constexpr double kOldest = 1.0;     // s, of a picture
+constexpr double kLength = 0.17;    // m, initial length of a first movement
+constexpr double kShortest = 0.02;  // m, least estimated length
+constexpr double kOldest = 1.0;     // s, oldest usable picture
 
 struct Tries {
-  int times, corrections, begins;  // of the first movement; of the second, or of how far the first has got
+  int times, corrections, begins;  // trials: first movement, second, progress of the first
 };
 constexpr Tries kFew{12, 3, 2}, kAll{12, 5, 3};
 
-// Three unknowns a, b and c, each value seen as a + u b + v c: the left sides of the normal equations, which
-// axes share, and the right ones of an axis. Weights are 1 / variance.
+// Normal equations of three unknowns a, b and c, where each value is a + u b + v c. All axes share the left
+// sides; each axis has a right side of its own. Weights are 1 / variance.
 struct Left {
   double a = 0.0, ab = 0.0, b = 0.0, ac = 0.0, bc = 0.0, c = 0.0;
   void see(double u, double v, double weight) {
@@ -53,7 +51,7 @@ struct Right {
     c += weighted * v;
   }
 };
-// Of Gauss: a and b are taken out, what is left speaks of c alone.
+// Gaussian elimination: a and b are eliminated, and the rest depends on c alone.
 struct Pivots {
   double a, ab, b, ac, bc, c;
   explicit Pivots(const Left& m)
@@ -65,28 +63,27 @@ struct Pivots {
         c(m.c - ac * m.ac - bc * bc * b) {}
 };
 struct Known {
-  double a, b, c;  // of the right side
-  double agrees;   // twice the logarithm of how probable all is, as far as a and b go
+  double a, b, c;  // right side
+  double agrees;   // twice the logarithm of the probability, as far as a and b determine it
   Known(const Pivots& p, const Right& r)
       : a(r.a), b(r.b - p.ab * a), c(r.c - p.ac * a - p.bc * b), agrees(a * a / p.a + b * b / p.b) {}
-  // The unknowns, c being known.
+  // The unknowns for a given c.
   [[nodiscard]] Vec3 solved(const Pivots& p, double last) const {
     const double middle = b / p.b - p.bc * last;
     return {a / p.a - p.ab * middle - p.ac * last, middle, last};
   }
 };
 
-// The pictures, turned about the normal so that the hand's way has no y; and what the belief makes of that
-// way.
+// The pictures, turned about the normal so that the hand's path has no y; and the prior of that path.
 struct Seen {
   std::array<Sighting, kSightings> turned;
   std::size_t count = 0;
-  double weight = kUnset;                     // of what one of them says, 1 / m^2
-  Vec2 x = Vec2::UnitX(), y = Vec2::UnitY();  // turned, in the axes that were given
-  double length = kLength;                    // m, of the first movement
-  Eigen::Matrix2d left_xz;  // one over the covariance of what is left when the first movement is over, 1/m^2
-  double left_y = kUnset;   // one over its variance, 1/m^2
-  double certain = kUnset;  // logarithm of how narrow both are
+  double weight = kUnset;                     // weight of one picture, 1 / m^2
+  Vec2 x = Vec2::UnitX(), y = Vec2::UnitY();  // turned axes, in the given ones
+  double length = kLength;                    // m, length of the first movement
+  Eigen::Matrix2d left_xz;  // inverse covariance of the error left after the first movement, 1/m^2
+  double left_y = kUnset;   // its inverse variance, 1/m^2
+  double certain = kUnset;  // log-precision of both
 
   Seen(const ReachBelief& hand, std::span<const Sighting> pictures, double noise_of, const Vec3& first)
       : count(std::min(pictures.size(), kSightings)),
@@ -110,21 +107,21 @@ struct Seen {
   [[nodiscard]] Vec2 given(const Vec2& place) const { return place.x() * x + place.y() * y; }
 };
 
-// When the movements of a reach that touches now begin, s from now, and how long they take.
+// Start (s from now) and duration of the movements of a reach that touches now.
 struct Timing {
   double begins = kUnset, first = kUnset, corrects = kUnset, second = kUnset;
-  bool falls_short = true;  // the first movement; else it crosses the surface by itself, and
-  double crossed = 1.0;     // so much of its way is made by then
+  bool falls_short = true;  // the first movement falls short; else it crosses the surface itself
+  double crossed = 1.0;     // share of its path covered by then
 };
 
 struct Fit {
   double evidence = -std::numeric_limits<double>::infinity();  // logarithm
   Vec2 place = Vec2::Zero();                                   // turned axes
-  Vec3 first{kUnset, kUnset, kUnset};                          // the first movement, likewise
+  Vec3 first{kUnset, kUnset, kUnset};                          // the first movement along each axis
 };
 
-// Probability that a hand whose second movement has this way down, m, takes this time for it. Each corrects
-// so that it crosses the surface with the speed that it wants; the shortest time stands for all faster ones.
+// Probability that a hand whose second movement goes down by `down`, m, takes this time for it. Each hand
+// corrects so that it crosses the surface at its touch speed; the shortest time stands for all faster ones.
 double takes(const ReachBelief& hand, double down, double second, double width) {
   const double speed = down * kAtCrossing.v / second;
   const double range = hand.touch_fastest - hand.touch_slowest;
@@ -134,11 +131,11 @@ double takes(const ReachBelief& hand, double down, double second, double width) 
   return speed >= hand.touch_slowest && speed <= hand.touch_fastest ? speed / second * width / range : 0.0;
 }
 
-// What the pictures say of the unknowns along each axis.
+// Evidence of the pictures on the unknowns along each axis.
 struct Axes {
   Left xy, z;
   Right of_x, of_y, of_z;
-  // In a picture the first movement has made this share of its way, and the second of its own.
+  // Adds a picture in which each movement has covered the given share of its path.
   void see(const Vec3& at, double weight, double first, double second, double rest, double beyond) {
     const double u = first + rest * second;
     xy.see(u, second, weight);
@@ -150,8 +147,8 @@ struct Axes {
   }
 };
 
-// What pictures, belief and surface say together of a reach with these times. `rest`: of the first movement;
-// `beyond`: what the second aims at of its way.
+// Evidence of pictures, prior and surface for a reach with these times. `rest`: of the first movement;
+// `beyond`: how far the second aims beyond, as a share of its path.
 Axes axes_of(const Seen& seen, const Timing& t, double rest, double beyond) {
   Axes axes;
   for (const auto& [at, age] : seen.pictures())
@@ -160,12 +157,12 @@ Axes axes_of(const Seen& seen, const Timing& t, double rest, double beyond) {
   axes.xy.a += kVague;
   axes.xy.b += kVague;
   axes.z.b += kVague;
-  axes.z.see(1.0 + rest, 1.0, kExact);  // the whole way leads to the surface
+  axes.z.see(1.0 + rest, 1.0, kExact);  // the whole path leads to the surface
   if (!t.falls_short) axes.z.see(t.crossed, 0.0, kExact);
   return axes;
 }
 
-// Probability of the second movement's time, where its way down is a normal distribution: by three points.
+// Probability of the second movement's time if its descent is normally distributed: by three points.
 double share_that_takes(const ReachBelief& hand, const Timing& t, double middle, double spread,
                         double width) {
   double share = 0.0;
@@ -176,16 +173,16 @@ double share_that_takes(const ReachBelief& hand, const Timing& t, double middle,
   return share;
 }
 
-// The unknowns along an axis: where the hand began, the first movement, and what of the rest of the way the
-// belief does not foresee. The second movement makes the rest of the way; across the surface it aims beyond
-// it. How much the pictures differ from nothing at all is left out of the evidence: it is the same for all.
+// The unknowns along an axis: the hand's start, the first movement, and the part of the rest that the prior
+// does not predict. The second movement covers the rest; across the surface it aims beyond it. The evidence
+// omits how much the pictures differ from zero, because that is common to all reaches.
 Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
-  const double rest = 1.0 / hand.share - 1.0;  // of the first movement
+  const double rest = 1.0 / hand.share - 1.0;  // fraction of the first movement
   const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
   const Axes axes = axes_of(seen, t, rest, beyond);
   const Pivots xy(axes.xy), z(axes.z);
   const Known of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
-  // What is left of the way along x and z goes together.
+  // The errors left along x and z are correlated.
   const double y_weight = xy.c + seen.left_y;
   const double x_weight = xy.c + seen.left_xz(0, 0), z_weight = z.c + seen.left_xz(1, 1);
   const double both = seen.left_xz(0, 1), area = x_weight * z_weight - both * both;
@@ -193,7 +190,7 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   const double z_left = (x_weight * of_z.c - both * of_x.c) / area;
   const Vec3 along = of_x.solved(xy, x_left), across = of_y.solved(xy, of_y.c / y_weight),
              down = of_z.solved(z, z_left);
-  // How far down the second movement goes says how long it takes.
+  // The descent of the second movement determines its duration.
   const double middle = -(rest * down[1] + down[2]) / kAtCrossing.x;
   const double by_left = 1.0 - rest * z.bc,
                variance = rest * rest / z.b + by_left * by_left * x_weight / area;
@@ -208,7 +205,7 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
                         of_x.c * x_left + of_z.c * z_left;
   const double pivots = xy.a * xy.b;
   double certain = pivots * pivots * y_weight * area * (z.a * z.b);
-  // That it crosses just now, where nothing else says so: the density of its height, times its speed.
+  // Density of crossing just now, if nothing else determines it: the density of its height, times its speed.
   if (!t.falls_short) {
     const double speed = MinimumJerk(-t.begins / t.first).v * std::abs(down[1]) * width;
     share *= std::max(speed, 1e-12);
@@ -218,7 +215,7 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   return fit;
 }
 
-// A hand that goes on with an even speed: a is where it is now, b its velocity.
+// A hand at constant speed: a is its present position, b its velocity.
 Axes even(std::span<const Sighting> pictures, double weight) {
   Axes axes;
   for (const auto& [at, age] : pictures) axes.see(at, weight, -age, 0.0, 0.0, 0.0);
@@ -229,7 +226,7 @@ Axes even(std::span<const Sighting> pictures, double weight) {
   return axes;
 }
 
-// One that touches now.
+// A hand at constant speed that touches now.
 Fit fit_even(const Seen& seen) {
   Axes axes = even(seen.pictures(), seen.weight);
   axes.z.a += kExact;
@@ -244,7 +241,7 @@ Fit fit_even(const Seen& seen) {
   return fit;
 }
 
-// The place that all together say, weighted by how probable each is. Nothing is kept of each.
+// The mean touch, weighted by probability. The single reaches are not stored.
 class Mean {
  public:
   void add(const Fit& fit) {
@@ -278,7 +275,7 @@ void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, 
       for (int k = 0; k < tries.corrections; ++k)
         for (const bool falls_short : {true, false}) {
           Timing t;
-          // Even over the peak speed, and over when the correction begins.
+          // Uniform in the peak speed and in the start of the correction.
           const double peak = hand.slowest + (hand.fastest - hand.slowest) * (i + 0.5) / tries.times;
           t.first = 1.875 * seen.length / peak;
           const double begins = (kOverlap + (1.0 - kOverlap) * (j + 0.5) / tries.begins) * t.first;
@@ -302,7 +299,7 @@ void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, 
         }
 }
 
-// As many pictures as are of use, where all of them are sound; else none.
+// The newest pictures, as many as are useful, if all are sound; else none.
 std::span<const Sighting> usable(std::span<const Sighting> newest_first, double noise) {
   const auto some = newest_first.first(std::min(newest_first.size(), kSightings));
   const bool sound = std::all_of(some.begin(), some.end(), [](const Sighting& one) {
@@ -314,7 +311,7 @@ std::span<const Sighting> usable(std::span<const Sighting> newest_first, double 
 }  // namespace
 
 double passes_by(std::span<const Sighting> newest_first, double noise, double until) noexcept {
-  constexpr double kLogistic = 1.702;  // with it a logistic curve is a normal distribution's to 0.01
+  constexpr double kLogistic = 1.702;  // matches a logistic curve to a normal distribution, to 0.01
   const auto pictures = usable(newest_first, noise);
   if (pictures.empty()) return -std::numeric_limits<double>::infinity();
   const Axes axes = even(pictures, 1.0 / (noise * noise));
@@ -324,8 +321,7 @@ double passes_by(std::span<const Sighting> newest_first, double noise, double un
   const double later = until - pivots.ab, height = down[0] + until * down[1];
   const double spread = std::sqrt(1.0 / pivots.a + later * later / pivots.b);
   const double share = 1.0 / (1.0 + std::exp(-kLogistic * height / spread));
-  // kExact: how narrow it is known that a finger is at the surface when it touches, which touch_then() leaves
-  // out.
+  // kExact: precision with which a finger is at the surface when it touches; touch_then() leaves it out.
   const double evidence =
       0.5 * (x.agrees + y.agrees + z.agrees - 3.0 * std::log(pivots.a * pivots.b) - std::log(kExact)) +
       std::log(kEven * std::max(share, 1e-300));

@@ -28,7 +28,7 @@ struct MinimumJerk {
 // A fingertip in one picture, m, in axes whose z is the surface's normal; z = 0 where the tip touches.
 struct Sighting {
   Vec3 at{kUnset, kUnset, kUnset};
-  double age = kUnset;  // s since its exposure
+  double age = kUnset;  // s since exposure
 };
 inline constexpr std::size_t kSightings = 5;  // more pictures do not help
 

@@ -15,16 +15,17 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Share of pi sqrt(m / k), half a period of the tile's bounce, over which its firmness is smoothed (assumed:
-// it gives back what it should).
+// restitution stays exact).
 constexpr double kSmooth = 0.02;
-// Share of e that a ball parts with (assumed: short of it by what the prop's speed is known to, so that no
-// energy is gained).
+// Share of e that a ball parts with (assumed: reduced by the uncertainty of the prop's speed, so that it
+// gains no energy).
 constexpr double kShort = 0.95;
-// m/s: a slower ball would be on its way for seconds, and is back at once (assumed).
+// m/s: a slower ball would take seconds to return, and returns at once (assumed).
 constexpr double kSlow = 0.020;
 
-// What a tile does on the way back. Smoothed: by counts the rate is known to some 15 mm/s, which is all of
-// the push at the begin of a touch. Over so little of its bounce that it gives back what it should.
+// The firmness of a tile on the way back, smoothed. Encoder counts limit the rate to some 15 mm/s, which is
+// all of the push at the start of a touch. The smoothing is short against the bounce, so the restitution
+// stays exact.
 double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const Moved& now) {
   const double time = kSmooth * std::numbers::pi * std::sqrt(mover.mass / mover.stiffness);
   const double wanted =
@@ -32,7 +33,7 @@ double tile_firmness(const Mover& mover, const FingerPress& press, double dt, co
   return now.firmness + (wanted - now.firmness) * dt / (dt + time);
 }
 
-// What a ball does: `deepest` is how deep the finger was when q was last lowered.
+// The firmness of a ball. `deepest`: depth of the finger when q was last lowered.
 double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
   const double faster = -press.normal.e().dot(now.velocity.e()) - press.speed;
   if (faster <= 0.0 || press.depth >= now.deepest) return now.firmness;
@@ -43,8 +44,7 @@ double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
   return now.firmness * std::pow(press.depth / now.deepest, 2.0 / share - 2.0);
 }
 
-// What the law says of the finger in this object, and what it remembers for the next tick. Gives the force,
-// N.
+// Applies the law to the finger in this object and updates its state for the next tick. Returns the force, N.
 double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& now) {
   now.depth = press.depth;
   if (!(press.depth > 0.0)) {
@@ -76,9 +76,9 @@ void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double
   if ((gone || slow) && apart && clear) now = Moved{};
 }
 
-// How far a box can go along `way` (in its own axes) until it meets the other; infinite where it passes by.
+// Distance along `way` (in the box's own axes) until it meets the second box; infinite if it passes by.
 double room(const Vec3& apart, const Vec3& sum, const Vec3& way) {
-  constexpr double kBeside = 1e-9;  // m: boxes that stand side by side do not meet
+  constexpr double kBeside = 1e-9;  // m: boxes side by side do not meet
   double enter = -kNever, leave = kNever;
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (std::abs(way(k)) < 1e-9) {
@@ -92,7 +92,7 @@ double room(const Vec3& apart, const Vec3& sum, const Vec3& way) {
   return enter < leave && leave > kBeside ? std::max(0.0, enter) : kNever;
 }
 
-// The least of the rooms before a tile that moves towards +way or -way.
+// Least free distance of a tile that moves towards +way or -way.
 double free_way(const Mover& mover, const Moved& now, std::span<const Moved> moved, double direction) {
   double least = kNever;
   const Vec3 way = mover.to_tile * mover.way.e() * direction;
@@ -108,7 +108,7 @@ double free_way(const Mover& mover, const Moved& now, std::span<const Moved> mov
 void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, double dt, Moved& now) {
   const Vec3 way = mover.way.e();
   double speed = way.dot(now.velocity.e()) + way.dot(force) * dt / mover.mass;
-  const double stopped = mover.friction * dt / mover.mass;  // m/s that friction takes in a tick
+  const double stopped = mover.friction * dt / mover.mass;  // m/s that friction removes in a tick
   speed = std::abs(speed) <= stopped ? 0.0 : speed - std::copysign(stopped, speed);
   const double before = way.dot(now.shift.e());
   if (speed == 0.0) {
@@ -142,20 +142,20 @@ void move(std::span<const Mover> movers, const FingerPress& press, double dt,
     if (mover.kind == Interaction::hit) fly(mover, force, press, dt, now);
     if (mover.kind == Interaction::shift) slide(mover, force, moved, dt, now);
     if (mover.kind == Interaction::spin) {
-      now.firmness = 1.0;  // it is no free mass: its spring alone is felt
+      now.firmness = 1.0;  // it is no free mass: only its spring is rendered
       now.velocity = mover.speed * mover.way;
       now.shift = now.shift + dt * now.velocity;
     }
   }
 }
 
-// On the way back from d1, where all energy is in the spring, m dv/dt = -k d (1 - c |v| / v1) with v1 = d1
-// sqrt(k/m): parted in v and d and summed from v = 0 there to e v1 at d = 0 that is -ln(1 - c e) - c e = c^2
-// / 2, 0 < c < 1/e.
+// On the way back from d1, where the spring holds all energy, m dv/dt = -k d (1 - c |v| / v1) with v1 = d1
+// sqrt(k/m). Separate v and d and integrate from v = 0 there to e v1 at d = 0: -ln(1 - c e) - c e = c^2 / 2,
+// 0 < c < 1/e.
 double bounce_of(double restitution) {
   const double e = restitution;
   if (e > 0.999) return 1.5 * (1.0 - e * e) / (e * e * e);  // the first terms of the series
-  // Left less right is negative up to the root, -(1 - e^2) c^2 / 2 near 0, and positive beyond.
+  // Left minus right is negative up to the root, -(1 - e^2) c^2 / 2 near 0, and positive beyond.
   double low = 0.0, high = 1.0 / e;
   for (int i = 0; i < 60; ++i) {
     const double c = 0.5 * (low + high);
@@ -170,7 +170,7 @@ struct Box {
   Point<'O'> centre;
   Vec3 half;  // m, along the axes of O
 };
-// That holds the object; none of a half space.
+// Bounding box of the object; a half space has none.
 std::optional<Box> box_of(const Object& object) {
   if (const auto* button = std::get_if<Button>(&object.surface.shape()))
     return Box{Point<'O'>(0, 0, -0.5 * button->thickness),
@@ -180,8 +180,7 @@ std::optional<Box> box_of(const Object& object) {
   return Box{ball.centre, Vec3::Constant(ball.radius)};
 }
 
-// The boxes are those of O, seen from the tile: exact where both stand parallel, larger than need be where
-// not.
+// The boxes are those of O, in the tile's axes: exact if both are parallel, else larger than necessary.
 std::optional<Neighbour> neighbour_of(const Object& tile, const Object& other) {
   const auto own = box_of(tile), theirs = box_of(other);
   if (!own || !theirs) return {};
@@ -189,7 +188,7 @@ std::optional<Neighbour> neighbour_of(const Object& tile, const Object& other) {
   const Vec3 apart = tile.X_WO.q().conjugate() * (other.X_WO * theirs->centre - tile.X_WO * own->centre).e();
   const Neighbour found{other.moving, apart, own->half + turn * theirs->half};
   const bool overlap = ((found.sum - apart.cwiseAbs()).array() > 1e-9).all();
-  return overlap ? std::nullopt : std::optional(found);  // what stands in one another is no neighbour
+  return overlap ? std::nullopt : std::optional(found);  // overlapping objects are no neighbours
 }
 
 void refuse(bool wrong, const ObjectSpec& spec, const std::string& what) {
@@ -248,7 +247,7 @@ std::vector<Mover> make_movers(const std::vector<ObjectSpec>& specs, std::vector
     const auto own = static_cast<std::size_t>(mover.object);
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const auto neighbour = i == own ? std::nullopt : neighbour_of(objects[own], objects[i]);
-      // What stands where the tile never gets is not asked each tick.
+      // Objects that the tile never reaches are not checked each tick.
       if (neighbour && (neighbour->mover >= 0 ||
                         room(neighbour->apart, neighbour->sum, mover.to_tile * mover.way.e()) < mover.travel))
         mover.neighbours.push_back(*neighbour);

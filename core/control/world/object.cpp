@@ -73,7 +73,7 @@ const BehaviourSpec& behaviour_of(const std::vector<BehaviourSpec>& behaviours, 
   return *found;
 }
 
-// Which object is pressed by `who` ("user", "pusher"): the named one, or the first.
+// The object that `who` ("user", "pusher") presses: the named one, or the first.
 std::size_t pressed_object(const std::vector<ObjectSpec>& objects, const std::string& name,
                            const std::string& who) {
   if (objects.empty()) throw Error("a " + who + " needs an object to press", who + ".object");

@@ -8,7 +8,8 @@
 namespace enc {
 namespace {
 
-// ---- The one formula of the deformation, for one point, in double for the core and in float for drawing.
+// ---- The one formula of the deformation, for a single point, in double for the core and in float for
+// drawing.
 
 template <class T>
 struct Shift {
@@ -29,8 +30,8 @@ Shift<T> sinking(const DentField<T>& f, T x, T y, T z) noexcept {
   return {part * t, slope * cx, slope * cy, slope * cz};
 }
 
-// Finds the ball of the edge that is lowest at a place w beside n: its surface has the edge's own slope.
-// Returns its place along the edge, m.
+// Finds the ball of the edge that is lowest at an offset w sideways of n: there its surface has the edge's
+// own slope. Returns its position along the edge, m.
 template <class T>
 T lowest_on_edge(const DentField<T>& f, T wx, T wy, T wz) noexcept {
   const T r2 = f.radius * f.radius;
@@ -86,9 +87,9 @@ Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
           rest * ball.gz + share * f.n[2] + side * wz};
 }
 
-// How far the contact sinks with the ball itself, and how far around that is seen: shares of the ball's
+// Depth by which the contact sinks with the ball itself, and radius of that depression: shares of the ball's
 // radius. Calibrated at 2 and 6 mm on a pressed tennis ball [docs/notes/deformation.md]: at first the felt
-// gives way, then the wall. A half space does not sink.
+// yields, then the wall. A half space does not sink.
 constexpr double kStiff = 0.116;
 constexpr double kSinking = 0.80;
 
@@ -97,21 +98,22 @@ constexpr double kSinking = 0.80;
 double leaving_slope(double size, double depth, const DentSample& dent, const Vec3& n) {
   const double own = std::isfinite(size) ? 2.0 * std::sqrt(depth / size) : 0.75;
   if (dent.tip.shape != TipShape::cone) return own;
-  // No steeper than the flattest line on the cone's side; a cone that nearly lies on its side is cut short.
+  // No steeper than the flattest line on the cone's side; for a cone that nearly lies on its side the slope
+  // is bounded.
   const double tilt = std::acos(std::clamp(dent.tip.axis.e().dot(n), -1.0, 1.0));
   const double flank = 0.5 * std::numbers::pi - (dent.tip.half_angle + tilt);
   return std::min(own, std::tan(std::max(flank, 0.1)));
 }
 
-// The rest of the edge, seen from its deepest ball. Where it rises faster than the surface leaves it, only
-// that ball counts.
+// The rest of the edge, relative to its deepest ball. If the edge rises faster than the surface leaves it,
+// only that ball counts.
 void sweep(DentField<double>& field, const Tip<'O'>& tip, const Vec3& centre, const Vec3& n) {
   const double at = tip.axis.e().dot(centre - tip.centre.e());
   const double up = tip.axis.e().dot(n);
   const Vec3 side = tip.axis.e() - up * n;
   const double flat = side.norm();
   if (std::abs(up) >= field.slope * flat * (1.0 - 1e-6)) return;
-  // Along the edge towards its rising end; level edges go both ways.
+  // Sweep along the edge towards its rising end; level edges are swept both ways.
   const double sign = up < 0.0 ? -1.0 : 1.0;
   const bool level = std::abs(up) < 1e-5;
   field.edge = true;
@@ -132,8 +134,8 @@ Shift<double> shift_at(const DentField<double>& field, const Point<'O'>& p) {
                     : shift<false>(field, p.xyz[0], p.xyz[1], p.xyz[2]);
 }
 
-// The undeformed surface above or below p along n: Newton steps on the distance. False where there is none,
-// or where it turns away from n.
+// The undeformed surface above or below p along n: Newton steps on the distance. False if there is no
+// surface, or if it turns away from n.
 bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Nearest at, double& up) {
   constexpr double kFlat = 0.2;
   up = 0.0;
@@ -152,7 +154,7 @@ bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Ne
 Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint) noexcept {
   Deepest found{tip.centre, surface.nearest(tip.centre, hint)};
   if (tip.shape != TipShape::edge) return found;
-  // The distance along the edge is least where the normal stands across it: secant steps kept in the bracket.
+  // The distance is least where the normal is at right angles to the edge: secant steps kept in the bracket.
   const auto slope = [&] { return found.at.normal.e().dot(tip.axis.e()); };
   const auto go = [&](double s) {
     found.centre = tip.centre + s * tip.axis;
@@ -164,7 +166,7 @@ Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint) 
   double s0 = slope() > 0.0 ? -0.5 * tip.length : 0.0;
   double s1 = s0 + 0.5 * tip.length;
   double g1 = s0 < 0.0 ? slope() : go(s1);
-  if (g1 <= 0.0) return found;  // still falling at the far end
+  if (g1 <= 0.0) return found;  // still falling at the end of the edge
   double g0 = s0 < 0.0 ? go(s0) : 0.0;
   if (s0 < 0.0 && g0 >= 0.0) return found;
   if (!(s0 < 0.0)) g0 = go(s0);
@@ -184,8 +186,7 @@ DentSample dent_of(const Surface& surface, std::int32_t object, const Tip<'O'>& 
 }
 
 DentField<double> dent_field(const Surface& surface, const DentSample& dent, std::int32_t hint) noexcept {
-  constexpr double kPoint =
-      0.2e-3;  // m: a sharper tip is drawn as round as this, its lowest point in its place
+  constexpr double kPoint = 0.2e-3;  // m: a sharper tip is drawn with this radius, its lowest point unchanged
   DentField<double> field;
   if (!(dent.depth > 0.0)) return field;
   const Deepest at = deepest(surface, dent.tip, hint);
@@ -259,12 +260,12 @@ double volume_change(const Mesh& mesh, const DentField<double>& field) {
 
 namespace {
 
-constexpr std::size_t kBlock = 16;  // points that are tested, and skipped, together
+constexpr std::size_t kBlock = 16;  // points that are tested, and skipped, as a block
 
-// What can move these points: nothing, only the ball that sinks, or also the tip.
+// The cause that can move these points: none, only the sinking ball, or also the tip.
 enum class Moves : int { nothing, ball, tip };
 
-// Tells it for a block of points; what is the same for all of them is computed once.
+// Finds that cause for a block of points; values common to all blocks are computed once.
 class Range {
  public:
   explicit Range(const DentField<float>& field) : f_(field) {
@@ -297,7 +298,7 @@ class Range {
   }
 
  private:
-  const DentField<float> f_;  // a copy of its own: nothing written can change it
+  const DentField<float> f_;  // own copy: no write can change it
   float lowest_, wide2_, slope2_;
 };
 
@@ -306,7 +307,7 @@ void displace(const DentField<float>& field, const float* __restrict x, const fl
               const float* __restrict z, const float* __restrict nx, const float* __restrict ny,
               const float* __restrict nz, float* __restrict ox, float* __restrict oy, float* __restrict oz,
               float* __restrict onx, float* __restrict ony, float* __restrict onz, std::size_t count) {
-  const DentField<float> f = field;  // a copy of its own: nothing written can change it
+  const DentField<float> f = field;  // own copy: no write can change it
   for (std::size_t i = 0; i < count; ++i) {
     const auto s = kMoves == Moves::tip ? shift<kEdge>(f, x[i], y[i], z[i]) : sinking(f, x[i], y[i], z[i]);
     ox[i] = x[i] - s.by * f.n[0];
@@ -352,7 +353,7 @@ void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, 
     if (by == Moves::ball) return to(displace<Moves::ball, false>);
     field.edge ? to(displace<Moves::tip, true>) : to(displace<Moves::tip, false>);
   };
-  // Blocks that are alike go together.
+  // Adjacent blocks with the same cause are computed together.
   std::size_t begin = 0;
   Moves now = moves(0);
   for (std::size_t end = kBlock; begin < count; end += kBlock) {

@@ -123,7 +123,7 @@ void EnergyStop::move(ResponseState& state, double u) const noexcept {
   state.deflection = u * limit_;
 }
 
-// ---- Springs that slip, side by side: a response with hysteresis that remembers every reversal.
+// ---- Parallel springs that slip: a response with hysteresis that remembers every reversal.
 
 namespace {
 
@@ -163,9 +163,9 @@ PrandtlIshlinskii::PrandtlIshlinskii(const ResponseSpec& spec, double lowest_slo
     radius_[stops_] = s.radii[i];
     weight_[stops_++] = s.weights[i];
   }
-  // Whatever came before, no stop at d is stretched less than after a press to the limit: its resting place
-  // d - x only moves when it slides, so it lies between 0 and limit - r. The least slope is there; a stop
-  // that does not slide only adds to it.
+  // Whatever the history, a stop at d is stretched no less than after a press to the limit. Its resting place
+  // d - x only moves while it slides, so it lies between 0 and limit - r. The least slope occurs there; a
+  // stop that does not slide only adds to it.
   const auto least_slope = [&](double u) {
     double rise = 0.0;
     for (std::size_t k = kMaxCurve; k-- > 0;) rise = rise * u + static_cast<double>(k + 1) * curve_[k];
@@ -247,7 +247,7 @@ double crossing(const F& rise, double wanted, double end, double guess) noexcept
     }
     if (std::abs(f) < 1e-12 || hi - lo < 1e-14) break;
     const double secant = (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
-    // Alternate with halving, so that a bracket end which does not move cannot stall the search.
+    // Alternate with bisection, so that a bracket end that does not move cannot stall the search.
     u = (i % 3 == 2 || !(secant > lo && secant < hi)) ? 0.5 * (lo + hi) : secant;
   }
   return u;
@@ -287,7 +287,7 @@ double Response::deflection(ResponseState& state, double force, double most) con
     if (force > 0.0)  // the last answer is the best guess
       u = force >= rise(end) ? end : crossing(rise, force, end, state.deflection / limit_);
     law.move(state, u);
-    if (u == end) state.deflection = std::min(most, limit_);  // end * limit may be one rounding off
+    if (u == end) state.deflection = std::min(most, limit_);  // end * limit may be off by one rounding
     return state.deflection;
   });
 }

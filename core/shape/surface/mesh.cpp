@@ -14,10 +14,11 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 std::vector<std::array<std::int32_t, 3>> neighbours_of(const Mesh& mesh) {
-  // All directed edges in buckets by their lower end, sorted by their higher end: an edge and the same edge
-  // the other way round stand side by side, however many there are at a vertex.
+  // All directed edges, in buckets by their lower end and sorted by their higher end. So the two directions
+  // of an edge are adjacent, however many edges meet at a vertex.
   struct Edge {
-    std::int32_t to, slot;  // the higher end; 3 * triangle + i, ~ of it where it runs from high to low
+    std::int32_t to, slot;  // the higher end; 3 * triangle + i, inverted (~) if the edge runs from high to
+                            // low
     [[nodiscard]] std::int32_t place() const { return slot < 0 ? ~slot : slot; }
   };
   std::vector<std::int32_t> start(mesh.vertices.size() + 1, 0);
@@ -56,7 +57,7 @@ std::vector<std::array<double, 3>> vertex_normals_of(const Mesh& mesh) {
                                 vec(mesh.vertices[index(t[2])])};
     const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[1]);
     const double size = normal.norm();
-    if (!(size > 0.0)) continue;  // no area, no say
+    if (!(size > 0.0)) continue;  // no area, no weight
     for (std::size_t i = 0; i < 3; ++i) {
       const double angle = std::atan2(size, (c[(i + 1) % 3] - c[i]).dot(c[(i + 2) % 3] - c[i]));
       for (int x = 0; x < 3; ++x) normals[index(t[i])][index(x)] += angle / size * normal[x];

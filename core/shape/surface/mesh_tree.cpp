@@ -12,9 +12,9 @@
 #include "core/shape/surface/triangle.h"
 
 namespace enc {
-// ---- Builds the tree of a mesh. The triangles are sorted such that every run of 8, 64, 512... of them lies
-// close together: node by node, in the node's own principal axes, halved across the longest extent. What is
-// computed here decides the speed of a search, not its answer.
+// ---- Builds the tree of a mesh. The triangles are sorted so that every run of 8, 64, 512... of them lies
+// close together: node by node, in the node's own principal axes, halved across the longest extent. The order
+// affects the speed of a search, not its answer.
 
 class MeshTree::Builder {
  public:
@@ -49,7 +49,7 @@ class MeshTree::Builder {
   };
   using Items = std::vector<Item>::iterator;
 
-  // Triangles under one child of a node of a level, where it is full.
+  // Number of triangles under one full child of a node of this level.
   static std::size_t triangles_under(int level) {
     return std::size_t{kWay} << (3U * static_cast<unsigned>(level));
   }
@@ -92,7 +92,7 @@ class MeshTree::Builder {
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
     solver.computeDirect(squares / count - (sum / count) * (sum / count).transpose());
     const Mat3 axes = solver.eigenvectors().rowwise().reverse().transpose();
-    // Where the directions are not told apart, any will do, but they must be a frame.
+    // Equal extents leave the directions arbitrary, but they must form a frame.
     const bool good = axes.allFinite() && (axes * axes.transpose() - Mat3::Identity()).norm() < 1e-6;
     return (good ? axes : Mat3(Mat3::Identity())).cast<float>();
   }
@@ -252,7 +252,7 @@ struct Lanes {
 
 constexpr double kFarthest = 1e9;  // m; squares stay finite in float
 
-// Squares of distances in the coarse order in which ties are ties: cut to 40 binary digits.
+// Squared distance cut to 40 binary digits, so that equal distances compare as equal.
 double coarse(double square, double least) {
   constexpr std::uint64_t kKept = ~((1ULL << 13U) - 1U);
   return square < least ? 0.0 : std::bit_cast<double>(std::bit_cast<std::uint64_t>(square) & kKept);
@@ -264,18 +264,18 @@ using Point3f = std::array<float, 3>;
 
 }  // namespace
 
-// The search. What a node or leaf says in float is at most wrong by `pad`; nothing that could be nearest by
-// that much is left out, so the answer is that of trying every triangle in double.
+// The search. A float distance of a node or leaf is wrong by at most `pad`. The search keeps every candidate
+// that could be nearest within that error, so its answer equals that of trying every triangle in double.
 struct MeshTree::Search {
   const MeshTree& tree;
-  Vec3 p;        // in O
-  Point3f q;     // the same from the centre of the mesh
-  double pad;    // m: most that float arithmetic can be wrong by, here
-  double least;  // m^2: below it, all distances are 0
+  Vec3 p;                                                 // in O
+  Point3f q;                                              // p relative to the centre of the mesh
+  double pad;                                             // m: largest float error here
+  double least;                                           // m^2: below it, all distances are 0
   double best = std::numeric_limits<double>::infinity();  // coarse square of the distance
   std::int32_t triangle = -1;
   OnTriangle at;
-  float limit = std::numeric_limits<float>::max();  // m^2: what is farther than this in float is farther
+  float limit = std::numeric_limits<float>::max();  // m^2: a larger float distance is certainly larger
 
   Search(const MeshTree& t, const Vec3& query, const Vec3& from_centre)
       : tree(t),
@@ -301,7 +301,7 @@ struct MeshTree::Search {
   void visit_leaf(const Leaf& leaf) {
     const std::array<float, kWay> squares = to_leaf(leaf);
     unsigned open = (Lanes::load(squares.data()) <= Lanes::all(limit)).bits();
-    while (open != 0) {  // nearest first: it often shuts out the others
+    while (open != 0) {  // the nearest child first: it often excludes the rest
       int next = std::countr_zero(open);
       for (unsigned rest = open & (open - 1); rest != 0; rest &= rest - 1) {
         const int i = std::countr_zero(rest);
@@ -328,7 +328,7 @@ struct MeshTree::Search {
     const Lanes y = dx * vx + dy * vy + dz * vz;
     const Lanes z = dx * (uy * vz - uz * vy) + dy * (uz * vx - ux * vz) + dz * (ux * vy - uy * vx);
     const Lanes bx = at_lanes(leaf.bx), cx = at_lanes(leaf.cx), cy = at_lanes(leaf.cy);
-    // From a to b, from a to c, from b to c.
+    // Distances to the edges a to b, a to c, b to c.
     const Lanes ab = square(x - min(max(x, zero), bx)) + square(y);
     const Lanes ac_t = min(max((x * cx + y * cy) / max(cx * cx + cy * cy, tiny), zero), one);
     const Lanes ac = square(x - ac_t * cx) + square(y - ac_t * cy);
@@ -361,7 +361,7 @@ struct MeshTree::Search {
   };
 
   void run() {
-    // At each level at most seven wait beside the one that is entered.
+    // Each level has at most seven pending nodes beside the one that is entered.
     std::array<Entry, (kWay - 1) * kMostLevels + kWay> stack;
     std::size_t size = 0;
     stack[size++] = {0.0F, 0, tree.levels_ - 1};

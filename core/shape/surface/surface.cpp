@@ -25,7 +25,7 @@ Point<'O'> into_box(const Button& b, const Point<'O'>& p) {
 }
 
 Nearest nearest_on(const Button& button, const Point<'O'>& p) {
-  constexpr double kRounding = 1e-12;  // m; what is nearer to the edge is over the face
+  constexpr double kRounding = 1e-12;  // m; a point this close to the edge counts as over the face
   const Point<'O'> at = into_box(button, p);
   const Vec<'O'> away = p - at;
   const double beside = std::max(std::abs(away.xyz[0]), std::abs(away.xyz[1]));
@@ -55,7 +55,7 @@ Point<'O'> Surface::over_face(const Point<'O'>& p, double margin) const noexcept
 Ball Surface::bound() const noexcept {
   if (const auto* sphere = std::get_if<Sphere>(&shape_)) return {Point<'O'>(0, 0, 0), sphere->radius};
   if (const auto* mesh = std::get_if<MeshSurface>(&shape_)) return mesh->tree->bound();
-  // Inside, the distance is that to the face: down to -thickness under it, at each corner of the bottom.
+  // Inside, the distance is the one to the face. It reaches down to -thickness at each corner of the bottom.
   if (const auto* button = std::get_if<Button>(&shape_))
     return {Point<'O'>(0, 0, -button->thickness),
             0.5 * std::hypot(button->width, button->height) + button->thickness};

@@ -13,11 +13,11 @@
 namespace enc {
 namespace {
 
-constexpr float kTint[3] = {70.0F, 160.0F, 215.0F};  // of the objects, of 255
-constexpr int kEdge = 6;                             // px round skin: an edge that was not found to be skin
-constexpr double kBehind = 0.020;                    // m: half of a hand, and what a depth is off by
+constexpr float kTint[3] = {70.0F, 160.0F, 215.0F};  // colour of virtual objects, out of 255
+constexpr int kEdge = 6;                             // px around skin: an edge that was not detected as skin
+constexpr double kBehind = 0.020;                    // m: half of a hand, plus the error of a depth
 
-// Also those nearer than `by` px in column and row.
+// Sets the mask's pixels and all within `by` px in column and row.
 void grow(const Mask& mask, int by, Mask& grown) {
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x) {
@@ -88,7 +88,7 @@ void AugmentedView::Parts::find_device(const AugmentedMoment& moment) {
 void AugmentedView::Parts::remove() {
   removed.rgb = left.rgb;
   replaced.on.assign(replaced.on.size(), 0);
-  if (!background.any()) return;  // nothing is known that could stand in the arm's place
+  if (!background.any()) return;  // no background is known that could replace the arm
   const Image& behind = background.image();
   for (std::size_t i = 0; i < device.on.size(); ++i) {
     replaced.on[i] = device.on[i] != 0 && skin.on[i] == 0 ? 255 : 0;

@@ -37,7 +37,7 @@ struct AugmentedMoment {
   // The tracked fingertip: parts of an object that are nearer than it cover the hand. NaN: no fingertip is
   // seen, and a hand covers the objects.
   Point<'C'> finger;
-  // Each object's displacement from its place in the scene; empty: none moved.
+  // Each object's displacement from its position in the scene; empty: no object moved.
   std::vector<Vec<'W'>> moved;
 };
 

@@ -14,10 +14,10 @@
 namespace enc::augment {
 namespace {
 
-// Of a gap: colours at its ends in a row or a column, weighted by the inverse of the squared distance.
-using Weighed = std::array<float, 4>;  // r, g, b times the weight, and the weight
+// Colours at the ends of a gap in a row or a column, weighted by the inverse of the squared distance.
+using Weighed = std::array<float, 4>;  // r, g, b times the weight; and the weight
 
-// Along one line of pixels, `step` apart, there or back: each unknown one gets what was known last.
+// Sweeps one line of pixels, `step` apart, there or back: each unknown pixel gets the last known colour.
 void sweep(const Image& image, const Mask& known, std::ptrdiff_t first, std::ptrdiff_t step, int count,
            std::vector<Weighed>& sums) {
   std::ptrdiff_t last = -1;
@@ -66,7 +66,7 @@ void CleanBackground::add(const ImageView& frame, const Mask& covered) {
   }
 }
 
-// A gap is filled from its four sides, so that edges along rows and columns go on behind it.
+// A gap is filled from its four sides, so that edges along rows and columns continue behind it.
 void CleanBackground::fill() {
   std::vector<Weighed> sums(count_.size());
   const std::ptrdiff_t width = image_.width, height = image_.height;
@@ -92,9 +92,9 @@ const Image& CleanBackground::image() {
 
 namespace {
 
-constexpr float kDark = 0.72F;  // field of a chequer board, and sides of a button
+constexpr float kDark = 0.72F;  // dark field of a chequerboard, and sides of a button
 
-// A grid of (across + 1) x (down + 1) corners, in rows, as two triangles a field.
+// A grid of (across + 1) x (down + 1) corners, row by row; each field is two triangles.
 void add_grid(int across, int down, bool chequered, Facets& facets) {
   const auto first = static_cast<std::int32_t>(facets.corners.size()) - (across + 1) * (down + 1);
   for (int j = 0; j < down; ++j)
@@ -131,7 +131,7 @@ Facets of(const Sphere& sphere) {
   return facets;
 }
 
-// Its face, then a side of each edge.
+// The face of the button, then a side at each edge.
 Facets of(const Button& button) {
   Facets facets;
   const double x = 0.5 * button.width, y = 0.5 * button.height;
@@ -162,7 +162,7 @@ double edge(const Corner& a, const Corner& b, double x, double y) {
   return (b.column - a.column) * (y - a.row) - (b.row - a.row) * (x - a.column);
 }
 
-// 1 / depth is linear in the picture.
+// Interpolates 1 / depth, which is linear in the image.
 void fill(const std::array<Corner, 3>& c, float shade, Seen& seen) {
   const double area = edge(c[0], c[1], c[2].column, c[2].row);
   if (area == 0.0) return;
@@ -217,7 +217,7 @@ void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>&
       p[i] = in_C[static_cast<std::size_t>(triangle.corner[i])];
     }
     if (!(c[0].near > 0.0 && c[1].near > 0.0 && c[2].near > 0.0)) continue;
-    // A lamp beside the camera.
+    // The light comes from the camera.
     const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
     const double light = 0.5 + 0.5 * std::abs(normal.dot(p[0].normalized()));
     fill(c, triangle.shade * static_cast<float>(light), seen);
@@ -226,13 +226,13 @@ void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>&
 
 namespace {
 
-constexpr int kAround = 24;  // points of a circle: what it loses is below 1 % of its radius
+constexpr int kAround = 24;  // points of a circle: they lose less than 1 % of its radius
 
 double cross(const Pixel& o, const Pixel& a, const Pixel& b) {
   return (a.column - o.column) * (b.row - o.row) - (a.row - o.row) * (b.column - o.column);
 }
 
-// Convex, in order. Andrew's chain.
+// Convex hull in order, by Andrew's chain.
 std::vector<Pixel> hull(std::vector<Pixel> points) {
   if (points.size() < 3) return {};
   std::sort(points.begin(), points.end(), [](const Pixel& a, const Pixel& b) {
@@ -252,7 +252,7 @@ std::vector<Pixel> hull(std::vector<Pixel> points) {
 
 std::vector<Pixel> grown(const std::vector<Pixel>& polygon, double margin) {
   std::vector<Pixel> points;
-  const double out = margin / std::cos(M_PI / kAround);  // the polygon round the circle, not in it
+  const double out = margin / std::cos(M_PI / kAround);  // the polygon encloses the circle
   for (const Pixel& p : polygon)
     for (int i = 0; i < kAround; ++i) {
       const double angle = 2.0 * M_PI * i / kAround;
@@ -281,7 +281,8 @@ void fill(const std::vector<Pixel>& polygon, Mask& mask) {
   }
 }
 
-// Points whose hull the part is, and of a ball those in which rays from the camera touch it; in C.
+// Points whose convex hull is the part, in C. For a ball, those are the points in which rays from the camera
+// touch it.
 std::vector<Vec3> corners(const ArmPart& part, const Pose<'C', 'W'>& X_CW) {
   const Vec3 middle = (X_CW * part.middle).e();
   const Mat3 axes = X_CW.q().toRotationMatrix() * part.axes;
@@ -307,7 +308,7 @@ std::vector<Vec3> corners(const ArmPart& part, const Pose<'C', 'W'>& X_CW) {
       continue;
     }
     const double share = radius * radius / at.squaredNorm();
-    if (share >= 1.0) continue;  // the camera is in it
+    if (share >= 1.0) continue;  // the camera is inside
     const Vec3 a = at.unitOrthogonal(), b = at.normalized().cross(a);
     const double rim = radius * std::sqrt(1.0 - share);
     circle((1.0 - share) * at, rim * a, rim * b);

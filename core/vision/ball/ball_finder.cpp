@@ -8,13 +8,13 @@ namespace enc {
 namespace {
 
 constexpr int kFewest = 80;        // pixels: a radius of 5
-constexpr double kOther = 0.2;     // of the largest spot's pixels: what has more is another ball
-constexpr int kMargin = 4;         // px, from the image's edge
+constexpr double kOther = 0.2;     // share of the largest spot's pixels: a spot with more is another ball
+constexpr int kMargin = 4;         // px to the image's edge
 constexpr double kClipped = 0.05;  // share of pixels
-constexpr double kRound = 0.6;     // share of directions whose edges are on the outline
+constexpr double kRound = 0.6;     // share of directions with an edge on the outline
 constexpr double kMisfit = 0.35;   // px rms
-constexpr double kRows = 1.5;      // px between both images
-constexpr double kSize = 0.2;      // of the distance by which size and disparity may differ
+constexpr double kRows = 1.5;      // px between the rows of both images
+constexpr double kSize = 0.2;      // difference between distance by size and by disparity, as a share
 
 }  // namespace
 
@@ -73,7 +73,7 @@ FoundBall BallFinder::find(const StereoFrame& frame) {
   return found;
 }
 
-// Centre by centre; how large it looks says whether that can be.
+// Triangulates the centres; the apparent size must match that distance.
 FoundBall BallFinder::placed(const Round& left, const Round& right) const {
   FoundBall found;
   const Pixel &l = left.outline.centre, &r = right.outline.centre;

@@ -32,7 +32,7 @@ void BlobFinder::colour(const ImageView& image) {
     p += 3;
     const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b));
     on = 0;
-    // Most pixels of a room end here.
+    // This test rejects most pixels of a room.
     if (256 * (most - least) < saturation_ * most || !segmentation::has_hue(most, least, rule)) continue;
     const int off = segmentation::hue_of_any(r, g, b, most, least) - hue_;
     const int round = ((off + kHues / 2) % kHues + kHues) % kHues - kHues / 2;
@@ -94,11 +94,12 @@ Blobs BlobFinder::largest(const ImageView& image, int least) {
 
 namespace {
 
-constexpr double kStep = 0.25;                                    // px, along a direction
-constexpr double kOn = 0.6;                                       // px: an edge that is on the outline
+constexpr double kStep = 0.25;  // px along a direction
+// px: farthest edge that counts as on the outline
+constexpr double kOn = 0.6;
 constexpr std::size_t kThird = kBallRays / 3, kFewestEdges = 12;  // edges
 
-// Between pixels; zero outside.
+// Colour between pixels; zero outside.
 Vec3 colour_at(const ImageView& image, double x, double y) {
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   if (left < 0 || top < 0 || left + 1 >= image.width || top + 1 >= image.height) return Vec3::Zero();
@@ -111,24 +112,24 @@ Vec3 colour_at(const ImageView& image, double x, double y) {
   return colour;
 }
 
-// How much of the ball's colour: what grey has none of, and what a mixture has its share of.
+// Direction of the ball's colour: grey has no share of it, and a mixture a part.
 Vec3 measure_of(const Vec3& colour) {
   const Vec3 chroma = colour - Vec3::Constant(colour.mean());
   return chroma / chroma.norm();
 }
 
-// What a direction passes, at steps from somewhere within the ball to the outside.
+// Levels along a direction, in steps from a point within the ball to the outside.
 struct Profile {
   std::array<double, 400> level{};
   std::size_t count = 0;
 };
 
-// Steps to the edge: where the level falls most, and there half way from the inside to the outside, so that
-// the ball's shade does not matter. NaN where there is none.
+// Steps to the edge: the steepest fall of the level, and there the half-way point from inside to outside, so
+// that the ball's shade does not matter. NaN if there is no edge.
 double fall_of(const Profile& profile) {
   constexpr std::size_t kHalf = 4, kInside = 5, kOutside = 6;  // steps: an edge is 2 px wide
   const auto& level = profile.level;
-  constexpr double kAlike = 0.5;  // a background with more of its colour than that has no edge to trust
+  constexpr double kAlike = 0.5;  // a background with more of the ball's colour hides its edge
   std::size_t best = 0;
   double most = 0.0;
   for (std::size_t k = kOutside; k + kOutside < profile.count; ++k) {
@@ -172,7 +173,7 @@ BallEdges ball_edges(const ImageView& image, const Blob& blob) {
 
 namespace {
 
-// Unit rays to the edges, and which of them count.
+// Unit rays to the edges, and a mark for those that count.
 struct Rays {
   std::array<Vec3, kBallRays> ray;
   std::array<bool, kBallRays> there{};
@@ -191,7 +192,7 @@ Rays rays_of(const BallEdges& edges, const Rectifier& rectifier, Side side) {
   return rays;
 }
 
-// How far a ray is outside of the cone, px: to first order in the angle between.
+// Distance of a ray outside of the cone, px, to first order in the angle between.
 struct Distance {
   double scale = kUnset;
   Vec3 m;
@@ -209,7 +210,8 @@ std::size_t on_it(const Rays& rays, const Distance& distance) {
   return count;
 }
 
-// Of three edges a third of the way round apart: something that covers the ball spoils those that it meets.
+// The best cone through three edges a third of a turn apart. Something that covers the ball spoils only the
+// cones through its edges.
 Vec3 agreed(const Rays& rays, double focal) {
   Vec3 best = Vec3::Constant(kUnset);
   std::size_t most = 0;

@@ -29,13 +29,14 @@ const std::array<Direction, kRays>& directions() {
   return kAll;
 }
 
-// The mask as far as the fit may look, so that it finds the same whatever was segmented beyond.
+// The part of the mask that the fit may read, so that its result does not depend on what was segmented
+// beyond.
 struct Around {
   const Mask& skin;
   Region part;
 };
 
-// Share of skin at a place between pixels; none outside.
+// Share of skin at a position between pixels; 0 outside.
 double skin_at(const Around& around, double x, double y) {
   const Mask& skin = around.skin;
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
@@ -47,7 +48,7 @@ double skin_at(const Around& around, double x, double y) {
          255.0;
 }
 
-// How far it is to the edge; NaN where the start is not in the mask or the edge is farther than `most`.
+// Distance to the edge; NaN if the start is not in the mask or the edge is farther than `most`.
 double edge_along(const Around& skin, const Pixel& from, const Direction& to, double least, double most) {
   constexpr double kStep = 0.5;
   double before = skin_at(skin, from.column + least * to.x, from.row + least * to.y);
@@ -62,7 +63,7 @@ double edge_along(const Around& skin, const Pixel& from, const Direction& to, do
   return kUnset;
 }
 
-// As bright between pixels; 0 outside.
+// Brightness between pixels; 0 outside.
 double level_at(const Grey& image, double x, double y) {
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   if (left < 0 || top < 0 || left + 1 >= image.width || top + 1 >= image.height) return 0.0;
@@ -71,8 +72,8 @@ double level_at(const Grey& image, double x, double y) {
   return (a[0] * (1.0 - right) + a[1] * right) * (1.0 - down) + (b[0] * (1.0 - right) + b[1] * right) * down;
 }
 
-// Where brightness changes most, from a little within the mask's edge to what hue may have missed; the mask's
-// edge where there is no change to speak of.
+// The sharpest change of brightness, from a little inside the mask's edge to where hue may have missed the
+// finger. Returns the mask's edge if brightness hardly changes.
 double sharpest(const Grey& image, const Pixel& from, const Direction& to, double edge) {
   constexpr double kStep = 0.5, kHalf = 0.75, kLeast = 6.0;  // px, px, levels
   constexpr std::size_t kInside = 2, kSteps = 9;
@@ -90,7 +91,8 @@ double sharpest(const Grey& image, const Pixel& from, const Direction& to, doubl
   return edge + kStep * (static_cast<double>(best) - kInside + aside);
 }
 
-// Towards what is left of the finger on a circle round the tip; zero where it is nowhere or on all sides.
+// Direction towards the rest of the finger on a circle around the tip; zero if the circle has no skin or skin
+// on all sides.
 Direction knuckle(const Around& skin, const Tangent& tangent, double radius) {
   Direction sum{0.0, 0.0};
   for (const Direction& d : directions()) {
@@ -110,7 +112,7 @@ struct Round {
   int edges = 0;
 };
 
-// One edge: its distance from the outline, and how that depends on middle and radius.
+// Adds one edge: its distance from the outline, and the derivatives by middle and radius.
 void take(double x, double y, const Direction& along, double radius, double most, Round& round) {
   const double back = x * along.x + y * along.y;
   double far = std::sqrt(x * x + y * y), nx = x / far, ny = y / far;  // the cap
@@ -129,7 +131,7 @@ void take(double x, double y, const Direction& along, double radius, double most
   ++round.edges;
 }
 
-// Edges are sought along straight lines of the image and judged where they are circles.
+// Searches edges along straight lines of the image, and evaluates them in the view where they are circles.
 Round look(const Around& skin, const Grey* image, const Tangent& tangent, const CapFit& now, double most) {
   Round round;
   const Direction along{now.along_x, now.along_y};
@@ -156,7 +158,7 @@ Around around(const Mask& mask, const Pixel& start, double radius) {
   return {mask, Region{x - far, y - far, x + far + 1, y + far + 1}.cut(mask.whole())};
 }
 
-// False where there is too little to fit.
+// False if there are too few edges to fit.
 bool improve(const Around& skin, const Grey* image, const RectifiedPair& pair, double knuckle_at, double most,
              CapFit& fit) {
   const Tangent tangent(pair, fit.centre);
@@ -179,8 +181,8 @@ CapFit fit_cap(const Mask& mask, const RectifiedPair& pair, const Pixel& start, 
   const Around skin = around(mask, start, radius);
   CapFit fit{false, start, radius};
   for (int i = 0; i < kFitRounds; ++i) {
-    // At first beyond the square's corner, through which a finger may be seen from far behind its tip; not
-    // where the image ends before that.
+    // The first rounds look beyond the square's corner, because a finger may extend far behind its tip; but
+    // not beyond the end of the image.
     const double most = (i < 2 ? 1.5 : 0.35) * fit.radius;
     const bool begun = i == 0 && improve(skin, nullptr, pair, 2.4, most, fit);
     if (!begun && !improve(skin, nullptr, pair, 1.6, most, fit)) return fit;
@@ -195,7 +197,7 @@ CapFit sharpen_cap(const Mask& mask, const Grey& image, const RectifiedPair& pai
   const Around skin = around(mask, fit.centre, fit.radius);
   CapFit sharp = fit;
   for (int i = 0; i < 4; ++i) {
-    // In the end an edge of something else does not count.
+    // The last rounds reject edges of anything else.
     const double most = i < 2 ? 0.35 * fit.radius : std::max(1.0, 0.1 * fit.radius);
     if (!improve(skin, &image, pair, 1.6, most, sharp)) return fit;
   }
@@ -205,20 +207,20 @@ CapFit sharpen_cap(const Mask& mask, const Grey& image, const RectifiedPair& pai
 
 namespace {
 
-constexpr double kFrontShare = 0.9;  // of the cap's radius, by which a block is nearer than the middle
-constexpr double kVague = 1.0;       // px, by which a block may be off
+constexpr double kFrontShare = 0.9;  // block's lead over the cap's middle, as a share of the radius
+constexpr double kVague = 1.0;       // px, error of a block
 constexpr int kFewest = 16;          // pixels
-constexpr std::size_t kMost = 512;   // pixels that are compared, evenly spread
+constexpr std::size_t kMost = 512;   // compared pixels, evenly spread
 constexpr std::size_t kFirst = 256;  // at first
-constexpr double kBehind = 1.0;      // radii of the finger behind the cap that count
-// Cosine of 60 degrees: what is seen more aslant lies within a seventh of a radius of the rim, where a pixel
-// has some of the background, in the other image as well.
+constexpr double kBehind = 1.0;      // radii of the finger behind the cap that are compared
+// Cosine of 60 degrees: a more oblique surface lies within a seventh of a radius of the rim, where a pixel
+// contains some background in both images.
 constexpr double kAslant = 0.5;
-constexpr double kSlopes = 0.3;    // rad rms, of fingers against the image
+constexpr double kSlopes = 0.3;    // rad rms, slope of fingers against the image
 constexpr double kSteepest = 1.2;  // rad
-constexpr double kLittle = 1e-3;   // rad, for the derivative
-// Of a cap's radius: how far each pixel is smoothed (rms), so that of dark skin seen from near more is left
-// than noise. Twice as far mixes in what is beyond the rim.
+constexpr double kLittle = 1e-3;   // rad, step of the derivative
+// Smoothing of each pixel (rms), as a share of a cap's radius, so that dark skin seen from near shows more
+// detail than noise. Twice as much mixes in the surroundings beyond the rim.
 constexpr double kSmooth = 1.0 / 18.0;
 constexpr int kMostPasses = 8;  // px
 
@@ -241,15 +243,15 @@ class Solid {
  public:
   Solid(const Tangent& tangent, const Fingertip& tip, double slope)
       : middle_(tangent.ray({tip.column, tip.row})), mm_(middle_.squaredNorm()) {
-    const double rim = tip.outline / tangent.focal();  // tangent of the half angle under which it is seen
+    const double rim = tip.outline / tangent.focal();  // tangent of half the finger's visual angle
     rr_ = mm_ * rim * rim / (1.0 + rim * rim);
     axis_ = std::cos(slope) * (tip.along_x * tangent.right() + tip.along_y * tangent.down()) +
             std::sin(slope) * tangent.view();
     across_ = middle_ - middle_.dot(axis_) * axis_;
     capped_ = axis_.squaredNorm() > 0.5;
   }
-  // One over the depth at which the ray meets it, 0 where it does not, or too aslant for one of the eyes;
-  // `eye` is how far the right one is to the right.
+  // 1 / depth at which the ray meets the finger; 0 if it does not, or too obliquely for one of the eyes.
+  // `eye`: offset of the right eye to the right.
   [[nodiscard]] double nearness(const Vec3& ray, double eye) const {
     const double b = ray.dot(middle_), rays = ray.squaredNorm(), root = b * b - rays * (mm_ - rr_);
     if (root >= 0.0) {
@@ -290,13 +292,13 @@ struct Spot {
 
 struct Sums {
   double n = 0.0;
-  Mat3 normal = Mat3::Zero();  // of brightness, disparity, slope
+  Mat3 normal = Mat3::Zero();  // rows: brightness, disparity, slope
   Vec3 right = Vec3::Zero();
   double squares = 0.0;
   [[nodiscard]] double left_over() const { return squares - right[0] * right[0] / n; }
 };
 
-// A finger of one slope, and of one a little steeper.
+// A finger of one slope, and a finger that is a little steeper.
 class Bent {
  public:
   Bent(const Tangent& tangent, const Fingertip& tip, double disparity, double slope)
@@ -304,7 +306,7 @@ class Bent {
         solid_(tangent, tip, slope),
         steeper_(tangent, tip, slope + kLittle),
         eye_(disparity / tangent.focal()) {}
-  // False where it is out of sight.
+  // False if the pixel is not visible.
   [[nodiscard]] bool lay(Spot& spot) const {
     const Vec3 ray = tangent_.ray({static_cast<double>(spot.x), static_cast<double>(spot.y)});
     spot.nearness = solid_.nearness(ray, eye_);
@@ -319,7 +321,7 @@ class Bent {
   double eye_;
 };
 
-// The cap and what counts of the finger behind it.
+// The cap and the part of the finger behind it that is compared.
 Region part_of(const Fingertip& tip, const Region& image) {
   const double far = 1.2 * tip.outline * (1.0 + kBehind);
   return Region{static_cast<int>(tip.column - far), static_cast<int>(tip.row - far),
@@ -331,10 +333,10 @@ struct Views {
   Smoothed left, right;
 };
 
-// Both images of it, where its middle has one of these disparities.
+// Cut-outs of both images around that part, for middle disparities from `least` to `most`.
 Views views_of(const Grey& left, const Grey& right, const Fingertip& tip, double least, double most) {
-  constexpr double kSlack = 1.1;  // nearer and farther parts of the finger
-  constexpr int kCubic = 3;       // px: columns round a place that are read
+  constexpr double kSlack = 1.1;  // covers nearer and farther parts of the finger
+  constexpr int kCubic = 3;       // px: columns read on each side of a position
   const int passes =
       std::min(kMostPasses, static_cast<int>(2.0 * kSmooth * kSmooth * tip.outline * tip.outline));
   const Region own = part_of(tip, {0, 0, left.width, left.height});
@@ -358,7 +360,7 @@ class Comparison {
     step_ = static_cast<int>(std::ceil(std::sqrt(pixels / static_cast<double>(most))));
   }
 
-  // The pixels that are compared, were the finger's slope this one; both eyes see them.
+  // Selects the pixels to compare for this slope; both eyes must see them.
   void choose(double disparity, double slope) {
     const Bent bent(tangent_, tip_, disparity, slope);
     count_ = 0;
@@ -366,15 +368,16 @@ class Comparison {
       for (int x = part_.x0; x < part_.x1; x += step_)
         if (skin_.at(x, y) && count_ < kMost && bent.lay(spots_[count_] = {x, y})) ++count_;
   }
-  // The same ones at another slope, without those that are out of sight then.
+  // Keeps the selected pixels at another slope, except those that are not visible there.
   void bend(double disparity, double slope) {
     const Bent bent(tangent_, tip_, disparity, slope);
     const auto kept = std::remove_if(spots_.begin(), end(), [&](Spot& spot) { return !bent.lay(spot); });
     count_ = static_cast<std::size_t>(kept - spots_.begin());
   }
-  // Those that differ by much more than the others: a reflection, a speck, what is before the finger.
+  // Drops pixels that differ much more than the rest: a reflection, a speck, something in front of the
+  // finger.
   void drop_odd(double disparity, const Sums& sums) {
-    constexpr double kOdd = 3.5, kLeast = 3.0;  // rms of all, grey levels
+    constexpr double kOdd = 3.5, kLeast = 3.0;  // times the rms of all; grey levels
     const double most = std::max(kOdd * std::sqrt(sums.left_over() / sums.n), kLeast);
     const double usual = sums.right[0] / sums.n;
     const auto kept = std::remove_if(spots_.begin(), end(), [&](const Spot& spot) {
@@ -383,7 +386,7 @@ class Comparison {
     });
     count_ = static_cast<std::size_t>(kept - spots_.begin());
   }
-  // The brightness of the images may differ.
+  // The brightness of both images may differ.
   [[nodiscard]] Sums at(double disparity) const {
     Sums sums;
     for (const Spot& spot : std::span(spots_.data(), count_)) {
@@ -398,8 +401,8 @@ class Comparison {
     return sums;
   }
 
-  // How much the right image differs, just beyond the tip, from the finger there, mean grey levels: little,
-  // where the finger goes on. It tells places along a finger apart whose skin is alike.
+  // Difference of the right image just beyond the tip from the finger there, mean grey levels. It is small if
+  // the finger continues there. So it separates positions along a finger whose skin looks alike.
   [[nodiscard]] double end(double disparity) const {
     const double beyond = tip_.outline + std::clamp(0.3 * tip_.outline, 2.0, 6.0);
     double sum = 0.0;
@@ -425,7 +428,7 @@ class Comparison {
   [[nodiscard]] Spots::iterator end() { return spots_.begin() + static_cast<std::ptrdiff_t>(count_); }
   struct Residue {
     bool seen = false;
-    double levels = 0.0, slope = 0.0;  // grey levels, those of a pixel to the right
+    double levels = 0.0, slope = 0.0;  // grey levels; slope to the next pixel on the right
   };
   [[nodiscard]] Residue at(const Spot& spot, double disparity) const {
     const double column = spot.x - disparity * spot.nearness;
@@ -450,13 +453,13 @@ struct Start {
   double disparity = kUnset, slope = kUnset;
 };
 
-// How far the middle's disparity may be from what a block tells: the block is a little off, and where on the
-// sloping finger it is hardly matters to the half of its radius.
+// Search range of the middle's disparity around that of a block. The block may be slightly off, and its
+// position along a sloping finger is uncertain by half a radius.
 double range_of(double disparity, double outline, double focal) {
   return kVague + 0.5 * disparity * outline / focal;
 }
 
-// The least that is left over at a slope, in steps of about half a pixel.
+// The start with the least residual for a given slope, in steps of about half a pixel.
 Start sought(Comparison& cap, double from, double range, double slope) {
   Start best;
   const int steps = static_cast<int>(std::ceil(2.0 * range));
@@ -470,14 +473,14 @@ Start sought(Comparison& cap, double from, double range, double slope) {
   return best;
 }
 
-// Newton, with what is known of slopes beforehand. A range of 0 keeps the disparity.
+// Newton's method with a prior of the slope. A range of 0 keeps the disparity.
 CapDisparity settled(Comparison& cap, const Start& start, double range) {
   constexpr int kRounds = 12, kChoices = 4;
-  constexpr double kKept = 1e-3;   // px: of no account
-  constexpr double kExact = 0.05;  // grey levels^2: pictures without noise are not exact to the bit
+  constexpr double kKept = 1e-3;   // px: negligible
+  constexpr double kExact = 0.05;  // grey levels^2: images without noise are not exact to the bit
   CapDisparity found{.disparity = start.disparity, .slope = start.slope};
   for (int round = 0; round < kRounds; ++round) {
-    // Pixels at the rim that come and go with the slope must not keep it from settling.
+    // Rim pixels that come and go with the slope must not keep the search from settling.
     if (round < kChoices)
       cap.choose(found.disparity, found.slope);
     else
@@ -506,7 +509,7 @@ CapDisparity settled(Comparison& cap, const Start& start, double range) {
   return found;
 }
 
-// Less is left over; where about as much is, the end of the finger decides.
+// True if the residual is smaller. If both are similar, the end of the finger decides.
 bool better(const Comparison& cap, const CapDisparity& found, const CapDisparity& best) {
   constexpr double kAlike = 1.3, kApart = 2.0;  // px
   const bool alike = found.left_over < kAlike * best.left_over && best.left_over < kAlike * found.left_over;

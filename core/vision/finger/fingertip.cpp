@@ -57,11 +57,11 @@ int FingertipFinder::stretch(double radius) const {
 
 int FingertipFinder::reach(double disparity) const {
   const double radius = std::min(radius_of(disparity), r_most_);
-  // The middle of the best candidates is at most a radius away from the first of them.
+  // The middle of the best candidates is at most one radius away from the first of them.
   return std::max({half_side(radius), stretch(radius), static_cast<int>(radius * (1.0 + kFarthest))}) + 2;
 }
 
-// Sums of skin to the left of each pixel and above it.
+// Sums of skin to the left of and above each pixel.
 void FingertipFinder::sum(const Mask& skin, const Region& part) {
   part_ = part;
   const std::size_t first = at(width_, part.y0, 0);
@@ -121,7 +121,7 @@ int FingertipFinder::along_square(int x, int y, int half) const {
          in_column(x - half, y - half + 1, y + half - 1) + in_column(x + half, y - half + 1, y + half - 1);
 }
 
-// Each pixel of half of S with the one on the other side of (x, y).
+// Counts opposite pixels of S on both sides of (x, y) that are both skin; half of S is enough.
 int FingertipFinder::diagonal_pairs(const Mask& skin, int x, int y, int half) const {
   const auto on = [&](int column, int row) { return part_.contains(column, row) && skin.at(column, row); };
   int pairs = 0;
@@ -139,7 +139,7 @@ void FingertipFinder::look_at(const Mask& skin, const DisparityMap& disparity, i
     ++counts_.no_skin;
     return;
   }
-  const double d = disparity.at(x, y);  // 2: z = f B / d; a pixel without depth is none of a fingertip
+  const double d = disparity.at(x, y);  // 2: z = f B / d; a pixel without depth is not on a fingertip
   if (!(d > 0.0)) {
     ++counts_.no_depth;
     return;
@@ -157,7 +157,7 @@ void FingertipFinder::look_at(const Mask& skin, const DisparityMap& disparity, i
   }
   const int half = half_side(radius);
   const bool whole = x >= half && y >= half && x + half < width_ && y + half < height_;
-  const int along = whole ? along_square(x, y, half) : 0;  // 6; a finger that the image cuts has no end there
+  const int along = whole ? along_square(x, y, half) : 0;  // 6; a finger cut by the border has no end
   if (!whole || along < spec_.square_least * radius || along > spec_.square_most * radius) {  // 7
     ++counts_.square;
     return;
@@ -188,8 +188,8 @@ Fingertip FingertipFinder::find(const Mask& skin, const DisparityMap& disparity,
   return tip(skin, 0);
 }
 
-// The best one and others that are about as good and so far apart that they are other fingers: by score, or
-// by how near they are to where the finger is foreseen.
+// Selects the best fingertip, and others of similar quality that are far enough away to be other fingers. The
+// order is by score, or by distance to the predicted position of the finger.
 void FingertipFinder::choose(const Triplet& expected) {
   constexpr double kApart = 3.0;        // radii
   constexpr float kAboutAsGood = 0.1F;  // of score
@@ -255,10 +255,10 @@ Fingertip FingertipFinder::tip(const Mask& skin, std::size_t index) const {
 
 namespace {
 
-constexpr double kRound = 1.8;         // radii of the cap round its middle that are laid over
-constexpr int kMostPixels = 1024;      // pixels of it, evenly spread
+constexpr double kRound = 1.8;         // radii around the cap's middle that are compared
+constexpr int kMostPixels = 1024;      // compared pixels, evenly spread
 constexpr double kAboutAsGood = 0.04;  // share of pixels
-constexpr double kTells = 0.1;         // share: where all shifts are alike nothing is told
+constexpr double kTells = 0.1;         // share: if all shifts fit alike, the shape decides nothing
 constexpr int kApart = 4;              // px
 
 struct Lay {
@@ -274,7 +274,8 @@ struct Lay {
   }
 };
 
-// Share of the pixels that are skin in both or in neither; what lies outside of the right image is not.
+// Share of the pixels that are skin in both images or in neither; positions outside of the right image count
+// as no skin.
 double alike(const Mask& left, const Mask& right, const Lay& lay, int shift) {
   int same = 0, all = 0;
   for (int y = lay.y0; y < lay.y1; y += lay.step)
@@ -300,7 +301,7 @@ std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& t
   for (int shift = range.least; shift <= most; ++shift) {
     of(shift) = alike(left, right, lay, shift);
     best = std::max(best, of(shift));
-    if (shift <= lay.x0) worst = std::min(worst, of(shift));  // all of it is in the image
+    if (shift <= lay.x0) worst = std::min(worst, of(shift));  // the whole shape is in the image
   }
   if (best - worst < kTells) return 0;
   std::size_t count = 0;

@@ -6,27 +6,27 @@
 namespace enc {
 namespace {
 
-// Widths of caps over that of the finger of the scene, 16 mm where it says nothing. Index fingers of adults
-// are 13 to 18 mm wide at the last joint, thumbs 18 to 23 mm (docs/notes/fingertip.md).
+// Widths of caps relative to the scene's finger, which is 16 mm unless the scene defines it. Index fingers of
+// adults are 13 to 18 mm wide at the last joint, thumbs 18 to 23 mm (docs/notes/fingertip.md).
 constexpr double kNarrowest = 0.55, kWidest = 1.14;
-constexpr double kVaguest = 0.007;   // m rms: three times as much is 20 mm
+constexpr double kVaguest = 0.007;   // m rms: three times this is 20 mm
 constexpr double kDepthOff = 0.015;  // m
 
-// Widths of a straight finger: a thumb is shorter, a rod longer.
+// Lengths of a straight finger in its widths: a thumb is shorter, a rod longer.
 constexpr double kShort = 3.0, kLong = 7.5;
-// A cap as wide as the finger of the scene, or a little narrower, is no thumb of its hand: it need not be so
-// long, nor so far from its palm.
+// A cap as wide as the scene's finger, or a little narrower, is not the thumb of its hand. It may be shorter
+// and nearer to its palm.
 constexpr double kAlikeLeast = 0.80, kAlikeMost = 0.98, kAlikeShort = 2.3, kAlikeNearHand = 3.8;
 constexpr double kLongest = 0.115;    // m
-constexpr double kMostAslant = 0.85;  // tangent: beyond it little is seen of a finger
+constexpr double kMostAslant = 0.85;  // tangent: at a steeper slope too little of a finger is visible
 constexpr int kFlanked = 3;           // of eight sides
 
-// A thumb ends nearer to its palm, in its widths; what is thick and farther off is a forearm.
+// A thumb ends nearer to its palm, in its widths; a thick part farther away is a forearm.
 constexpr double kNearHand = 5.0;
 constexpr double kFarHand = 0.158;   // m, from the fingertip to the palm of a large hand
-constexpr double kPalmBehind = 0.9;  // of the finger's length
-constexpr double kBent = 0.6;        // tangent: as much may the hand slope otherwise than its finger
-// A finger that comes out of the image's border shows no hand.
+constexpr double kPalmBehind = 0.9;  // share of the finger's length
+constexpr double kBent = 0.6;        // tangent: largest difference in slope between hand and finger
+// A finger that enters across the image's border shows no hand.
 constexpr double kBorderLength = 2.2;  // widths
 
 double width_of(const FingerEvidence& e) { return std::max(e.width, e.cap); }

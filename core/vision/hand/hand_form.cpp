@@ -7,13 +7,13 @@
 namespace enc {
 namespace {
 
-constexpr double kAside = 5.0;          // radii: how far to either side is looked
-constexpr double kWidens = 1.55;        // times the finger's width: there it ends in a hand
+constexpr double kAside = 5.0;          // radii: distance examined on either side
+constexpr double kWidens = 1.55;        // times the finger's width: at this width it ends in a hand
 constexpr double kStep = 0.25;          // radii
 constexpr std::size_t kMostSteps = 96;  // steps
 
 struct Across {
-  double left = 0.0, right = 0.0;  // px of skin to either side of the middle line
+  double left = 0.0, right = 0.0;  // px of skin on either side of the middle line
   [[nodiscard]] double width() const { return left + right; }
 };
 
@@ -28,7 +28,7 @@ class Walk {
         radius_(tip.outline) {}
 
   [[nodiscard]] const Pixel& at() const { return at_; }
-  // One step along the finger. False where the image, or what of it counts, ends.
+  // Takes one step along the finger. False at the end of the image or of the part that counts.
   bool step() {
     at_ = {at_.column + kStep * radius_ * along_x_, at_.row + kStep * radius_ * along_y_};
     return part_.contains(x_of(at_), y_of(at_));
@@ -40,7 +40,7 @@ class Walk {
     seen.right = side(1.0);
     return seen;
   }
-  // Moves to the middle of what is across, and turns with it: half as far, because edges are rough.
+  // Moves to the middle of the cross-section and turns with it: half as far, because edges are rough.
   void centre(const Across& seen) {
     const double off = 0.25 * (seen.right - seen.left);
     at_ = {at_.column - off * along_y_, at_.row + off * along_x_};
@@ -129,7 +129,7 @@ PalmFinder::PalmFinder(int width, int height)
       rows_(std::max(3, height / kGrid)),
       thick_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
-// Distances of 3 and 4 for a step and a diagonal one, in two passes [Borgefors 1986].
+// Distances with weights 3 and 4 for straight and diagonal steps, in two passes [Borgefors 1986].
 void PalmFinder::measure(const Mask& skin) {
   std::fill(thick_.begin(), thick_.end(), 0);
   const auto on = [&](int column, int row) {

@@ -12,7 +12,7 @@
 namespace enc {
 namespace {
 
-// The least box round the skin within `window`; empty where there is none.
+// The smallest box around the skin within `window`; empty without skin.
 Region box_of(const Mask& skin, const Region& window) {
   if (window.empty()) return {};
   Region box{window.x1, window.y1, window.x0, window.y0};
@@ -21,7 +21,7 @@ Region box_of(const Mask& skin, const Region& window) {
     for (int x = window.x0; x < window.x1; ++x)
       if (row[x] != 0) {
         box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), y + 1};
-        x = std::max(x, box.x1 - 1);  // what is between changes nothing
+        x = std::max(x, box.x1 - 1);  // pixels in between change nothing
       }
   }
   return box;
@@ -31,15 +31,15 @@ Region grown(const Region& region, int by) {
   return {region.x0 - by, region.y0 - by, region.x1 + by, region.y1 + by};
 }
 
-constexpr double kOther = 1.6;  // times as large a cap: more than K and the mask may be off
+constexpr double kOther = 1.6;  // ratio of cap sizes: more than the error of K and the mask
 
-// Of a disparity over the one that was expected: 3 m/s at 600 mm and 20 Hz.
+// True if the ratio of disparity to expected disparity is plausible: 3 m/s at 600 mm and 20 Hz.
 bool is_near(double ratio) {
   constexpr double kNearer = 1.25;
   return ratio < kNearer && ratio > 1.0 / kNearer;
 }
 
-// Every tile is foreground, so that hue alone tells skin.
+// Every tile counts as foreground, so that hue alone decides.
 SegmentationSpec without_background(SegmentationSpec spec) {
   spec.method = SegmentationMethod::published;
   spec.background_frames = 1;
@@ -81,13 +81,13 @@ ImageView HandScene::rectified(Side side, const ImageView& raw, const Region& pa
   return to.view();
 }
 
-// Tiles and the median look a little beyond what they tell.
+// The region that tiles and median read, a little beyond their result.
 Region HandScene::read_for(const Segmenter& segmenter, const Region& wanted) const {
   return grown(segmenter.on_grid(wanted), segmentation_.median + 2 * segmentation_.tile);
 }
 
 Region HandScene::segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted) {
-  // The light of a frame is measured all over it.
+  // The light of a frame is measured over the whole frame.
   const bool all = segmentation_.method == SegmentationMethod::ours;
   const Region part = all ? this->frame() : read_for(segmenter, wanted);
   const ImageView image = rectified(Side::left, raw, part);
@@ -129,12 +129,12 @@ void HandScene::look_for_finger_in_background(const StereoFrame& frame) {
   finger_in_background_ = seen.tip.found && (seen.tip.fitted || seen.tip.score > 0.8);
 }
 
-// `around` is what may be asked of the images later, `window` what is asked of the disparity now.
+// `around`: region that later steps may read in the images; `window`: region whose disparity is needed now.
 void HandScene::match(const StereoFrame& frame, const Region& window, const Region& around) {
   disparity_.match(matcher_, grey_left_, grey_right_, skin_, Region{});
   const Region box = box_of(skin_, around);
   if (box.empty()) return;
-  constexpr int kBeyond = 8;  // px: how far the fit of the cap looks beyond the mask
+  constexpr int kBeyond = 8;  // px that the fit of the cap reads beyond the mask
   const Region cells = grown(box, DisparityMap::kCell + kBeyond);
   const Region left = matcher_.left_of(cells), right = matcher_.right_of(cells);
   to_grey(rectified(Side::left, frame.left, left), left, grey_left_);
@@ -142,7 +142,7 @@ void HandScene::match(const StereoFrame& frame, const Region& window, const Regi
   disparity_.match(matcher_, grey_left_, grey_right_, skin_, window.cut(box));
 }
 
-// Beyond each pixel of skin with its depth.
+// Largest reach beyond any skin pixel, by its depth.
 int HandScene::farthest_reach(const Region& window) const {
   float most = 0.0F;
   const Region box = box_of(skin_, window);
@@ -160,7 +160,7 @@ HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, 
   Region around = grown(window, first).cut(this->frame());
   segmented_ = segment(segmenter_, frame.left, around);
   match(frame, window, around);
-  // A finger that is nearer than thought needs more round it.
+  // A finger nearer than expected needs a larger region.
   if (const int reach = farthest_reach(window); reach > first) {
     around = grown(window, reach).cut(this->frame());
     segmented_ = segment(segmenter_, frame.left, around);
@@ -173,9 +173,9 @@ HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, 
   return seen;
 }
 
-// Disparities of blocks of the finger next to the tip. A block with more background than finger gives the
-// background's distance, and skin of little detail matches elsewhere: keep all by which the cap would not
-// look much larger or smaller than it does. The candidate's own comes first.
+// Disparities of blocks of the finger next to the tip. A block with more background than finger measures the
+// background, and skin of little detail matches elsewhere. So keep every disparity at which the cap's
+// apparent size stays plausible. The candidate's own disparity comes first.
 std::size_t HandScene::surfaces_of(const Fingertip& tip, Surfaces& surfaces) {
   std::size_t count = 0;
   const auto take = [&](float surface) {
@@ -221,12 +221,12 @@ void HandScene::sharpen(Fingertip& tip) const {
   tip.along_y = sharp.along_y;
 }
 
-// The cap's outline is that of its middle in the right image, too: where it lies there. NaN where it cannot
-// be fitted, or not to one like that of the left image in the same row.
+// Disparity of the cap's middle by its outline in the right image. NaN if the outline cannot be fitted there,
+// or if it differs from that of the left image in size or row.
 double HandScene::outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity) {
   constexpr double kAlike = 0.15;                  // of the radius
   constexpr double kSameRow = 1.0, kMisfit = 0.7;  // px
-  // Radii: how far the fit moves at most, and how far it looks from there.
+  // Radii: largest shift of the fit, and the distance that it reads from there.
   constexpr double kMoves = 2.0, kAround = kFarthest * (1.0 + kAlike) + kMoves;
   const Pixel start{tip.column - disparity, tip.row};
   const auto x = static_cast<int>(start.column), y = static_cast<int>(start.row);
@@ -251,13 +251,13 @@ CapDisparity HandScene::match_from(const Fingertip& tip, double middle) const {
   return match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
 }
 
-// Dark skin of little detail fits nearly as well a pixel off, with another slope: where it does so at the
-// place that the outline in the right image tells, that is right. It does not lead away from where a followed
-// finger is expected.
+// Dark skin of little detail fits nearly as well a pixel off, with another slope. If it fits as well at the
+// disparity of the outline, that disparity is right. It is not used if it contradicts the expected position
+// of a tracked finger.
 void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap) {
   constexpr double kApart = 0.8, kElsewhere = 6.0;  // px
-  constexpr double kAlike = 1.2;                    // times what is left over
-  constexpr double kDisagree = 0.5;                 // px rms, where outline and match are apart
+  constexpr double kAlike = 1.2;                    // times the residual
+  constexpr double kDisagree = 0.5;                 // px rms, if outline and match differ
   const double outline = outline_disparity(tip, frame, cap.disparity);
   if (expected > 0.0 && !is_near(outline / expected)) return;
   const double apart = std::abs(outline - cap.disparity);
@@ -268,10 +268,10 @@ void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double e
   cap.variance = kDisagree * kDisagree;
 }
 
-// A followed finger cannot have come much nearer or gone much farther since the last frame: where the blocks
-// say so, it is looked for where it is expected.
+// A tracked finger cannot come much nearer or move much farther away within a frame. If the blocks say so,
+// search at the expected disparity instead.
 void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
-  constexpr double kUnrefined = 0.5;  // px rms, of a block that sees a cap
+  constexpr double kUnrefined = 0.5;  // px rms, error of a block on a cap
   Surfaces surfaces{};
   std::size_t count = surfaces_of(seen.tip, surfaces);
   if (!(expected > 0.0)) count += shapes_of(seen.tip, frame, std::span(surfaces).subspan(count));
@@ -293,31 +293,31 @@ void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
 
 namespace {
 
-constexpr double kReach = 16.0;         // radii of the cap: a finger and the first of its hand
-constexpr double kFollowedReach = 3.0;  // likewise, where less is asked of a finger that is followed
+constexpr double kReach = 16.0;         // radii of the cap: a finger and the start of its hand
+constexpr double kFollowedReach = 3.0;  // radii, for a tracked finger, which needs less evidence
 constexpr double kHandReach = 9.0;      // widths of the finger, from its tip to its palm
-// A part that comes nearer looks larger: if its slope is unknown, a finger may be so much shorter than the
-// image shows.
+// A part that comes nearer looks larger. If its slope is unknown, the finger may be shorter than the image
+// shows by this factor.
 constexpr double kUnsloped = 0.9;
-constexpr std::size_t kFirstSpot = 2;  // of the finger's middle line: not the cap itself
+constexpr std::size_t kFirstSpot = 2;  // first point of the middle line beyond the cap itself
 
-// How a way goes away from the camera, for each length along the image.
+// Slope of a path away from the camera, per length along the image.
 double slope_along(const Vec3& way) { return way.z() / std::max(1e-6, std::hypot(way.x(), way.y())); }
 
-// Longer than a thumb.
+// A straight finger is longer than a thumb.
 bool is_straight(const FingerEvidence& e) {
   constexpr double kStraight = 3.2;  // widths
   return e.length > kStraight * e.width;
 }
 
-// Places along a finger, with what blocks there say of its depth. Skin of little detail is matched anywhere:
-// only places that lie on one line count.
+// Positions along a finger with the disparities of blocks there. Skin of little detail matches anywhere, so
+// only positions on one line count.
 class Spots {
  public:
   void add(double off, double disparity) { at_[count_++] = {off, disparity}; }
-  // Disparity is even along a straight line [Theil].
+  // Disparity changes linearly along a straight line [Theil].
   void fit() {
-    constexpr double kOff = 0.004, kBlockOff = 0.4;  // of the disparity; px
+    constexpr double kOff = 0.004, kBlockOff = 0.4;  // share of the disparity; px
     std::array<double, FingerForm::kSpots * FingerForm::kSpots> rates{};
     std::array<double, FingerForm::kSpots> starts{};
     std::size_t rate_count = 0;
@@ -349,24 +349,24 @@ class Spots {
 
 }  // namespace
 
-// More of the left image than look() needed.
+// Segments more of the left image than look() needed.
 void HandScene::segment_too(const StereoFrame& frame, const Region& wanted) {
   if (wanted.cut(segmented_) == wanted) return;
   const Region more = segment(segmenter_, frame.left, wanted);
   if (segmented_.cut(more) == segmented_) segmented_ = more;
 }
 
-// Blocks may be matched within `part`.
+// Prepares the images for matching blocks within `part`.
 void HandScene::make_ready(const StereoFrame& frame, const Region& part) {
   const Region left = matcher_.left_of(part), right = matcher_.right_of(part);
   to_grey(rectified(Side::left, frame.left, left), left, grey_left_);
   to_grey(rectified(Side::right, frame.right, right), right, grey_right_);
 }
 
-// Counts the sides of the finger where something is as near as the finger: then it is part of a surface.
+// Counts the sides of the finger with an equally near surface; then the finger is part of that surface.
 int HandScene::flanks(const Pixel& at, const Fingertip& tip, double width, double disparity) {
   constexpr double kBeyond = 0.9;   // radii
-  constexpr double kClear = 6.0;    // px: a block of 8 px beside the finger has nothing of it
+  constexpr double kClear = 6.0;    // px: a block of 8 px beside the finger does not touch it
   constexpr double kAsNear = 0.04;  // of the distance
   const double aside = 0.5 * width + std::max(kBeyond * tip.outline, kClear);
   int count = 0;
@@ -379,12 +379,12 @@ int HandScene::flanks(const Pixel& at, const Fingertip& tip, double width, doubl
   return count;
 }
 
-// The way from one place to another along the axes of the rectified image, m.
+// The path from one position to another along the axes of the rectified image, m.
 Vec3 HandScene::in_image(const Triplet& to, const Triplet& from) const {
   return pair().turn.transpose() * (triangulate(pair(), to) - triangulate(pair(), from)).e();
 }
 
-// Evidence of the cap, which is measured anyway.
+// Evidence of the cap, which is measured in any case.
 void HandScene::weigh_cap(Seen& seen) const {
   FingerEvidence& e = seen.evidence;
   e.outlined = seen.tip.fitted;
@@ -395,19 +395,19 @@ void HandScene::weigh_cap(Seen& seen) const {
   e.cap = 2.0 * seen.tip.outline * pair().baseline / seen.disparity;
 }
 
-// The finger behind the tip, as the mask shows it.
+// Form of the finger behind the tip in the mask.
 FingerForm HandScene::form_behind(Seen& seen, const StereoFrame& frame, double reach) {
   const Region part = form_region(seen.tip, reach, this->frame());
   segment_too(frame, part);
   const FingerForm form = form_of(skin_, seen.tip, reach);
-  const double each = pair().baseline / seen.disparity;  // m that a pixel is wide at the tip
+  const double each = pair().baseline / seen.disparity;  // m per pixel at the tip
   seen.evidence.width = form.width * each;
   seen.evidence.length = form.length * each;
   seen.evidence.end = form.end;
   return form;
 }
 
-// Length and slope of the finger, and what it says of the depth of its tip.
+// Length and slope of the finger, and the depth of its tip that follows from them.
 void HandScene::weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen) {
   FingerEvidence& e = seen.evidence;
   const Fingertip& tip = seen.tip;
@@ -445,7 +445,7 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
   }
   const Pixel palm = palm_.near({seen.tip.column, seen.tip.row}, kHandReach * width);
   if (!(palm.column >= 0.0)) return;
-  constexpr double kSteepest = 2.0;  // tangent: what is steeper is skin of little detail, matched elsewhere
+  constexpr double kSteepest = 2.0;  // tangent: a steeper match is skin of little detail, matched elsewhere
   const Triplet tip{seen.tip.column, seen.tip.row, seen.disparity};
   Triplet at{palm.column, palm.row, disparity_around(frame, palm)};
   Vec3 way = in_image(at, tip);
@@ -461,7 +461,7 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
   e.palm = triangulate(pair(), at);
 }
 
-// px, the middle one of some blocks of skin; NaN where too few are matched.
+// px, median disparity of some blocks of skin; NaN if too few match.
 double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
   constexpr int kAround = 2, kStep = 6, kFewest = 4;  // blocks to each side; px; blocks
   constexpr int kFar = kAround * kStep;
@@ -477,10 +477,10 @@ double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
   return count >= kFewest ? upper_median(std::span(found.data(), count)) : kUnset;
 }
 
-// Whether a find is the finger that is followed: where that is foreseen, of the same width, and straight. Of
-// the images nothing more is asked than they were asked already.
+// True if a detection continues the tracked finger: near the predicted position, equally wide, and straight.
+// This reads no more of the images than was already needed.
 bool HandScene::goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed) {
-  constexpr double kNear = 0.020;  // m: what is farther off may be another finger of the hand
+  constexpr double kNear = 0.020;  // m: a detection farther off may be another finger of the hand
   if (!(followed.cap > 0.0)) return false;
   if (!((seen.evidence.tip - triangulate(pair(), followed.at)).norm() < kNear)) return false;
   if (seen.tip.fitted) (void)form_behind(seen, frame, kFollowedReach);
@@ -499,7 +499,7 @@ void HandScene::recognise(Seen& seen, const StereoFrame& frame) {
   seen.doubt = doubt_of(seen.evidence, limits_);
 }
 
-// Whether a hand near the find has three or more straight fingers: which of them points cannot be known.
+// True if a hand near the detection has three or more straight fingers: then the pointing one is ambiguous.
 bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
   constexpr double kSameHand = 5.0, kOfHand = 9.0;  // widths of the finger: between palms; from tip to palm
   constexpr std::ptrdiff_t kMany = 3;
@@ -514,8 +514,8 @@ bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
   });
 }
 
-// The followed finger where one of the finder's fingertips goes on with it, else the one that is believed and
-// farthest from its palm. Where none is believed, the first with its doubt.
+// Chooses the fingertip that continues the tracked finger, else the accepted one farthest from its palm. If
+// none is accepted, it returns the first one with its doubt.
 HandScene::Seen HandScene::choose(const StereoFrame& frame, const Followed& followed) {
   std::array<Seen, FingertipFinder::kMost> seen;
   const std::span<Seen> all(seen.data(), finder_.count());

@@ -1,4 +1,4 @@
-// What the program finds in encounter_vision.so.
+// The export of encounter_vision.so.
 #include "core/devices/module.h"
 
 #include <algorithm>

@@ -9,11 +9,12 @@
 namespace enc::segmentation {
 namespace {
 
-// Derived from the twin's skins, whose chroma is 0.45 of the brightest channel or more: at least one in so
-// many. It keeps away what is bright as well, so that no time is lost with that.
+// Least chroma of skin as a share of the brightest channel, inverted; derived from the twin's skins, which
+// have 0.45 or more. It also rejects bright pixels early, which saves time.
 constexpr int kLeastSaturation = 4;
-constexpr int kNoise = 8;  // of one pixel's chroma, for the first look, which leaves the light's colour in
-constexpr HueRule kOfBackground{.least_chroma = 4, .least_value = 0};  // ten frames: a third of the noise
+constexpr int kNoise = 8;  // noise of one pixel's chroma, for the first test, which keeps the light's colour
+// averaging ten frames leaves a third of the noise
+constexpr HueRule kOfBackground{.least_chroma = 4, .least_value = 0};
 
 bool may_be_skin(const std::uint8_t* p) {
   const int most = std::max(p[0], std::max(p[1], p[2])), least = std::min(p[0], std::min(p[1], p[2]));
@@ -74,7 +75,7 @@ void Hueless::find(const ImageView& frame, const Planes& background, const Mask&
 namespace {
 
 constexpr double kLeastColour = 0.004, kLeastBright = 0.01;  // shares: a steady lamp's flicker
-constexpr double kSpreads = 3.0;                             // of what the light leaves unexplained
+constexpr double kSpreads = 3.0;                             // times the light's residual
 
 template <class T>
 T fixed(double value, double one) {
@@ -89,7 +90,7 @@ Explained explained(const Light& light, double change) {
     e.gain[c] = fixed<std::uint16_t>(g[c], 1024.0);
     e.white[c] = fixed<std::uint16_t>(least / g[c], 256.0);
   }
-  e.noise = fixed<std::uint16_t>(change, 0.5 * 256.0);  // of eighths to quarters
+  e.noise = fixed<std::uint16_t>(change, 0.5 * 256.0);  // converts eighths to quarters
   e.colour = fixed<std::uint16_t>(kLeastColour + kSpreads * light.colour, 65536.0);
   e.bright = fixed<std::uint16_t>(kLeastBright + kSpreads * light.bright, 65536.0);
   return e;
@@ -119,7 +120,7 @@ Change::Change(const Kernels& kernels, const Grid& grid, const Image& mean, cons
     }
 }
 
-// The same for all rows of a tile, wherever the region begins.
+// Equal for all rows of a tile, wherever the region begins.
 void Change::row_of(const Light& light, int y, const Region& region) {
   const double one = 16384.0 * 65536.0;
   const int tile = y / grid_.tile;

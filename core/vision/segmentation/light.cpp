@@ -7,15 +7,15 @@
 namespace enc::segmentation {
 namespace {
 
-constexpr int kEvery = 3;              // tiles, both ways, from one sample to the next
-constexpr std::uint32_t kDark = 16;    // of 255: below, a ratio says little
-constexpr std::uint32_t kLight = 245;  // above, a pixel may be clipped
-constexpr int kFewest = 50;            // samples that say something of the light
+constexpr int kEvery = 3;              // tiles between two samples, in both directions
+constexpr std::uint32_t kDark = 16;    // out of 255: a darker pixel gives no reliable ratio
+constexpr std::uint32_t kLight = 245;  // a brighter pixel may be clipped
+constexpr int kFewest = 50;            // fewest samples that determine the light
 constexpr double kMostGain = 8.0;
 constexpr std::size_t kSteps = 16384;  // of a median
-constexpr double kSpread = 1.4826;     // of a Gaussian, over its median of |x|
-// Share of the brightness: with more left unexplained, what was measured is not the background's light but a
-// hand's, as where the background is clipped and the hand is not.
+constexpr double kSpread = 1.4826;     // a Gaussian's standard deviation over its median of |x|
+// Share of the brightness. A larger residual means that the measured light is a hand's and not the
+// background's, for example if the background is clipped and the hand is not.
 constexpr double kNonsense = 0.125;
 
 }  // namespace
@@ -46,7 +46,7 @@ void LightMeter::pair_up() {
   };
   const int step = kEvery * grid_.tile;
   const int far_x = std::max(1, columns / 8) * step, far_y = std::max(1, rows / 8) * step;
-  for (std::size_t i = samples_.size(); i-- > 0;) {  // partners come later in the list
+  for (std::size_t i = samples_.size(); i-- > 0;) {  // partners are behind in the list
     Sample& s = samples_[i];
     if (s.x + far_x < grid_.width) s.right = place(s.x + far_x, s.y);
     if (s.y + far_y < grid_.height) s.below = place(s.x, s.y + far_y);
@@ -54,7 +54,7 @@ void LightMeter::pair_up() {
   }
 }
 
-// The median of what each two samples say. A hand spoils only those pairs that have one of theirs on it.
+// The median over pairs of samples. A hand spoils only the pairs with a sample on it.
 void LightMeter::first_plane(Light& light) {
   constexpr double kSteepest = 2.0;
   const auto slope = [&](std::size_t Sample::*other, double Sample::*at) {
@@ -106,7 +106,7 @@ double LightMeter::median(double most, const F& of) {
   return static_cast<double>(i) / scale;
 }
 
-// Three rounds: each takes what lies within three spreads of the plane before.
+// Three rounds; each uses the samples within three spreads of the previous plane.
 void LightMeter::fit_plane(Light& light) {
   const auto plane = [&](const Sample& s) {
     return light.middle + light.across * s.at_x + light.down * s.at_y;
@@ -134,7 +134,7 @@ void LightMeter::fit_plane(Light& light) {
     xv -= x * v / n;
     yv -= y * v / n;
     const double determinant = xx * yy - xy * xy;
-    if (determinant < 1e-4 * n * n) return;  // samples in a line say nothing of a plane
+    if (determinant < 1e-4 * n * n) return;  // samples in a line do not define a plane
     light.across = (xv * yy - yv * xy) / determinant;
     light.down = (yv * xx - xv * xy) / determinant;
     light.middle = (v - light.across * x - light.down * y) / n;
@@ -146,7 +146,7 @@ Light LightMeter::measure(const ImageView& frame) {
   look(frame);
   const auto clear = std::count_if(samples_.begin(), samples_.end(), [](const Sample& s) { return s.clear; });
   if (clear < kFewest) return light;
-  // Red and blue against green, each in one place: so a lamp at the side is not taken for a colour.
+  // Red and blue relative to green in each sample, so that a lamp at the side does not count as a colour.
   const auto times = [](const Sample& s, std::size_t c) { return s.seen[c] * s.inverse[c]; };
   const double green = median(kMostGain, [&](const Sample& s) { return times(s, 1); });
   const auto beside = [&](std::size_t c) {

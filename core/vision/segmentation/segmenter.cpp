@@ -44,8 +44,8 @@ struct Segmenter::Parts {
   s::Grid grid;
   const s::Kernels& kernels = s::kernels();
   s::Cut cut{};
-  std::optional<s::Background> background;  // until it is learned
-  std::optional<s::Tiles> tiles;            // then one of the two
+  std::optional<s::Background> background;  // while it is being learned
+  std::optional<s::Tiles> tiles;            // afterwards one of these two
   std::optional<s::Change> change;
   s::Majority median;
   Mask candidates;
@@ -120,7 +120,7 @@ Region Segmenter::segment(const ImageView& frame, const Region& wanted, Mask& sk
   p.fits(skin.width, skin.height, "the mask");
   const Region region = on_grid(wanted);
   if (region.empty()) return region;
-  // The median looks beyond the region: what is there has to be right, too.
+  // The median reads beyond the region, so the candidates there must be right, too.
   const Region wide = p.grid.touched(region, p.median.margin());
   if (p.tiles) p.tiles->candidates(frame, wide, p.spec.match, p.cut, p.candidates);
   if (p.change) p.change->candidates(frame, wide, p.spec.change, p.cut, p.candidates);

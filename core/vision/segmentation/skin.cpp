@@ -26,7 +26,7 @@ void SkinLearner::add(const ImageView& image, const Mask& hand) {
       const std::uint8_t* p = image.at(x, y);
       const int hue = segmentation::hue_of(p[0], p[1], p[2], rule_);
       if (hue == segmentation::kNoHue) continue;
-      // A hue of 0 may be the end of the last sextant, too.
+      // A hue of 0 may also be the end of the last sextant.
       const double middle = segmentation::angle_of(hue);
       ++count_[static_cast<std::size_t>(hue)];
       sum_[static_cast<std::size_t>(hue)] +=
@@ -37,7 +37,7 @@ void SkinLearner::add(const ImageView& image, const Mask& hand) {
 
 SkinModel SkinLearner::model() const {
   if (pixels_ < 2) throw Error("no skin to learn from: expected masks that have pixels with a hue");
-  // Each with the mean of the exact hues that are its own.
+  // Calls `take` for each hue bin with the mean of its exact hues.
   const auto each = [this](const auto& take) {
     for (std::size_t hue = 0; hue < count_.size(); ++hue)
       if (count_[hue] != 0)
@@ -53,7 +53,7 @@ SkinModel SkinLearner::model() const {
     throw Error("the masks' pixels have all hues alike; expected the hues of skin");
   SkinModel model;
   model.hue = std::atan2(y, x);
-  // Mean and spread of the differences from there, each the short way round.
+  // Mean and spread of the differences from that mean, each the short way around.
   double sum = 0.0, squares = 0.0;
   each([&](double hue, double n) {
     const double away = std::remainder(hue - model.hue, kTurn);

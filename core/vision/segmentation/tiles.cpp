@@ -58,7 +58,7 @@ double unrest(std::vector<double> noise) {
 
 namespace {
 
-// Bins 0, 2, 4, 6, then 1, 3, 5, 7: their order means nothing.
+// Bins 0, 2, 4, 6, then 1, 3, 5, 7; their order is irrelevant.
 std::uint64_t spread(std::uint32_t fours) {
   constexpr std::uint32_t kEven = 0x0f0f0f0fU;
   return (std::uint64_t{fours >> 4 & kEven} << 32) | (fours & kEven);
@@ -81,7 +81,7 @@ Tiles::Tiles(const Kernels& kernels, const Grid& grid, int bins)
       wide_(static_cast<std::size_t>(grid.width) + 16) {}
 
 void Tiles::histograms(const Region& tiles) {
-  const int together = kMostTile / tiles.height();  // columns whose counts fit four bits
+  const int together = kMostTile / tiles.height();  // columns whose summed counts fit four bits
   std::size_t tile = 0;
   for (int x = 0; x < tiles.width(); x += grid_.tile) {
     const int end = std::min(x + grid_.tile, tiles.width());
@@ -109,7 +109,7 @@ void Tiles::match_tiles(const Region& tiles, double match) {
   kernels_.match_row(seen_.data() + full, model + full, 1, fewer, needed(match, fewer), found_.data() + full);
 }
 
-// A tile's byte for each of its pixels: two words of eight, of which the next tile takes what is too much.
+// Writes a tile's byte for each of its pixels: two words of eight; the next tile overwrites the excess.
 void Tiles::widen(int width) {
   std::uint8_t* to = wide_.data();
   for (const std::uint8_t* tile = found_.data(); to < wide_.data() + width; to += grid_.tile, ++tile) {

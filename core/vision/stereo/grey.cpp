@@ -30,7 +30,7 @@ Smoothed::Smoothed(const Grey& image, const Region& part, int passes)
   for (int i = 0; i < passes; ++i) pass();
 }
 
-// In place; at the border the pixel itself stands for the neighbour that is not there.
+// Works in place; at the border the pixel itself replaces the missing neighbour.
 void Smoothed::pass() {
   const std::size_t rows = level_.size() / stride_;
   for (std::size_t y = 0; y < rows; ++y) {

@@ -12,7 +12,7 @@
 namespace enc {
 namespace {
 
-constexpr int kBeside = 2;  // px on either side of the best place that belong to it
+constexpr int kBeside = 2;  // px on either side of the best position that belong to it
 
 bool all_on(const Mask& mask, int x0, int y0, int columns, int rows) {
   for (int y = y0; y < y0 + rows; ++y)
@@ -51,8 +51,8 @@ void Matcher::compare(const Block& block, const std::uint8_t* strip, std::size_t
     kernel_.compare(block.level, block.stride, strip, stride, spec_.columns, spec_.rows, count, cost_.data());
 }
 
-// A block of an even width has its middle between two columns: the upper left pixel of the block of (x, y) is
-// (x - columns / 2, y - rows / 2).
+// A block of even width has its middle between two columns. The upper left pixel of the block of (x, y) is (x
+// - columns / 2, y - rows / 2).
 Disparity Matcher::at(const Grey& left, const Grey& right, int x, int y, const Mask* mask) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const int x0 = x - spec_.columns / 2, y0 = y - spec_.rows / 2;
@@ -81,11 +81,11 @@ Disparity Matcher::at(const Grey& left, const Grey& right, int x, int y, const M
   if (spec_.agreement >= 0.0 && !mutual(left, block, x0 - disparity, y0, disparity))
     return {Matched::not_mutual, kNone};
   const int bend = below - 2 * lowest + above;
-  const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0.0;  // of the place; to the right
+  const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0.0;  // shift of the position to the right
   return {Matched::yes, static_cast<float>(disparity - shift)};
 }
 
-// A block that is at `column` of the right image, sought in the left one.
+// Searches the left image for a block at `column` of the right one.
 bool Matcher::mutual(const Grey& left, const Block& block, int column, int y, int disparity) {
   const int most = std::min(most_, left.width - spec_.columns - column);
   compare(block, left.at(column + least_, y), left.stride, most - least_ + 1);
@@ -137,7 +137,7 @@ void DisparityMap::match(Matcher& matcher, const Grey& left, const Grey& right, 
     }
 }
 
-// The lower of the two in the middle, so that it is a value that was found.
+// The lower of the two middle values, so that it is a measured one.
 float DisparityMap::median_round(std::size_t column, std::size_t row) const {
   std::array<float, 9> values{};
   std::size_t count = 0;
@@ -154,10 +154,10 @@ float DisparityMap::median_round(std::size_t column, std::size_t row) const {
 
 namespace {
 
-// Large blocks: a room has little that is like itself elsewhere, and its depth does not matter. Farther than
-// a person works, too, for that is where the walls are.
+// Large blocks, because rooms seldom repeat at that size, and the depth need not be exact. The range extends
+// farther than a person works, because the walls are there.
 constexpr int kColumnsOfBlock = 16, kRowsOfBlock = 15;  // px
-constexpr int kSteps = 5;                               // frames after which the places are the same again
+constexpr int kSteps = 5;                               // frames after which the examined positions repeat
 
 MatchSpec blocks(const RectifiedPair& pair) {
   constexpr double kNearest = 0.4, kFarthest = 20.0;  // m
@@ -175,7 +175,7 @@ Region Exchanged::strip(int row) const {
   return Region{0, y - kRowsOfBlock / 2, width_, y + kRowsOfBlock / 2 + 1}.cut({0, 0, width_, height_});
 }
 
-// Every frame looks at other columns, so that one bare patch of wall is not all that is ever asked.
+// Every frame examines other columns, so that one bare patch of wall does not spoil all answers.
 int Exchanged::matched(const Grey& left, const Grey& right) {
   int count = 0;
   for (int row = 0; row < kRows; ++row) {

@@ -1,5 +1,5 @@
-// Compiled with -mavx2, and called only where the processor has it. Sixteen places at once: vmpsadbw compares
-// four bytes of the block with eight places in each half of a register.
+// Compiled with -mavx2, and called only if the processor has it. It compares sixteen positions at once:
+// vmpsadbw compares four bytes of the block with eight positions in each half of a register.
 #include "core/vision/stereo/match_kernel.h"
 
 #if defined(__AVX2__)
@@ -10,8 +10,8 @@ namespace {
 
 __m128i load(const std::uint8_t* at) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)); }
 
-// Places 0 to 7 in the lower half, 8 to 15 in the upper one. Four bytes of the block in turn, against the
-// strip from the same byte on: its third and fourth four begin eight bytes further.
+// Positions 0 to 7 in the lower half, 8 to 15 in the upper one. The block's bytes go four at a time against
+// the strip from that byte on; the third and fourth group begin eight bytes farther.
 template <int fours>
 __m256i row_of(const std::uint8_t* block, const std::uint8_t* strip, __m256i sum) {
   const __m256i a = _mm256_broadcastsi128_si256(load(block));
@@ -46,7 +46,7 @@ void compare(const std::uint8_t* block, std::size_t block_stride, const std::uin
   compare_fours<4>(block, block_stride, strip, strip_stride, rows, count, cost);
 }
 
-// One byte of the block at a time, against sixteen places.
+// Compares one byte of the block at a time with sixteen positions.
 void compare_masked(const std::uint8_t* block, std::size_t block_stride, const std::uint8_t* mask,
                     std::size_t mask_stride, const std::uint8_t* strip, std::size_t strip_stride, int columns,
                     int rows, int count, std::uint16_t* cost) {

@@ -9,7 +9,7 @@ namespace {
 
 struct Bent {
   Ray ray;
-  double xx, xy, yy;  // its derivatives; the matrix is symmetric
+  double xx, xy, yy;  // derivatives of that ray; the matrix is symmetric
 };
 
 Bent bend(const Lens& lens, const Ray& ray) {
@@ -104,7 +104,7 @@ Rectifier::Rectifier(const StereoRig& rig)
     pair_.centre_y = rig.left.centre_y;
     return;
   }
-  // Each camera is turned by half of the rotation between them, then both so that x is along the baseline.
+  // Turn each camera by half of the rotation between them, then both so that x is along the baseline.
   Quat between(rig.X_CD.q());
   if (between.w() < 0.0) between.coeffs() *= -1.0;
   const Mat3 half = Quat::Identity().slerp(0.5, between).toRotationMatrix();
@@ -116,7 +116,7 @@ Rectifier::Rectifier(const StereoRig& rig)
   make_map();
 }
 
-// The middle of what the eight corners of both raw images become is the middle of the rectified ones.
+// The rectified image's middle is the middle of the rectified eight corners of both raw images.
 void Rectifier::choose_centre() {
   pair_.centre_x = pair_.centre_y = 0.0;
   double x = 0.0, y = 0.0;
@@ -195,7 +195,7 @@ void Rectifier::part(Side side, const ImageView& raw, const Region& wanted, Imag
 
 Point<'C'> triangulate(const RectifiedPair& pair, const Triplet& at) {
   if (!(at.disparity > 0.0)) return {};
-  const double each = pair.baseline / at.disparity;  // m that a pixel is wide there
+  const double each = pair.baseline / at.disparity;  // m per pixel there
   return Point<'C'>(
       Vec3(pair.turn * (each * Vec3(at.column - pair.centre_x, at.row - pair.centre_y, pair.focal))));
 }

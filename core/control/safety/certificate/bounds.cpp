@@ -11,7 +11,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// At one angle: what b must hold, as b^2 - b q - w |H|^2 >= 0, with H = h0 + h1 K and q alike.
+// Condition on b at one angle: b^2 - b q - w |H|^2 >= 0. H = h0 + h1 K and q = q0 + q1 K are linear in K.
 struct Demand {
   Complex h0, h1;
   double q0 = 0.0, q1 = 0.0, w = 0.0;
@@ -28,7 +28,7 @@ Demand demand_at(const SampledLoop& loop, const Damper& damper, double angle) {
   return found;
 }
 
-// The largest K of c + l K - s K^2 >= 0, s >= 0; 0 where 0 is not one of them.
+// The largest K >= 0 with c + l K - s K^2 >= 0, for s >= 0; 0 if K = 0 already violates it.
 double largest_root(double c, double l, double s) {
   if (c < 0.0) return 0.0;
   const double root = std::sqrt(l * l + 4.0 * s * c);
@@ -36,7 +36,7 @@ double largest_root(double c, double l, double s) {
   return s > 0.0 ? (l + root) / (2.0 * s) : kInfinite;
 }
 
-// 2 x / y, and without a limit where y is 0.
+// 2 x / y; infinite if y is 0.
 double twice_over(double x, double y) { return y == 0.0 && x >= 0.0 ? kInfinite : 2.0 * x / y; }
 
 bool sane(double value) { return std::isfinite(value) && value >= 0.0; }
@@ -45,7 +45,8 @@ bool plain(const SampledLoop& loop, const Damper& damper) {
   return loop.delay == 0.0 && std::isnan(loop.filter) && damper.fixed == 0.0 && damper.ratio == 0.0;
 }
 
-// With what it rings with to begin with, rad/s. The one that counts is what the loop rings with then.
+// True if dry friction stops an oscillation of that amplitude. `turning`: first estimate of its frequency,
+// rad/s. The added damper changes that frequency, so the search repeats.
 bool stops(SampledLoop loop, double friction, double stiffness, double damper, double amplitude,
            double turning) {
   constexpr double kSame = 0.02;
@@ -86,7 +87,8 @@ double passive_stiffness(const SampledLoop& loop, const Damper& damper) {
   for (const double angle : angles(loop)) {
     const Demand at = demand_at(loop, damper, angle);
     const double cross = (at.h0 * std::conj(at.h1)).real();
-    // Divided by b where the force changes with the readings: then it holds for b = 0, too.
+    // If the force does not change between readings, the condition is divided by b, so that it holds for b =
+    // 0 too.
     least =
         std::min(least, at.w > 0.0 ? largest_root(b * b - b * at.q0 - at.w * std::norm(at.h0),
                                                   -b * at.q1 - 2.0 * at.w * cross, at.w * std::norm(at.h1))
@@ -131,7 +133,7 @@ double friction_stiffness(const SampledLoop& loop, double friction, const Damper
     return kUnset;
   const auto ends = edges(loop, damper, 4.0 * friction / (std::numbers::pi * amplitude));
   if (ends.empty()) return friction_stops(loop, friction, 1.0, damper.at(1.0), amplitude) ? kInfinite : 0.0;
-  // Just below the lowest it rings as there.
+  // The loop still oscillates at the lowest edge's frequency just below that edge.
   const Edge& end = ends.front();
   const double below = 0.99 * end.stiffness, turning = end.angle / loop.period;
   return stops(loop, friction, below, damper.at(below), amplitude, turning) ? end.stiffness : 0.0;
@@ -147,7 +149,7 @@ std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Aske
     const double margin = stiffness < range.low ? stiffness / range.low : range.high / stiffness;
     rows.push_back({name, formula, range.high, margin, applies, source, range.low});
   };
-  const bool one_way = given.around.count == 0;  // what the formulas are of
+  const bool one_way = given.around.count == 0;  // the formulas assume motion along the normal only
   const bool spring = one_way && plain(loop, damper);
   const bool held = one_way && holds_counts(loop, steps, stiffness, damper.at(stiffness));
   const double quantised = quantised_stiffness(loop, steps);

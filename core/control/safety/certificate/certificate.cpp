@@ -10,8 +10,8 @@ namespace enc::certificate {
 
 namespace {
 
-// Motion over h, s, from speed v under a constant pull: v' = pull - a v. The place changes by v reach + pull
-// sag, the speed becomes v + (pull - a v) reach.
+// Motion over h, s, from speed v under a constant pull: v' = pull - a v. The position changes by v reach +
+// pull sag, and the speed becomes v + (pull - a v) reach.
 struct Span {
   double h, reach, sag;
   Span(double span, double a) : h(span), reach(span), sag(0.5 * span * span) {
@@ -24,18 +24,18 @@ struct Span {
   }
 };
 
-// The device: exact but for the hand's spring, which is taken in the middle of a step.
+// The device. Its motion is exact except for the hand's spring, which is evaluated in the middle of a step.
 struct Slide {
   double mass = 1.0, a = 0.0, spring = 0.0, friction = 0.0;  // a: damping over mass, 1/s
   double x = 0.0, v = 0.0;
 
-  // Until it stops under that pull, s; infinite where it does not.
+  // Time to standstill under that pull, s; infinite if the device does not stop.
   [[nodiscard]] double stops_after(double pull) const {
     const double straight = v / -pull;
     if (!(straight >= 0.0)) return std::numeric_limits<double>::infinity();
     return a * straight < 1e-12 ? straight : std::log1p(a * straight) / a;
   }
-  // At a stop on the way, friction decides anew.
+  // If the device stops within the span, friction is evaluated anew from there.
   void glide(double force, const Span& given) {
     Span over = given;
     for (;;) {
@@ -60,7 +60,7 @@ struct Slide {
   }
 };
 
-// The law, with all that it remembers.
+// The control law with all of its state.
 struct Law {
   const SampledLoop& loop;
   double stiffness, damper, count;
@@ -88,7 +88,7 @@ struct Law {
   }
 };
 
-// From peak to peak.
+// Range of an oscillation, peak to peak.
 struct Swing {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void see(double x) {
@@ -98,7 +98,7 @@ struct Swing {
   [[nodiscard]] double of() const { return high - low; }
 };
 
-// s: a hundred swings, and what a damper takes to creep to rest.
+// s: a hundred oscillations, plus the time that a damper takes to creep to rest.
 struct Watch {
   static constexpr double kMost = 1e5;  // periods
   double wanted, least;                 // periods
@@ -118,13 +118,14 @@ struct Watch {
 // One period of law and device.
 class Run {
  public:
-  // Parts of a step that are short for the hand's spring; without it one. 0: too many.
+  // Number of parts of a step that are short for the hand's spring; 1 without a spring, 0 if there would be
+  // too many.
   static int parts_of(const SampledLoop& loop, double span) {
     constexpr double kFine = 0.02, kMany = 4000.0;
     const double mass = loop.mass + loop.hand.mass, damper = loop.damping + loop.hand.damping;
     const double spring = loop.hand.stiffness;
     if (spring == 0.0) return 1;
-    // A damper that is stiff for the mass has it follow no quicker than spring over damper.
+    // If the damper is stiff for the mass, the device follows no faster than spring over damper.
     const double swings = std::sqrt(spring / mass);
     const double quickest = damper > 0.0 ? std::min(swings, spring / damper) : swings;
     const double parts = std::ceil(span * quickest / kFine);
@@ -154,7 +155,7 @@ class Run {
 
  private:
   Law law_;
-  double early_;  // s, that the force before lasts into a period
+  double early_;  // s, part of a period in which the previous force still acts
   int parts_[2];
   Slide slide_{};
   Span first_{0.0, 0.0}, rest_{0.0, 0.0};
@@ -196,7 +197,7 @@ Released release(const SampledLoop& loop, const Steps& steps, double stiffness, 
     moved = moved || swing.low != disturbance || swing.high != disturbance;
     const double last = swing.of(), time = after(quarter);
     if (quarters >= 4) {
-      // A device that has not moved by then never does: the law sees nothing new.
+      // A device that has not moved by then never will, because the law gets no new reading.
       if (moved && watch.least > Watch::kMost) return {Rest::unknown, last, time};
       if (last <= 0.01 * disturbance) return {Rest::still, last, time};
       if (last > 1.1 * before) return {Rest::away, last, time};
@@ -210,7 +211,7 @@ Released release(const SampledLoop& loop, const Steps& steps, double stiffness, 
 
 namespace {
 
-// The first figure that is no number, or none that can be.
+// The first figure that is not a number or has an impossible value.
 std::string missing_of(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
   const struct {
     const char* name;
@@ -235,12 +236,12 @@ std::string missing_of(const SampledLoop& loop, const Steps& steps, const Asked&
   return loop.known() ? "" : "filter";
 }
 
-// What is in a row's own range is stable; beyond it one look tells.
+// Stiffnesses in a row's own range are stable; any other one needs one look at the eigenvalues.
 bool rests(const SampledLoop& loop, const Row& row, double stiffness, double damper) {
   return (stiffness > row.low && stiffness < row.bound) || stable(loop, stiffness, damper);
 }
 
-// Sideways the law of an arm has a damper above what the device has: some hand makes it swing.
+// Sideways, the law of an arm has more damping than the device, so some hand makes it oscillate.
 bool passive(const SampledLoop& loop, const Steps& steps, double stiffness, double damper) {
   return loop.around.count == 0 && holds_counts(loop, steps, stiffness, damper) &&
          needed_damping(loop.alone(), stiffness, damper) <= loop.damping;
@@ -268,7 +269,7 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
   found.missing = missing_of(loop, steps, asked);
   if (!found.missing.empty()) return found;
   const double damper = asked.damper.at(asked.stiffness);
-  // The release runs along the normal: it says nothing if sideways motion decides.
+  // The release runs along the normal, so it is no evidence if sideways motion decides.
   const SampledLoop along = loop.alone().along();
   const Row& alone = row_of(found, "exact_alone");
   if (loop.around.count == 0 ||

@@ -59,8 +59,8 @@ using Mat3c = Eigen::Matrix3cd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat69 = Eigen::Matrix<double, 6, 9>;
 
-// The derivative of eta and of its rate, by both and by a held force, in units of a period. A direction that
-// does not exist is a damped spring of its own.
+// The derivative of eta and of its rate, caused by both of them and by a held force, in units of a period. A
+// direction that does not exist is a damped spring of its own.
 Mat69 derivative(const SampledLoop& loop) {
   const Directions& all = loop.around;
   const double T = loop.period;
@@ -77,8 +77,8 @@ Mat69 derivative(const SampledLoop& loop) {
   return a;
 }
 
-// What becomes of them in a share of a period, less what they were, so that slow loops keep their digits: of
-// the matrix exponential of the derivative the part that is not constant.
+// Change of eta and its rate in a share of a period: the matrix exponential of the derivative without the
+// identity. The difference keeps the digits of slow loops.
 Mat69 added(const Mat69& a, double share) {
   const double size = a.cwiseAbs().rowwise().sum().maxCoeff();
   double scale = share;
@@ -135,7 +135,7 @@ Complex TipLoop::across(double angle, double stiffness, double damper) const {
          filter_response(all.filter, angle);
 }
 
-// With the sides closed the normal is one loop.
+// A normal with closed sides is a single loop.
 Complex TipLoop::needed(double angle, const Damper& damper) const {
   const Mat3c place = response(angle).place;
   const Complex side = across(angle, 0.0, 0.0), rate = rate_response(loop_, angle);
@@ -167,7 +167,7 @@ double TipLoop::turned(double from, double to, Complex at_from, Complex at_to, d
 }
 
 // As a function of 1/z the determinant has its zeros at the eigenvalues' inverses and no pole within the
-// circle: it turns once around 0 for each zero there.
+// circle. So it winds once around 0 for each zero there.
 int TipLoop::winding(double stiffness, double damper) const {
   constexpr int kForEachPeriod = 24, kDeepest = 24;
   double from = 0.0, turns = 0.0;
@@ -192,7 +192,7 @@ int TipLoop::outside(double stiffness, double damper) const {
       std::count_if(found.begin(), found.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); }));
 }
 
-// Of places and speeds along three directions those of the first n.
+// Rows of the first n of three directions, positions and then speeds.
 template <class Matrix>
 Eigen::MatrixXd of_directions(const Matrix& all, Eigen::Index n) {
   Eigen::MatrixXd found(2 * n, all.cols());
@@ -240,8 +240,8 @@ Eigen::MatrixXd TipLoop::step(double stiffness, double damper) const {
 
 bool at_least(double value, double least) { return std::isfinite(value) && value >= least; }
 
-// The device over a share of a period, in units of place, of place a period, and of force T^2 / mass: what is
-// added to them. Without the identity, so that slow loops keep their digits.
+// Change of the device's state over a share of a period. Units: position, position per period, and force T^2
+// / mass. The identity is left out, so that slow loops keep their digits.
 Mat3 added(const SampledLoop& loop, double share) {
   const double mass = loop.mass + loop.hand.mass, T = loop.period;
   const double spring = loop.hand.stiffness * T * T / mass,
@@ -261,12 +261,12 @@ Mat3 added(const SampledLoop& loop, double share) {
     term = (term * a / static_cast<double>(i)).eval();
     sum += term;
   }
-  for (int i = 0; i < halved; ++i) sum = (2.0 * sum + sum * sum).eval();  // e^2a - 1 of e^a - 1
+  for (int i = 0; i < halved; ++i) sum = (2.0 * sum + sum * sum).eval();  // e^2a - 1 from e^a - 1
   return sum;
 }
 
-// One period: what place and speed become by themselves, less what they were; by the force that begins in it;
-// and by the one before, which lasts for its first part.
+// One period of the device: the change of position and speed without a force, the effect of the force that
+// begins in it, and the effect of the previous force, which lasts for its first part.
 struct Device {
   Eigen::Matrix2d free;
   Eigen::Vector2d fresh, old;
@@ -283,7 +283,7 @@ struct Device {
   }
 };
 
-// Place over force, with the delay, m/N, at z = e^{j angle}.
+// Compliance at z = e^{j angle}, with the delay, m/N.
 Complex compliance(const SampledLoop& loop, const Device& device, double angle) {
   const Late delay = late(loop);
   const Complex past = one_less(angle), turn = -std::conj(past);  // 1 - 1/z, z - 1
@@ -295,7 +295,7 @@ Complex compliance(const SampledLoop& loop, const Device& device, double angle) 
          (loop.mass + loop.hand.mass);
 }
 
-// One step of everything that is remembered: place, speed, n readings, the filtered two, forces under way.
+// One step of the whole memory: position, speed, n readings, both filtered values, pending forces.
 Eigen::MatrixXd step_of(const SampledLoop& loop, double stiffness, double damper) {
   const Late delay = late(loop);
   const Device device(loop);
@@ -420,8 +420,7 @@ bool stable(const SampledLoop& loop, double stiffness, double damper) {
 
 namespace {
 
-// The angle between two, up to which the imaginary part of what is `needed` keeps the sign that it has
-// `before`.
+// The last angle of an interval at which the imaginary part of `needed` still has the sign of `before`.
 template <class Needed>
 double last_of_sign(const Needed& needed, double before, double low, double high) {
   for (int i = 0; i < 60; ++i) {
@@ -456,11 +455,11 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
     const double stiffness = needed(angle).real();
     if (stiffness > 0.0 && stiffness < kStiffest) found.push_back({stiffness, angle, leave});
   };
-  constexpr int kForEachPeriod = 24;  // a delay turns by 7.5 degrees from one to the next
+  constexpr int kForEachPeriod = 24;  // a delay turns the phase by 7.5 degrees between two angles
   const std::vector<double> grid = angles(loop, kForEachPeriod);
   double from = grid.front(), before = needed(from).imag();
   for (const double end : grid) {
-    const double to = std::min(end, pi - 1e-7);  // at pi all is real
+    const double to = std::min(end, pi - 1e-7);  // all values are real at pi
     const double after = needed(to).imag();
     if (before * after < 0.0) add(last_of_sign(needed, before, from, to), before < 0.0 ? 2 : -2);
     from = to;
@@ -474,14 +473,14 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
 
 namespace {
 
-// Eigenvalues that are not within the unit circle.
+// Number of eigenvalues on or outside the unit circle.
 long outside_of(const SampledLoop& loop, double stiffness, const Damper& damper) {
   if (loop.around.count > 0) return TipLoop(loop).outside(stiffness, damper.at(stiffness));
   const auto all = eigenvalues(loop, stiffness, damper.at(stiffness));
   return std::count_if(all.begin(), all.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); });
 }
 
-// Between a stable and an unstable stiffness.
+// Bisection between a stable and an unstable stiffness.
 double border(const SampledLoop& loop, const Damper& damper, double stable, double unstable) {
   for (int i = 0; i < 24; ++i) {
     const double middle = std::sqrt(stable * unstable);
@@ -490,9 +489,10 @@ double border(const SampledLoop& loop, const Damper& damper, double stable, doub
   return stable;
 }
 
-// The law grows in all directions at once, so no single loop has its edges: it is tried from soft to stiff.
+// The law grows in all directions at once, so no single loop has its edges. The search tries stiffnesses from
+// soft to stiff.
 Range tried_range(const SampledLoop& loop, const Damper& damper) {
-  constexpr double kFirst = 1.0, kRise = 1.15;  // N/m; each over the one before
+  constexpr double kFirst = 1.0, kRise = 1.15;  // N/m; factor from one trial to the next
   double low = 0.0, before = 0.0;
   bool was_stable = false;
   const int all = static_cast<int>(std::log(kStiffest / kFirst) / std::log(kRise));
@@ -507,8 +507,7 @@ Range tried_range(const SampledLoop& loop, const Damper& damper) {
   return was_stable ? Range{low, std::numeric_limits<double>::infinity()} : Range{0.0, 0.0};
 }
 
-// A mode that hardly couples with the normal may leave the circle between two of the angles that are looked
-// at.
+// A mode that hardly couples with the normal may leave the circle between two sampled angles.
 double checked_high(const SampledLoop& loop, const Damper& damper, double stable, double high) {
   const double below = 0.99 * high;
   if (loop.around.count == 0 || !(below > stable) || outside_of(loop, below, damper) == 0) return high;
@@ -523,7 +522,7 @@ Range stable_range(const SampledLoop& loop, const Damper& damper) {
   std::vector<Edge> ends = edges(loop, damper);
   ends.push_back({kStiffest, pi, 0});
   double from = 0.0;
-  long outside = -1;  // eigenvalues; counted once, then by what the edges let in and out
+  long outside = -1;  // eigenvalues outside; counted once, then updated at each edge
   for (const Edge& end : ends) {
     const double to = end.stiffness;
     if (outside <= 0 && to - from > 1e-9 * to) {

@@ -12,8 +12,8 @@ double largest(double left, double u, double g) {
   return u > 0.0 ? 2.0 * left / (u + root) : (root - u) / (2.0 * g);
 }
 
-// A reading is within half a count of where the tip is: that is given to the law, as long as little is owed.
-// What gives nothing out may always be.
+// A reading is within half an encoder count of the tip. The bound grants the law that half count while the
+// energy deficit is small. A push that gives out no energy is always allowed.
 double bound(double left, double u, double g, double count) {
   return left > -kForgiven ? largest(std::max(0.0, left), u - 0.5 * count, g) : largest(0.0, u, g);
 }
@@ -35,7 +35,7 @@ void renew(Passivity& now, const Yielded& tick) noexcept {
   now.stored = std::max(0.0, 0.5 * tick.spring * tick.depth);
 }
 
-// Counts: a way back that is shorter is the encoder's (assumed: more than one count, and less than two).
+// Counts: a shorter reversal is attributed to the encoder (assumed: more than one count, and less than two).
 constexpr double kTurnCounts = 1.5;
 
 void observe(Passivity& now, const Yielded& tick, double count) noexcept {
@@ -47,7 +47,7 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept {
   const double work = now.pushed * now.moved;
   now.given += work;
   now.dissipated += std::max(0.0, now.taken * now.moved);
-  // Exact where the stiffness stays. Where the spring is at rest it holds nothing.
+  // Exact while the stiffness is constant. A spring at rest holds no energy.
   const double held = now.stored + 0.5 * (tick.spring + now.spring) * (tick.depth - now.depth);
   const double anew = 0.5 * tick.spring * tick.depth;
   now.stored = std::max(0.0, tick.depth * now.depth > 0.0 ? held : anew);

@@ -1,4 +1,4 @@
-// The machine carries a clamped tool: it waits until the jaws hold it, then goes from stop to stop.
+// The machine carries a clamped tool: it waits until the jaws hold it, then moves from stop to stop.
 #include "core/control/task/carry/travel.h"
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace {
 constexpr std::string_view kAxes = "xyz";
 // m: stops are no closer (derived: the machine's step is 3 um).
 constexpr double kLeastStop = 10e-6;
-// s: the jaws close, and the last micrometres of a leg (assumed: duration() is a little more than it takes).
+// s: the jaws close; and the last micrometres of a leg (assumed: duration() is a little longer than the
+// motion).
 constexpr double kClosing = 1.0, kArriving = 0.05;
 // m: the command is at the end of its leg (assumed: less than the machine's step of 3 um).
 constexpr double kThere = 1e-6;
@@ -118,7 +119,8 @@ void go_on(Walk& walk, const Travel& travel, CommonState& state, Travelling& now
   walk.target = going ? leg().to : command;
 }
 
-// Where a procedure sends it. The phase is that of what moves, so that no zero is learnt on the way.
+// Moves to the pose that a procedure sends. The phase follows the motion, so that the force zero does not
+// change on the way.
 void go_where_sent(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
   state.mode = Mode::travel;
   const bool may = walk.carried->valid() && (!travel.tool_held || walk.in.grip.value.holding);
@@ -126,7 +128,7 @@ void go_where_sent(Walk& walk, const Travel& travel, CommonState& state, Travell
   walk.target = may ? walk.carried->origin() : walk.scene.X_WR * now.command;
 }
 
-// Nothing is sideways of a straight leg: so each is a trapezoid of the leg's speed and the machine's whole
+// A straight leg has no sideways part, so each is a trapezoid of the leg's speed and the machine's whole
 // acceleration.
 Walls walls_around(const Travel& travel, const Travelling& now) {
   if (!travel.on_leg(now.leg)) return {};
@@ -160,7 +162,7 @@ void report(const Walk& walk, const Travel&, CommonState& state, const Travellin
   report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
   report_displaced(walk, now, out);
   if (walk.carried == nullptr) return;
-  // It turns where it may go, and stays as it is turned where it may not.
+  // The tip turns only while it may move; otherwise it keeps its rotation.
   const bool goes = now.phase == TravelPhase::move && !holding(walk) && walk.carried->valid();
   if (goes)
     out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate() * walk.carried->q(), now.command);

@@ -15,13 +15,13 @@ namespace enc {
 
 namespace {
 
-// m: the probe is thought to come from so far, and to pass the object after so much (assumed: objects are
+// m: distance at which the probe starts, and distance that it passes behind the object (assumed: objects are
 // smaller).
 constexpr double kAfar = 0.5, kFar = 1.0;
-// s: speeding up and slowing down, for each way (assumed: programme_time() is a little more than it takes).
+// s: acceleration and braking, for each path (assumed: programme_time() is a little longer than the motion).
 constexpr double kSettling = 0.1;
 
-// Polar angle and azimuth of the axis, as columns: towards growing polar, across, outward.
+// Axes of the push, as columns: towards growing polar angle, across, outward.
 Mat3 axes_of(const ProbeSpec& spec) {
   const double cp = std::cos(spec.polar), sp = std::sin(spec.polar);
   const double ca = std::cos(spec.azimuth), sa = std::sin(spec.azimuth);
@@ -32,11 +32,12 @@ Mat3 axes_of(const ProbeSpec& spec) {
   return axes;
 }
 
-// Centre of a sphere that comes in along `inward` from afar, when it first touches the object. A step as long
-// as the gap never goes through a surface.
+// Centre of a sphere that comes in along `inward` from afar, at its first touch of the object. A step as long
+// as the gap never passes through a surface.
 Point<'W'> first_touch(const Object& object, Point<'W'> centre, const Vec<'W'>& inward, double radius) {
-  constexpr int kSteps = 100'000;  // one that grazes it comes nearer and nearer, or goes on by little
-  const double touching = std::max(1e-12, 1e-15 * centre.e().norm());  // m; no place is known better
+  constexpr int kSteps = 100'000;  // a grazing sphere may need many steps
+  // m; positions are no more precise than this
+  const double touching = std::max(1e-12, 1e-15 * centre.e().norm());
   double way = 0.0;
   for (int i = 0; i < kSteps && way < kFar; ++i) {
     const double gap = stages::nearest(object, centre).distance - radius;
@@ -47,7 +48,7 @@ Point<'W'> first_touch(const Object& object, Point<'W'> centre, const Vec<'W'>& 
   throw Error("the probe goes past the object; expected a smaller offset_mm", "probe.offset");
 }
 
-// The nobody and nothing else that a test rig is made of.
+// A test rig has no user and no other parts.
 void check_parts(const SceneSpec& spec) {
   if (!spec.force) throw Error("[probe] measures force, but the scene has no [force]; add it", "probe");
   if (spec.user)
@@ -65,13 +66,13 @@ void check_sizes(const ProbeSpec& spec, const CommonScene& scene) {
                 "probe.depth");
   if (!(spec.speed > 0.0) || spec.speed > scene.reach.speed)
     throw Error("the machine cannot push that fast; lower speed_mm_s", "probe.speed");
-  // The probe stands on the machine: from above, the object would be where the machine is.
+  // The probe stands on the machine; a push from above would need the object at the machine's place.
   if (!(spec.polar >= 0.5 * M_PI - 1e-9))
     throw Error("the probe stands on the machine and pushes upwards; expected polar_deg from 90 to 180",
                 "probe.polar");
 }
 
-// The machine's zero, then straight to above the object, then straight in.
+// The path: from the machine's zero straight to above the object, then straight in.
 void check_way(const Probe& probe, const CommonScene& scene) {
   const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
   const auto gap = [&](const Point<'W'>& p) {
@@ -149,20 +150,20 @@ double programme_time(const CommonScene& scene, const Probe& probe) {
 
 namespace enc::stages {
 
-// ---- The machine as a test rig: it waits for its force zero, goes above the object, and pushes and returns
-// at a steady speed, again and again [VHMR 4.2].
+// ---- The machine as a test rig: it waits for its force zero, moves above the object, and pushes and returns
+// at constant speed, again and again [VHMR 4.2].
 
 namespace {
 
 // m: less than the machine's step of 3 um (assumed).
 constexpr double kNear = 1e-6;
 
-// The set-point is where the programme wants it.
+// True if the set-point is at the programme's position.
 bool arrived(const Walk& walk, const Probing& now, const Point<'W'>& wanted) {
   return (walk.scene.X_WR * now.command - wanted).norm() <= kNear;
 }
 
-// The phase that follows once this one is over.
+// The next phase, once the present one is over.
 ProbePhase next_phase(const Walk& walk, const Probe& probe, const CommonState& state, const Probing& now) {
   const bool there = arrived(walk, now, probe.at(now.deflection));
   switch (now.phase) {
@@ -206,7 +207,7 @@ void go_on(Walk& walk, const Probe& probe, CommonState& state, Probing& now) {
 
 }  // namespace
 
-// The machine's own probe takes the place of the tool.
+// The machine's own probe replaces the tool.
 void touch(Walk& walk, const Probe& probe, CommonState& state, Probing&) noexcept {
   state.object = probe.object;
   if (!walk.X_WH.valid()) return;
@@ -224,7 +225,7 @@ void act(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexc
   if (!holding(walk)) go_on(walk, probe, state, now);
 }
 
-// Nothing but the end of the push stands in the way: the object is real.
+// The object is real, so the end of the push is the only wall.
 void guard(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexcept {
   if (!state.started) return;
   Walls walls{probe.X_WN.q() * Vec3::UnitZ()};

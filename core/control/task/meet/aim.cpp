@@ -9,27 +9,27 @@
 
 namespace enc::stages {
 
-// ---- Predicted touch of an approaching finger, renewed with every picture: the longer the finger has not
-// touched, the farther it is on its way.
+// ---- Predicted touch of an approaching finger, renewed with every picture. The longer the finger has not
+// touched, the farther along its path it must be.
 
 namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-// s, times of the touch after the newest picture was evaluated: closer together where the touch is near.
+// s, assumed times of the touch after the newest picture was evaluated; denser for an early touch.
 constexpr std::array<double, Coming::kTimes> kAfter{0.0, 0.02, 0.044, 0.074, 0.114, 0.17, 0.25};
 // s: the weight of a later touch falls e-fold in that time, because the prop can still move there later.
 // Chosen.
 constexpr double kSoon = 0.03;
 constexpr double kApart = 0.03;  // s, between pictures
-constexpr double kOften = 5e-3;  // s: no sooner is asked anew, as that takes up to half a millisecond
-constexpr double kUneven = 1.4;  // times the noise of a picture: no hand is of minimum jerk to the last,
-constexpr double kUnevenLeast = 0.3e-3;  // m, and by this at least
-constexpr double kLying = 1e-3;          // m: nearer, it lies on the prop
-constexpr double kFarthest = 0.05;       // m: a place of touch farther from the finger is not believed
+constexpr double kOften = 5e-3;  // s: least time between predictions, as one takes up to half a millisecond
+constexpr double kUneven = 1.4;  // times the noise of a picture, because no hand follows minimum jerk exactly
+constexpr double kUnevenLeast = 0.3e-3;  // m, least value of that noise
+constexpr double kLying = 1e-3;          // m: a nearer finger lies on the prop
+constexpr double kFarthest = 0.05;       // m: a predicted touch farther from the finger is rejected
 
-// Earlier pictures are of use as long as none was missed for long. If the finger is seen more often than its
-// path needs, the pictures in between are passed over.
+// Earlier pictures are of use as long as no long gap lies between them. If the finger is seen more often than
+// its path needs, the pictures in between are skipped.
 bool take_picture(const Walk& walk, const CommonState& state, Coming& now) {
   const Time exposed_at = exposed(walk.scene.tracker, state.tool.t);
   const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
@@ -50,18 +50,19 @@ bool take_picture(const Walk& walk, const CommonState& state, Coming& now) {
   return true;
 }
 
-double noise_of_newest(const Walk& walk, const CommonState& state) {  // m rms, of each axis
+double noise_of_newest(const Walk& walk, const CommonState& state) {  // m rms, each axis
   return std::sqrt(noise_of(walk.scene.tracker, state.tool.value, walk.scene.X_WC).mean_square());
 }
 
-// A hysteresis: pictures about as vague as the limit do not switch the prediction on and off.
+// A hysteresis: pictures whose noise is close to the limit do not switch the prediction on and off.
 bool clear(const Walk& walk, const CommonState& state, const Coming& now) {
   const double vaguest = walk.scene.tracker.reach.vaguest;
   return noise_of_newest(walk, state) <= (now.clear ? ComingSpec::kStaysClear * vaguest : vaguest);
 }
 
-// A hand that reaches does not come slower than it wants to touch, but for a moment between its movements.
-// How one goes on that hovers no picture shows, nor a picture that is too vague: it is met under where it is.
+// A reaching hand is never slower than its speed at touch, except for a moment between its movements. No
+// picture shows how a hovering finger moves on, and neither does a picture with too much noise. In both cases
+// the prop meets the finger at its present position.
 bool reaches(const Walk& walk, const Coming& now) {
   if (now.count < 3 || !now.clear) return false;
   const auto first = static_cast<std::size_t>(now.count - 1);
@@ -69,7 +70,7 @@ bool reaches(const Walk& walk, const Coming& now) {
   return down > walk.scene.tracker.reach.touch_slowest;
 }
 
-// In axes of the surface that is under it.
+// The prediction uses the axes of the surface under the finger.
 void ask(const Walk& walk, const CommonState& state, Coming& now) {
   now.object = state.object;
   now.told = walk.tick.t;
@@ -99,8 +100,8 @@ void ask(const Walk& walk, const CommonState& state, Coming& now) {
   now.passes = passes_by(all, known, kAfter.back());
 }
 
-// The touch at a time after the newest picture: between the two nearest of kAfter. The nearer that time is to
-// one without evidence, the less it counts.
+// The touch at a time after the newest picture, interpolated between the two nearest of kAfter. Its weight
+// falls as that time approaches one without evidence.
 Vec3 touch_at(const Coming& now, double after) {
   std::size_t i = 0;
   while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
@@ -111,8 +112,8 @@ Vec3 touch_at(const Coming& now, double after) {
   return a + share * (b - a);
 }
 
-// The mean over the times that are still to come, weighted by how well they fit, and the sooner the more. In
-// the surface's axes; unset: none fits, or that it passes by is more probable.
+// The mean over the times that are still to come, weighted by their fit and by how soon they are. Given in
+// the surface's axes; unset if none fits or if passing by is more probable.
 Vec2 expected(const Coming& now, double passed) {
   constexpr std::size_t kSteps = 60;
   const double first = std::clamp(passed, kAfter.front(), kAfter.back());
@@ -156,14 +157,14 @@ Goal foreseen_touch(const Walk& walk, const CommonState& state, Meeting& memory)
   }
   const bool news = take_picture(walk, state, now);
   if (news) {
-    now.object = -1;  // what was said before it is worth nothing
+    now.object = -1;  // earlier predictions are void
     now.clear = clear(walk, state, now);
   }
-  // The prop meets a moving object where the object is.
+  // The prop meets a moving object at the object's position.
   const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
   if (!comes || presses(state, memory.contact)) return {};
-  // Once for each picture: in the plane of another object the prediction may differ, and so may the first
-  // place on that object.
+  // Once for each picture. In the plane of another object the prediction may differ, and so may the first
+  // touch on that object.
   if (now.object < 0) {
     if (!news && age(walk.tick.t, now.told) < kOften) return {};
     ask(walk, state, now);
@@ -188,45 +189,45 @@ Point<'W'> comes_to(const Walk& walk, const Meeting& memory) noexcept {
 
 namespace {
 
-// Whether the prop stands for the surface itself, as deep as it is pressed.
+// True if the prop represents the surface itself, as deep as it is pressed.
 bool tells_depth(const Object& object) {
   const Interaction kind = object.interaction.kind;
   return kind == Interaction::slide || kind == Interaction::click || kind == Interaction::spin;
 }
 
-// Whether the prop that waits there is pushed back: that is felt in the tick in which it begins, and seen a
-// picture and more later.
+// True if the waiting prop is pushed back. The arm measures that in the tick in which it begins; a camera
+// sees it a picture or more later.
 bool felt_first(const Walk& walk, const CommonState& state, const Meeting& now, const Object& object) {
   const bool behind = dot(walk.X_WH.origin() - walk.surface_point, walk.normal) < 0.0;
   return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && behind && !walk.in.withheld &&
          pushed_back(state, walk.normal) && walk.gap < walk.scene.contact.leave_gap;
 }
 
-// A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
-// knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
-// deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went
-// on that knew nothing of the touch.
+// A pressing finger lies on the prop as long as the camera sees it within leave_gap of it. Each tick the arm
+// measures its prop to 0.03 mm, while a camera measures the finger to 0.5 mm, late and seldom. The prop gives
+// the finger's depth, the camera its presence. The finger is never behind the prop. A prediction that says so
+// ran on past the contact.
 void lie_on_prop(Walk& walk, CommonState& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
-  // The prop is on its way to another place, unless a picture leaps to the side while it is pressed.
+  // The prop is on its way to another position, unless a picture jumps sideways while it is pressed.
   const bool pressed = presses(state, now.contact) && !walk.in.withheld;
   if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double near = walk.scene.contact.leave_gap;
   const double slack = pressed ? AimSpec::kSpringsBack * near : near;
   const double beyond = walk.gap - prop;
-  // A prop that is lifted off the surface from beside is none that a finger behind it lies on.
+  // A prop that is lifted off the surface from the side does not carry the finger behind it.
   walk.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
-  // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
-  // picture itself is behind the prop, the finger is beside it, or vision is wrong.
+  // The prop shows how the finger moves on, long before a picture shows that it was stopped. If the picture
+  // itself is behind the prop, the finger is beside it or vision is wrong.
   const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
   if (pressed && beyond < slack && shown > -near)
     correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
 }
 
-// The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the
-// way from away to follow.
+// An arm measures no force: the gap decides what is touched, or the pushed prop does. "Prepare" is the motion
+// from away to follow.
 void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
   const FollowSpec& follow = walk.scene.follow;
   const Object* object = nearest_object(walk, state);
@@ -235,8 +236,7 @@ void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
     return;
   }
   if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
-  if (object->interaction.kind ==
-      Interaction::hit) {  // when it is touched, and when no longer, says the prop
+  if (object->interaction.kind == Interaction::hit) {  // the prop decides when the touch begins and ends
     if (state.mode == Mode::contact && !now.contact.anchored) state.mode = Mode::follow;
     if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
     return;
@@ -254,7 +254,8 @@ void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
     now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
 }
 
-// A ball that flies is no longer touched: its prop gets out of the finger's way, to where the ball will wait.
+// A flying ball is no longer touched. Its prop clears the finger's path and moves to the ball's waiting
+// position.
 Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
   if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
   const Moved& ball = walk.moved[static_cast<std::size_t>(object.moving)];
@@ -267,8 +268,8 @@ bool touches_belt(const CommonState& state, const Object* object) {
   return state.mode == Mode::contact && object != nullptr && object->interaction.kind == Interaction::spin;
 }
 
-// The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
-// says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
+// The finger's projection on the surface moves with the finger and with the object. The surface determines
+// its speed: on a small ball it is slower than the finger, and beyond the edge of a button it stands still.
 Goal goal_of(const Walk& walk, const CommonState& state, Meeting& memory, const Object& object) {
   const Goal touch = foreseen_touch(walk, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
@@ -279,7 +280,8 @@ Goal goal_of(const Walk& walk, const CommonState& state, Meeting& memory, const 
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
   const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
   const Vec<'W'> finger = known ? state.tip_motion.velocity : none;
-  // A belt is slower than pictures leap: a prop that runs goes along without haste, and is wide enough.
+  // A belt is slower than pictures jump: a running prop moves along at the usual speed limit, and is wide
+  // enough.
   if (touches_belt(state, &object)) return {walk.surface_point};
   const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
   const Vec<'W'> face = shifts ? walk.moved[static_cast<std::size_t>(object.moving)].velocity : none;
@@ -292,7 +294,7 @@ Goal goal_of(const Walk& walk, const CommonState& state, Meeting& memory, const 
   return {walk.surface_point, face + (1.0 / dt) * (then - at)};
 }
 
-// How the target may go: in haste where a reach may touch.
+// Limits of the target's motion; they are raised where a reach may touch.
 struct Haste {
   double acceleration, settle;
   Haste(const ArmRig& rig, bool hurries)
@@ -300,9 +302,9 @@ struct Haste {
         settle(hurries ? rig.reach_settle : rig.settle) {}
 };
 
-// Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
-// there the finger is: then the target waits at the last point of its way that is inside, or goes along the
-// surface as long as that is nearer.
+// If the nearest point jumps to another part of the object, the straight path may leave a hollow object,
+// where the finger is. Then the target waits at the last point of its path that is inside, or moves along the
+// surface while that is nearer.
 Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, CommonState& state,
                           const Aim& now, const Object& object, const Vec3& wanted) {
   Inside inside(walk.scene, state.object, -AimSpec::kOutside, shift_of(object, walk.moved),
@@ -313,8 +315,8 @@ Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, C
   return state.entered ? inside.velocity(brake, here, wanted) : wanted;
 }
 
-// The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
-// with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
+// The target always keeps within speed and acceleration. It first moves straight to the goal and then follows
+// it. The goal jumps with each new picture of the finger; `settle` smooths these jumps.
 void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
                  const Object* object) {
   const double dt = walk.scene.dt;
@@ -322,7 +324,7 @@ void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, co
   const double far = way.norm();
   const bool runs = touches_belt(state, object);
   if (far > AimSpec::kLeap && !runs) now.caught_up = false;
-  // What haste has set in motion is braked in haste.
+  // Motion under the raised limits brakes under the raised limits.
   now.hurried =
       goal.foreseen || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
   const Haste haste(rig, now.hurried);
@@ -344,19 +346,19 @@ void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, co
   }
   walk.target_change = (velocity - now.velocity.e()) / dt;
   if (on_its_way || now.hurried) walk.target_acceleration = walk.target_change;
-  // Under a finger that touches haste goes sideways alone: along the normal it would be felt.
+  // Under a touching finger the raised limits apply sideways only: along the normal the user would feel them.
   if (!on_its_way && state.mode == Mode::contact && walk.normal.finite())
     walk.target_acceleration -= walk.normal.e() * walk.normal.e().dot(walk.target_acceleration);
   now.velocity = Vec<'W'>(velocity);
   now.target = now.target + dt * now.velocity;
 }
 
-// Towards a place under the finger. One out of reach stops the target.
+// Moves the target to a point under the finger. A point out of reach stops the target.
 void go_to(Goal goal, Walk& walk, const Impedance& task, CommonState& state, Aim& now, const Object& object) {
   const Arm& arm = task.arm;
   PerJoint q = walk.in.arm.value.joints;
   if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
-    // A machine with fewer joints than ways goes to where it is nearest.
+    // A machine with fewer than three joints moves to the nearest point that it can reach.
     if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
     move_target(walk, task.rig, state, now, goal, &object);
     return;
@@ -367,9 +369,9 @@ void go_to(Goal goal, Walk& walk, const Impedance& task, CommonState& state, Aim
   now.caught_up = false;
 }
 
-// While a ball is pressed the ball alone pushes its prop (impede), and along the normal the target is where
-// the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
-// more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
+// Only the ball pushes its prop while it is pressed (impede), and along the normal the target is where the
+// finger has pushed it. So there is no step when they part. The target's speed is that of the prop, smoothed,
+// and at most what the distance so far allows: one wrong reading sets nothing in motion. Sideways the target
 // comes to rest.
 void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Aim& now) {
   const double dt = walk.scene.dt;
@@ -387,8 +389,8 @@ void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, A
       now.target + Vec<'W'>(Vec3(across * dt + normal * normal.dot((walk.X_WH.origin() - now.target).e())));
 }
 
-// Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
-// near does the distance tell. Believed: an even motion lags by K_v / K_p.
+// Checks that the arm follows its commands. A finger may push the tip away from its target, so the distance
+// is evidence only without a finger nearby. Accepted lag: an even motion lags by K_v / K_p.
 void check_following(Walk& walk, const Impedance& law, Aim& now) {
   if (walk.in.withheld) {
     now.straying = Straying{};
@@ -400,7 +402,7 @@ void check_following(Walk& walk, const Impedance& law, Aim& now) {
   double near = AimSpec::kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
     const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
-    near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
+    near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // the tip hangs below its target
   }
   const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > AimSpec::kBesideProp;
   const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
@@ -409,7 +411,7 @@ void check_following(Walk& walk, const Impedance& law, Aim& now) {
   walk.why |= kNotFollowing;
 }
 
-// The hold of an arm that is stuck lasts until the finger has gone: to try again is to push with all it has.
+// The hold of a stuck arm lasts until the finger has gone: a new attempt would push with full force.
 void hold_stuck(Walk& walk, Aim& now) {
   if (!now.stuck) return;
   const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
@@ -419,7 +421,7 @@ void hold_stuck(Walk& walk, Aim& now) {
     walk.why |= kNotFollowing;
 }
 
-// Nothing leaps: what is felt goes over into the next within `gradual_time`.
+// Blends from one stiffness to the next over `gradual_time`, without a step.
 void change_gain(const Walk& walk, double free, const CommonState& state, const Object* object, Aim& now) {
   Felt felt{free, 0.0};
   if (object == nullptr) {
@@ -446,7 +448,7 @@ void change_gain(const Walk& walk, double free, const CommonState& state, const 
 
 void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& memory) noexcept {
   Aim& now = memory.aim;
-  if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
+  if (!walk.X_WH.valid()) {  // one missed reading changes nothing; after more of them the tip may be anywhere
     now.blind += walk.scene.dt;
     if (now.blind > task.rig.stale) now = Aim{};
     return;
@@ -454,7 +456,7 @@ void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& memory)
   now.blind = 0.0;
   if (!holding(walk) && now.target.finite()) check_following(walk, task, now);
   hold_stuck(walk, now);
-  if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
+  if (holding(walk) || !now.target.finite()) {  // no force is requested, and none jumps afterwards
     const bool stuck = now.stuck;
     now = Aim{};
     now.target = walk.X_WH.origin();

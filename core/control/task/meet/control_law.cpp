@@ -1,4 +1,5 @@
-// Depth in, force out [VisHap eq. 2, 3, 7]; and what of that the motors give [VisHap eq. 4 to 6].
+// Depth in, force out [VisHap eq. 2, 3, 7], and the part of that force that the motors exert [VisHap eq. 4 to
+// 6].
 #include <algorithm>
 #include <cmath>
 
@@ -26,11 +27,10 @@ struct Tame {
   double taken = 0.0;  // N, outward force taken from the law's
 };
 
-// J, in the law's spring: far more than the spring of a prop on its way holds while no finger presses it.
-// Chosen.
+// J, energy of the law's spring: far more than a prop on its way stores while no finger presses it. Chosen.
 constexpr double kPressed = 2e-3;
 
-// m and N: what the law's spring along the normal is, at this tick.
+// m and N: depth and push of the law's spring along the normal at this tick.
 struct Spring {
   double depth, push;
 };
@@ -44,8 +44,8 @@ Spring spring_of(const Walk& walk, const Impedance& law, const CommonState& stat
   return {depth, now.aim.gain * law.rig.stiffness * (depth - now.aim.sunk)};
 }
 
-// m: how far the tip has gone outwards, against its target; that of a ball goes with the tip, so against the
-// ball.
+// m: outward motion of the tip relative to its target. The target of a ball moves with the tip, so there it
+// is relative to the ball.
 double moved(const Walk& walk, const CommonState& state, const Meeting& memory) {
   const Tamed& now = memory.tamed;
   const double dt = walk.scene.dt;
@@ -57,8 +57,8 @@ double moved(const Walk& walk, const CommonState& state, const Meeting& memory) 
   return normal.dot(way - other);
 }
 
-// A contact that is lost while the tip is inside, and found again, keeps the energy that was left: the law
-// gets no new credit by beginning anew. Once the tip has been outside, no debt remains.
+// A contact that is lost while the tip is inside, and found again, keeps its remaining energy: a new start
+// gives the law no new credit. Once the tip has been outside, no deficit remains.
 void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
   if (now.energy.on) now.kept = now.energy.left;
   now.energy = Passivity{};
@@ -69,8 +69,8 @@ void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
   }
 }
 
-// A law whose force is not sent gives out no energy. A prop that is still on its way to the touch renders
-// nothing either; a prop that leaps under the finger that presses it has been there already.
+// A law whose force is not sent gives out no energy. A prop on its way to the touch renders nothing either; a
+// prop that jumps under the finger that presses it has already arrived.
 const Object* tamed_object(const Walk& walk, const CommonState& state, const Meeting& memory) {
   if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
   const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
@@ -119,18 +119,18 @@ void Tame::held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noe
   hold(memory.tamed.energy, push, push + taken);
 }
 
-// While the finger is far, the arm is motionless [VisHap 2]: the law does no more, and friction holds the
-// arm. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would
-// keep the tip dithering. The arm must have stood before: the filtered rate dies out in 40 ms without a
-// count. If the arm only turns round, friction would not hold the push that follows.
+// While the finger is far, the arm is motionless [VisHap 2]: the law stops and friction holds the arm. One
+// count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep the tip
+// dithering. The arm must have stood before: the filtered rate dies out in 40 ms without a count. If the arm
+// only reverses, friction would not hold the push that follows.
 bool resting(const CommonState& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
   return state.mode == Mode::away && error.norm() < RestSpec::kNear && velocity.norm() < RestSpec::kCounts &&
          now.velocity.norm() < RestSpec::kTargetStill && now.error_rate.norm() < RestSpec::kStood;
 }
 
-// The arm rests, and stays at its resting place. If it leaves that place although its target does not move,
-// the law goes on until the arm stands again with all of its push: a count that changes then is no reason to
-// go on.
+// True if the arm rests and stays at its resting place. If it leaves that place although its target does not
+// move, the law continues until the arm stands again with its full push. A count that changes after that does
+// not restart it.
 bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
   if (state.mode != Mode::away) now.slipped = false;
   const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > RestSpec::kSlips);
@@ -146,16 +146,17 @@ bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Ve
   return stands;
 }
 
-// Share of a resting arm's push that remains after a tick. Friction may just hold that push, and the same
-// push turns a joint more once the tip has crept; friction surely holds less of it. So the push fades if the
-// weight is held beside it. If the tip has slipped meanwhile, the weight is another one and friction does not
-// hold the difference: then the push stays.
+// Share of a resting arm's push that remains after a tick. Friction may just hold that push, and the push
+// could turn a joint further once the tip has crept; friction surely holds a smaller one. So the push fades
+// if gravity compensation holds the weight. If the tip has slipped meanwhile, the weight has changed and
+// friction does not hold the difference: then the push stays.
 double fading(const Impedance& law, const Aim& now, double dt) {
   return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / RestSpec::kFades) : 1.0;
 }
 
-// The second derivative of e [eq. 2] is known only for the target: this is the force that the arm needs to go
-// along. It is no measurement and needs no filter: behind that of eq. 3 it would come late and overshoot.
+// The second derivative of e [eq. 2] is known only for the target: this is the force that the arm needs to
+// follow it. It is no measurement and needs no filter: through the filter of eq. 3 it would come late and
+// overshoot.
 Vec3 going_along(const Walk& walk, const Arm& arm, const Mat3& mass) {
   if (walk.target_acceleration.isZero()) return Vec3::Zero();
   const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
@@ -183,7 +184,7 @@ void impede(Walk& walk, const Impedance& law, CommonState& state, Meeting& memor
     now.error.xyz[i] = rests ? fade * now.error.xyz[i] : low_pass(a, error(axis), now.error.xyz[i]);
     now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
-  // A real thing is held where it stands, sideways as well.
+  // A real object is held in place, sideways as well.
   const Object* object = nearest_object(walk, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
@@ -207,8 +208,8 @@ Vec<'R'> against_gravity(const Walk& walk, const Impedance& law) {
   return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
 }
 
-// The law's force, as far as the machine can exert it. Gravity is held in full; each motor gives what it has
-// of the rest, and the direction stays.
+// The law's force, as far as the machine can exert it. Gravity is compensated in full. Each motor adds what
+// it has left, and the force keeps its direction.
 Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& force) {
   if (!force.allFinite()) {
     walk.why |= kNotFinite;
@@ -218,8 +219,7 @@ Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& for
   const PerJoint wanted = law.arm.torque(walk.jacobian, walk.scene.X_WR.inverse() * Vec<'W'>(force));
   MotorLimit limit = MotorLimit::none;
   double share = law.motors.share(heat, held, wanted, limit);
-  if (share * force.norm() >
-      law.rig.peak) {  // where levers are short the motors could do more than the sheet says
+  if (share * force.norm() > law.rig.peak) {  // short levers could exceed the data sheet's force
     share = law.rig.peak / force.norm();
     limit = MotorLimit::peak;
   }
@@ -236,7 +236,7 @@ void guard(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory
   if (walk.X_WH.valid()) {
     walk.arm_force = against_gravity(walk, law);
     walk.felt = Vec<'W'>::zero();
-    const Tame tame(walk, law, state, memory);  // between the law and what the machine can
+    const Tame tame(walk, law, state, memory);  // between the law and the machine's limits
     if (!holding(walk)) {
       const Vec3 pushed = guarded(walk, law, memory.heat, tame.wanted);
       tame.held(walk, memory, pushed);

@@ -11,16 +11,16 @@
 namespace enc {
 namespace {
 
-// From 0 to 1 over `width` beyond `from`, without a kink at either end; a step where there is no width.
+// Rises from 0 to 1 over `width` beyond `from`, smooth at both ends; a step if the width is 0.
 double gradually(double depth, double from, double width) {
   if (!(width > 0.0)) return depth >= from ? 1.0 : 0.0;
   const double s = std::clamp((depth - from) / width, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);
 }
 
-// Three springs one after another: each force k (d - sunk) takes over gradually from the one before.
+// Three springs in series: each force k (d - sunk) takes over gradually from the one before.
 Felt button_at(const InteractionSpec& button, double resistance, double depth) {
-  // The bottom's spring begins where it carries what is carried at d2 already.
+  // The bottom's spring begins where it carries the force that is already present at d2.
   const double board = button.bottom * (1.0 - button.after / button.floor);
   const double triggered = gradually(depth, button.trigger, button.gradual);
   const double bottomed = gradually(depth, button.bottom, button.gradual);
@@ -32,10 +32,10 @@ Felt button_at(const InteractionSpec& button, double resistance, double depth) {
 }  // namespace
 
 double corner_frequency(double a, double dt) {
-  // |H|^2 = a^2 / (a^2 + 2 (1 + a) (1 - cos w dt)) of y = (a x + y_before) / (1 + a): half at this cosine.
+  // |H|^2 = a^2 / (a^2 + 2 (1 + a) (1 - cos w dt)) for y = (a x + y_before) / (1 + a): half at this cosine.
   const double cosine = 1.0 - a * a / (2.0 * (1.0 + a));
   return cosine > -1.0 ? std::acos(cosine) / (2.0 * std::numbers::pi * dt)
-                       : 0.5 / dt;  // passes half or more of everything that a tick can carry
+                       : 0.5 / dt;  // no frequency is reduced below half
 }
 
 Mat3 gain_matrix(const Vec3& normal, double across, double along) {
@@ -94,7 +94,7 @@ ArmLoopAt loop_at(const Impedance& law, const certificate::Hand& hand, double dt
   if (!law.rig.loop) return at;
   const ArmLoop& known = *law.rig.loop;
   const auto n = static_cast<Eigen::Index>(law.arm.joints());
-  Mat3 whole = Mat3::Identity();  // joints that are not there do not move: their columns of J are 0
+  Mat3 whole = Mat3::Identity();  // missing joints do not move: their columns of J are 0
   whole.topLeftCorner(n, n) = M.topLeftCorner(n, n);
   const Mat3 inverse = whole.inverse();
   const Vec3 rates = at.loop.mass * (inverse * (J.transpose() * way.e()));

@@ -10,7 +10,7 @@
 namespace enc::stages {
 namespace {
 
-// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
+// An arm's tip turns with its joints, but only its position is rendered, so H keeps the axes of R.
 void track_arm(Walk& walk, const Impedance& task, CommonState& state) {
   const Stamped<ArmSample>& sample = walk.in.arm;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > task.rig.stale) {
@@ -32,12 +32,12 @@ void track_arm(Walk& walk, const Impedance& task, CommonState& state) {
   state.started = true;
 }
 
-// Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
-// moves along with the finger. On its way there it need not. Other props cannot run.
+// Speed of a belt relative to its prop. A running surface keeps its own speed while its prop moves along with
+// the finger. A prop on its way there need not run. Other props cannot run.
 double driven(const Object& object, const Impedance& law, const Aim& now, const Vec3& change) {
   if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
   const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
-  const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor is late
+  const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor lags
   return object.prop_speed() - (now.caught_up ? way.e().dot(along) : 0.0);
 }
 
@@ -48,7 +48,7 @@ void track(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) 
   track_tool(walk, state, presses(state, now.contact));
 }
 
-// An arm renders what is touched: there any object that is touched comes before all that are not.
+// An arm renders touch: any touched object precedes all untouched ones.
 void touch(Walk& walk, const Impedance&, CommonState& state, Meeting& now) noexcept {
   const bool touched = state.mode == Mode::contact, ahead = !touched && walk.scene.follow.ahead > 0.0;
   nearest_surface(walk, state,
@@ -60,7 +60,7 @@ void act(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) no
   impede(walk, task, state, now);
 }
 
-// No force is measured: what the finger feels is what the arm is told beyond gravity.
+// The arm measures no force: the finger feels the commanded force beyond gravity compensation.
 void report(const Walk& walk, const Impedance& task, CommonState& state, const Meeting& now,
             Outputs& out) noexcept {
   const bool touched = state.mode == Mode::contact;

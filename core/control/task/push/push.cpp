@@ -33,9 +33,9 @@ struct StrikeSpec {
   static constexpr double kBack = 0.1e-3;
 };
 
-// Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is, and
-// than an arm lags that has just been sent somewhere. Vision says no more than that a finger may be there.
-// What the arm does on its way home is no strike.
+// True if the prop, standing at the surface, is struck: pushed in faster and farther than noise explains, and
+// than an arm lags that was just sent somewhere. Vision only shows that a finger may be there. Motion of the
+// arm on its way home is no strike.
 bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
   using Is = StrikeSpec;
   const double behind = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
@@ -48,10 +48,10 @@ bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
   return there && age(walk.tick.t, now.contact.left) > Is::kSettled && pushed && walk.gap < Is::kNear;
 }
 
-// How a ball is hit says the prop that stands for it, each tick to 0.03 mm; a picture of the finger is 50 ms
-// old, and the hit is over by then. So the depth is that of the prop behind where it was struck, until they
-// part, or nothing has been felt for a while, or the ball is where it waits. A ball that has been hit is not
-// hit again before it is back.
+// The prop shows how a ball is hit, each tick to 0.03 mm; a picture of the finger is 50 ms old, and by then
+// the hit is over. So the depth is that of the prop behind the point of the strike. It ends when they part,
+// when no force was detected for a while, or when the ball is at its waiting position. A ball cannot be hit
+// again before it is back.
 double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& mover, const Moved& now) {
   Contact& contact = memory.contact;
   const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
@@ -81,7 +81,7 @@ double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& m
   return contact.anchored ? depth : kUnset;
 }
 
-// Time stands still in a hold, here too.
+// Time also stands still here in a hold.
 void push(Walk& walk, CommonState& state, Pushing& now) {
   if (holding(walk)) {
     now.contact.anchored = false;
@@ -97,7 +97,7 @@ void push(Walk& walk, CommonState& state, Pushing& now) {
       sinks =
           dot(walk.moved[static_cast<std::size_t>(object.moving)].velocity - walk.tip_velocity, walk.normal);
   }
-  const double speed = -dot(now.aim.velocity, walk.normal);  // a prop that is struck: go_with
+  const double speed = -dot(now.aim.velocity, walk.normal);  // a struck prop: go_with
   const bool late = age(walk.tick.t, now.contact.left) < walk.scene.tracker.usual_age;
   const FingerPress press{state.object,     depth, walk.normal, walk.tool_tip,
                           walk.tool_radius, speed, sinks,       late};

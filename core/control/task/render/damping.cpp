@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// All that delays a small motion: filter, servo, dead time, and the command limiter, which goes half of the
-// way in a tick.
+// Everything that delays a small motion: filter, servo, dead time, and the command limiter, which covers half
+// of the distance in a tick.
 double lag_of(const LoopModel& loop, double dt) {
   return 1.0 / (2.0 * kPi * loop.filter_hz) + 2.0 * loop.servo_damping / (2.0 * kPi * loop.servo_hz) +
          loop.delay + 2.0 * dt;
@@ -53,7 +53,8 @@ double DampingLaw::observe(Swing& swing, double force, double depth) const noexc
   filter_(swing, force, depth);
   const double seen = swing.exchanged / (swing.moved + rig_.least_swing * rig_.least_swing);
   swing.stiffness = std::max(seen, calm_ * swing.stiffness);
-  // Over a wide swing the machine is late by what the way takes at its acceleration, there and back to rest.
+  // A wide oscillation makes the machine lag by the time that the distance takes at its acceleration, there
+  // and back to rest.
   const double wide = 2.0 * std::sqrt(std::sqrt(2.0 * swing.moved) / acceleration_);
   return std::min(rig_.most_damping, rig_.margin * (2.0 / kPi) * (lag_ + wide) * swing.stiffness);
 }
@@ -62,11 +63,12 @@ double DampingLaw::carry(const Response& response, const ResponseState& at, doub
                          double damping, double most) const noexcept {
   if (!(damping > 0.0)) return pressed;
   ResponseState end = at;
-  const double reached = std::min(pressed, response.force(end, most));  // beyond the limit nothing moves
+  // the object does not move beyond its limit
+  const double reached = std::min(pressed, response.force(end, most));
   ResponseState undamped = at;
   const double way = response.deflection(undamped, reached, most) - at.deflection;
   const double slope = (reached - carried) / way;
-  if (!(slope > 0.0) || !std::isfinite(slope)) return pressed;  // it does not move: nothing to damp
+  if (!(slope > 0.0) || !std::isfinite(slope)) return pressed;  // no motion, nothing to damp
   // Implicit, with the chord of the object's curve: exact for a spring, never beyond the undamped answer.
   return carried + (pressed - carried) * slope * dt_ / (damping + slope * dt_);
 }

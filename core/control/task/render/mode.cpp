@@ -1,4 +1,4 @@
-// Which mode the machine is in [VHMR 3.3, 3.4]. Hysteresis everywhere: one press is one contact, whatever the
+// The mode of the machine [VHMR 3.3, 3.4]. Hysteresis everywhere: one press is one contact, whatever the
 // noise.
 #include <cmath>
 
@@ -13,28 +13,28 @@ double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
   return walk.force.finite() ? -dot(walk.force, normal) : 0.0;
 }
 
-// A tool this far away presses nothing, whatever the force says: the zero has drifted, and only free space
-// can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
+// A tool this far away presses nothing, whatever the force: the zero has drifted, and only free space can
+// correct it. The value exceeds the motion of a tool at 200 mm/s during the tracker's latency.
 constexpr double kFar = 10e-3;  // m
-// How long a mode may outlive its cause (mode.h).
+// Longest time for which a mode may outlive its cause (mode.h).
 constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0, kUnseen = 5.0, kUnseenLong = 60.0;  // s
-// A force that stays within so much of the contact threshold is steady, and small up to so many thresholds.
+// A force is steady within this share of the contact threshold, and small up to this multiple of it.
 constexpr double kSteady = 0.15, kSmall = 3.0;
 bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
-// A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
-// says nothing of it. Then force alone holds the contact and ends it.
+// A pressing hand cannot change its tool. Another tool in view did not make this contact, and its position is
+// no evidence. Then force alone keeps the contact and ends it.
 bool changed_tool(const Walk& walk, const CommonState& state, const Rendering& now) {
   return walk.tool_known && state.tool.value.tool != now.contact.tool;
 }
 
-// A tool is known where the scene has a tracker that could see one.
+// True if the scene has a tracker and the tracker sees no known tool.
 bool nothing_seen(const Walk& walk) { return walk.scene.has_tracker && !walk.tool_known; }
 
-// Force without a cause is an error of the sensor's zero. The contact's own tool is seen clear of the object;
-// or that tool is out of view and the force is steadier than a hand can keep it: for a while where the force
-// is small and the tool in view is clear, for a minute otherwise. A pose that is late neither counts nor ends
-// the count.
+// Force without a cause is an error of the sensor's zero. Either the contact's own tool is seen clear of the
+// object, or that tool is out of view and the force is steadier than a hand can keep it. The latter must last
+// a while if the force is small and the tool in view is clear, and a minute otherwise. A late pose neither
+// counts nor resets the count.
 bool force_is_drift(const Walk& walk, bool own, double force, Contact& contact) {
   if (!walk.scene.has_tracker) return false;
   if (walk.tool_known && !walk.tool_fresh) return false;
@@ -50,9 +50,9 @@ bool force_is_drift(const Walk& walk, bool own, double force, Contact& contact) 
   return contact.clear >= longest;
 }
 
-// m/s: machine and command stand (assumed: no source).
+// m/s: machine and command stand still (assumed: no source).
 constexpr double kStandstill = 1e-5;
-// As near to the buffered point as the machine gets.
+// True if the machine is as near to the buffered point as it gets.
 bool at_rest(const Walk& walk, const Rendering& now) {
   return now.command_velocity.norm() < kStandstill && walk.in.tip.value.velocity.norm() < kStandstill;
 }
@@ -64,23 +64,23 @@ Pose<'W', 'N'> frame_under_tool(const Walk& walk, const CommonState& state) {
   return {rotation_z_to((X_WO * walk.at_tip.normal).e()), X_WO * walk.at_tip.point};
 }
 
-// How far the tip is from where it belongs, along the surface, m.
+// Distance of the tip from its place under the tool, along the surface, m.
 double beside_tool(const Walk& walk, const Rendering& now) {
   return (now.contact.X_WN.inverse() * walk.X_WH.origin()).e().head<2>().norm();
 }
-constexpr double kUnder = 0.5e-3;  // m: nearer, it is under its tool
+constexpr double kUnder = 0.5e-3;  // m: a nearer tip is under its tool
 
 void begin_contact(Walk& walk, CommonState& state, Rendering& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
-  if (now.contact.object != state.object) now.spent = Spent{};  // one of another object begins anew
+  if (now.contact.object != state.object) now.spent = Spent{};  // a contact with another object starts anew
   now.contact = Contact{};
   rest(now);
   now.contact.object = state.object;
   now.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
   now.contact.X_WN = frame_under_tool(walk, state);
   now.contact.began = walk.tick.t;
-  // Too far beside it to meet its tool from below: it would meet it from the side, and push it along.
+  // Too far to the side to meet its tool from below: the tip would meet it from the side and push it along.
   now.contact.below =
       !by_force && walk.tool_known && beside_tool(walk, now) > walk.scene.tip_radius + walk.tool_radius;
   if (!by_force) return;
@@ -88,8 +88,8 @@ void begin_contact(Walk& walk, CommonState& state, Rendering& now, bool by_force
   walk.why |= kByForce;
 }
 
-// Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
-// touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
+// Until force is measured with the tip under the tool, the anchor follows the tool. A fast or slanted touch
+// meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
 void anchor(Walk& walk, const CommonState& state, Rendering& now) {
   now.contact.X_WN = frame_under_tool(walk, state);
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
@@ -102,22 +102,22 @@ void in_contact(Walk& walk, const Render& task, CommonState& state, Rendering& n
   const bool changed = changed_tool(walk, state, now);
   if (!now.contact.anchored && !changed) anchor(walk, state, now);
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
-  // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
+  // If another tool is in view, only the force supports the contact, so it must reach the full threshold.
   const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
   const bool own = walk.tool_known && !changed;
   const bool drifted = force_is_drift(walk, own, force, now.contact);
   if (drifted && own && force >= least) now.tared = 0.0;  // learnt anew
   if (force >= least && !drifted && (changed || !too_far(walk))) now.contact.loaded = walk.tick.t;
   const double without = age(walk.tick.t, now.contact.loaded);  // force, s
-  // Behind a damper the tip comes back slowly; what pushed it may wait there.
+  // Behind a damper the tip comes back slowly; the tool that pushed it may wait there.
   const bool returning = task.damping && !too_far(walk) && without < kReturning &&
                          -now.displacement.xyz[2] > walk.scene.contact.leave_gap;
   const bool unloaded = !returning && without >= walk.scene.contact.leave_time;
-  // Slid off: beside the tip, where the two can no longer touch.
+  // The tool has slid off: it is beside the tip, where the two can no longer touch.
   const double beside = walk.tool_known ? (walk.surface_point - now.contact.X_WN.origin()).norm() : 0.0;
   const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;
-  // Before any force was felt the tool may not be there yet: what slows down is predicted too far ahead. To
-  // let go of it and then to be touched would make two contacts of one press.
+  // Before any force was measured the tool may not have arrived: the prediction runs too far ahead of a tool
+  // that slows down. Ending the contact before that touch would make two contacts of one press.
   const bool felt = now.contact.loaded > Time{} || age(walk.tick.t, now.contact.began) >= kMeeting;
   const double leave = felt ? walk.scene.contact.leave_gap : kFar;
   const bool gone = !walk.tool_known || changed || walk.gap > leave || slid_off;
@@ -135,7 +135,7 @@ void in_free_space(Walk& walk, CommonState& state, Rendering& now) {
   if (state.mode == Mode::away && (!walk.scene.has_tracker || walk.gap < follow.resume))
     state.mode = Mode::follow;
   if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
-  // Without the force's zero the tip could not give way: the tool has to be taken away first.
+  // Without the force zero the tip could not give way: the user must first take the tool away.
   if (state.mode != Mode::follow || !walk.scene.has_force || (walk.why & kTaring) != 0) return;
   if (walk.gap <= 0.0) {
     begin_contact(walk, state, now, false);
@@ -155,7 +155,7 @@ void mode(Walk& walk, const Render& task, CommonState& state, Rendering& now) no
     const Point<'W'> buffered = now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin);
     const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
     if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk) && !nothing_seen(walk)) {
-      begin_contact(walk, state, now, true);  // pressed again before the tip was back
+      begin_contact(walk, state, now, true);  // the user pressed again before the tip was back
     } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored || at_rest(walk, now) ||
                age(walk.tick.t, now.contact.left) >= kRestoring) {
       state.mode = nothing_seen(walk) ? Mode::away : Mode::follow;

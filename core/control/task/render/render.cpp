@@ -18,14 +18,15 @@ namespace enc::stages {
 
 namespace {
 
-// m: play and overshoot of a machine take no more before it is a fault (assumed: no source).
+// m: play and overshoot of a machine below this are no fault (assumed: no source).
 constexpr double kPlay = 50e-6;
 // m: no tip and no dent of a display is larger, and no object farther (assumed: well beyond a machine's
 // reach).
 constexpr double kWidestTip = 0.1, kLongestTip = 1.0, kDeepestDent = 0.1, kFarthestTip = 10.0;
-// The axis of a tip is a unit vector to this (assumed: no source).
+// Accepted error of the tip axis's length (assumed: no source).
 constexpr double kUnit = 1e-3;
-// Share of the margin within which what was outside the seen surface is inside again (assumed: no source).
+// Share of the margin within which a tip outside the seen surface counts as inside again (assumed: no
+// source).
 constexpr double kWellInside = 0.7;
 
 bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
@@ -35,9 +36,9 @@ bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
   return here >= walk.scene.tip_radius && inside.can_stop(brake, here, brake.velocity);
 }
 
-// `distance`: of the tip's outermost point to the undeformed surface, m.
+// `distance`: from the tip's outermost point to the undeformed surface, m.
 void check_undeformed(Walk& walk, double distance, CommonState& state, const Commanded& now) {
-  // On the way in the tip is rightly outside, and so is what it is told.
+  // On its way in, the tip is rightly outside, and so is its command.
   if (!state.entered && distance <= -kSkin) state.entered = command_stays(walk, state, now);
   if (state.entered && distance > kPlay) walk.why |= kOutsideObject;
 }
@@ -57,7 +58,8 @@ bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
          possible(dent.tip) && dent.depth >= 0.0 && dent.depth < kDeepestDent;
 }
 
-// The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
+// The seen surface is late: the tip may be outside it by the distance that tool and tip can have moved since
+// [VHMR 3.5].
 void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance,
                 CommonState& state, Rendering& now) {
   if (walk.in.dent.health == Health::fault ||
@@ -68,7 +70,7 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   if (walk.in.dent.health == Health::ok && (now.dent.health == Health::absent || walk.in.dent.t > now.dent.t))
     now.dent = walk.in.dent;
   const DisplayRig& rig = walk.scene.display;
-  // Before the first surface the time runs from the start of the experiment.
+  // Before the first surface, the time counts from the start of the experiment.
   const double old = age(walk.tick.t, now.dent.t);
   if (old > rig.overdue) {
     if (state.mode != Mode::away) walk.why |= kDentOverdue;
@@ -80,10 +82,10 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   }
   // A fused tip is drawn ahead by the lead: tool and tip may stop or turn in that time, too.
   const double unsure = old + (rig.tip == SeenTip::fused ? rig.lead : 0.0);
-  // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
+  // The margin shrinks with each new frame, so a tip outside counts as inside again only well within it.
   const double margin = (rig.margin + rig.margin_speed * unsure) * (now.outside_dent ? kWellInside : 1.0);
-  // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
-  // answer enough.
+  // On its way in, the tip is rightly outside. A dent moves the surface by at most its depth; usually that
+  // decides.
   const bool maybe = state.entered && distance + now.dent.value.depth > margin;
   now.outside_dent =
       maybe && dented_distance(object.surface, now.dent.value, outer, walk.at_tip.feature) > margin;
@@ -106,11 +108,11 @@ void check_tip(Walk& walk, CommonState& state, Rendering& now) noexcept {
   if (walk.scene.has_display) check_dent(walk, object, outer, distance, state, now);
 }
 
-// ---- Force in, displacement out [VHMR 3.4], and the position of the tip that follows from it.
+// ---- Force in, displacement out [VHMR 3.4], and the tip position that follows from it.
 
 namespace {
 
-// Sideways give of the contact point, never more than the deflection limit.
+// Sideways displacement of the contact point, never more than the deflection limit.
 Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) {
   if (object.tangential == Tangential::stick) return Vec3::Zero();
   Vec3 give(force.xyz[0] / object.tangential_stiffness, force.xyz[1] / object.tangential_stiffness, 0.0);
@@ -118,11 +120,11 @@ Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) 
   return size > limit ? Vec3(give * (limit / size)) : give;
 }
 
-// m: by so much below it the tip comes to a tool that is inside already. The machine is late by some 2 mm of
-// a tool that goes on at 30 mm/s.
+// m: distance below a tool that is already inside at which the tip stops. The machine lags by some 2 mm
+// behind a tool that moves at 30 mm/s.
 constexpr double kBelow = 3e-3;
 
-// What the object carries of the pressing force; the rest is the damper's.
+// Part of the pressing force that the object carries; the damper carries the rest.
 double carried(const Walk& walk, const Render& task, const Object& object, Rendering& now, double force,
                double pressed, double limit) {
   if (!task.damping) return pressed;
@@ -138,14 +140,15 @@ double carried(const Walk& walk, const Render& task, const Object& object, Rende
   return swing.carried;
 }
 
-// Beside an edge the tip cannot be right under the tool: it waits as near as the whole of it is inside.
+// Beside an edge the tip cannot be right under the tool. It waits at the nearest position with the whole tip
+// inside.
 Point<'W'> inside(const Walk& walk, CommonState& state, std::int32_t object, double margin,
                   const Point<'W'>& wanted) {
   return Inside(walk.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
 }
 
-// Straight under the surface point: of what is round or flat that is inside, of a mesh it may be another
-// side.
+// Straight under the surface point. Inside round and flat objects that is enough; in a mesh another side may
+// be near.
 Point<'W'> under_surface(const Walk& walk, CommonState& state, double margin) {
   const Point<'W'> under = walk.surface_point - margin * walk.normal;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
@@ -169,7 +172,7 @@ void model(Walk& walk, const Render& task, CommonState& state, Rendering& now) n
   const double deflection = object.response.deflection(
       now.response, carried(walk, task, object, now, -force.xyz[2], pressed, limit), limit);
   if (deflection >= limit) walk.why |= kAtLimit;
-  // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
+  // The limit keeps the object's request below this (scene.cpp); the target stays in place.
   if (pressed > walk.scene.strength) walk.why |= kOverload;
   const Vec3 sideways = tangential_give(object, force, limit);
   now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
@@ -185,7 +188,7 @@ void target(Walk& walk, CommonState& state, const Rendering& now) noexcept {
     case Mode::restore: {
       const double below = now.contact.below ? kBelow + std::max(0.0, -walk.gap) : 0.0;
       const Vec3 d = now.displacement.e() - below * Vec3::UnitZ();
-      // Sideways along the tangent plane would lead out of a round object.
+      // Sideways motion along the tangent plane would lead out of a round object.
       walk.target = inside(walk, state, now.contact.object, radius + kSkin,
                            now.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
       break;
@@ -199,27 +202,28 @@ void target(Walk& walk, CommonState& state, const Rendering& now) noexcept {
   }
 }
 
-// ---- The passivity controller of a machine that measures force and takes positions: between its law and its
-// limits, along the normal of the contact.
+// ---- Passivity controller of a machine that measures force and takes positions. It acts between the law and
+// its limits, along the normal of the contact.
 //
-// The hand pushes with p while the tip moves outwards by dx: that gives p dx to the hand, by the machine's
-// own readings; no model is needed. The energy left of what the hand has put in, and never more than the
-// object would hold where the tip is (its press curve), limits how far out the tip may be sent. It is spent
-// against the push that is measured now, or against the push with which a hand that is met at once begins,
-// and which grows on the way as the hand comes. So everything that is still under way (dead time, servo) is
-// paid before it is sent, and the limits have room to stop there.
+// If the hand pushes with p while the tip moves outwards by dx, the hand receives p dx, by the machine's own
+// readings; no model is needed. The energy left is what the hand has put in, but never more than the object
+// would hold at the tip's position (its press curve). It limits how far out the tip may be sent.
+//
+// Sending the tip out spends this energy: against the measured push, or against the first push of a hand that
+// the tip meets, which grows as the hand comes on. So motion still under way (dead time, servo) is paid for
+// before it is sent, and the limits leave room to stop.
 
 namespace {
 
-// m: farther from the tool the tip meets nothing. Covers the tracker's delay and error, and the tip's
-// stopping distance.
+// m: a tip farther from the tool meets nothing. Covers the tracker's delay and error, and the tip's stopping
+// distance.
 constexpr double kNearHand = 3e-3;
 constexpr double kMet = 0.8;    // N, first push of a hand that meets the tip. Chosen.
-constexpr double kComes = 2.0;  // times the hand's stiffness: it comes as fast as the tip goes. Chosen.
-// m, way of the hand while the tip is being stopped (dead time, servo): 20 mm/s for 55 ms. Chosen.
+constexpr double kComes = 2.0;  // times the hand's stiffness: the hand moves as fast as the tip. Chosen.
+// m, motion of the hand while the tip is being stopped (dead time, servo): 20 mm/s for 55 ms. Chosen.
 constexpr double kComesOn = 1.1e-3;
 
-// Out along the normal, from the last tick on; depth and push of the object where the tip is.
+// Outward motion along the normal since the last tick, and the depth and push of the object at the tip.
 Yielded yielded(const Walk& walk, const Rendering& now) {
   const Contact& contact = now.contact;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
@@ -244,7 +248,7 @@ double pressed(const Walk& walk, const Rendering& now, double depth) {
   return free_way(walk, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
 }
 
-// A contact, and the way back from it, until the tip is where it waits.
+// True in a contact, and on the way back from it until the tip is at its waiting position.
 bool engaged(const Walk& walk, const CommonState& state, const Rendering& now) {
   if (state.mode == Mode::contact || state.mode == Mode::restore) return true;
   return now.spent.energy.on && state.mode == Mode::follow &&
@@ -264,15 +268,15 @@ void weigh(const Walk& walk, const Render&, const CommonState& state, Rendering&
   const Yielded tick = yielded(walk, now);
   const double push = pressed(walk, now, tick.depth);
   const auto [least, most] = std::minmax(spent.pressed, push);
-  // The hand's force goes on between two ticks: the trapezoid rule. It is unknown when within a tick a touch
-  // began or ended: the hand may have got all of the energy that came out and put in none.
+  // The hand's force changes linearly between two ticks: the trapezoid rule. The energy is unknown if a touch
+  // began or ended within a tick: the hand may have received all of the energy and put in none.
   const bool whole = least >= walk.scene.force.contact;
   spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
-  // The sensor's error belongs to neither side: inwards the hand is credited with so much less, outwards it
-  // is charged with so much more.
+  // The sensor's error favours neither side: inward motion credits the hand with less, outward motion charges
+  // it with more.
   if (whole) spent.energy.pushed += std::copysign(walk.scene.force.threshold, tick.moved);
   observe(spent.energy, tick, 0.0);
-  // A debt ends with its contact: a tip that no hand pushes any more does not wait.
+  // A deficit ends with its contact: the tip does not wait once no hand pushes it.
   if (state.mode == Mode::follow && push < walk.scene.force.contact)
     spent.energy.left = std::max(0.0, spent.energy.left);
   spent.pressed = push;
@@ -291,7 +295,7 @@ void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& 
   }
   const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
   const double wanted = dot(walk.target - walk.X_WH.origin(), normal);
-  // Noise alone causes a small debt, too, and no hand can pay it.
+  // Noise alone causes a small deficit, too, and no hand can pay it.
   const bool pushed = spent.pressed >= walk.scene.force.contact;
   const double comes_on = state.mode == Mode::follow ? 0.0 : kComesOn * task.hand_stiffness;
   const double push = std::max(kMet, spent.pressed) + comes_on;
@@ -303,9 +307,9 @@ void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& 
     walk.target = walk.target - (wanted - most) * normal;
     return;
   }
-  // While the energy balance is negative, hold the tip still in every direction: deep inside a round object
-  // the side of one normal is outwards by the next. Take back how far the tip was sent out already, or it
-  // would go there.
+  // While the energy balance is negative, hold the tip still in every direction: deep inside a round object,
+  // sideways of one normal is outwards of the next. Take back the outward command so far, or the tip would
+  // still go there.
   const double ahead = dot(walk.scene.X_WR * now.command - walk.X_WH.origin(), normal);
   walk.target = walk.X_WH.origin() - std::max(0.0, ahead) * normal;
 }
@@ -314,8 +318,8 @@ namespace {
 
 bool engaged(const CommonState& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }
 
-// Whether nothing can be on the tip. A tool that was out of view as its contact ended may still press until
-// that tool is seen clear.
+// True if no tool can touch the tip. A tool that was out of view as its contact ended may press until it is
+// seen clear.
 bool clear_of_object(const Walk& walk, const CommonState& state, Contact& contact) {
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   if (!walk.scene.has_tracker) return true;
@@ -351,7 +355,7 @@ void touch(Walk& walk, const Render&, CommonState& state, Rendering& now) noexce
 
 void act(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
   grip(walk);
-  sense(walk, state, now, clear_of_object(walk, state, now.contact));  // what force is on the tip
+  sense(walk, state, now, clear_of_object(walk, state, now.contact));  // force on the tip
   weigh(walk, task, state, now);
   hold_lost(walk, state, now);
   check_tip(walk, state, now);

@@ -26,7 +26,8 @@ Cut cut_of(const Arc& arc, const HueRule& rule) {
   }
   std::fill(std::begin(cut.sextant), std::end(cut.sextant), std::uint8_t{Cut::never});
   if (part.count == 0) return cut;
-  // An end at the first hue of a sextant is share 256 of the one before: a pixel there may be seen as either.
+  // A border at the first hue of a sextant is share 256 of the previous sextant: a pixel there may count as
+  // in either.
   const int from = (part.first + kHues - 1) % kHues;
   const int to = from + part.count;
   for (int sextant = from / kSextant; sextant <= to / kSextant; ++sextant) cut.sextant[sextant % 6] = 0;
@@ -45,7 +46,7 @@ bool in_cut(int hue, const Cut& cut) {
     return (what & Cut::never) == 0 && ((what & Cut::past_from) == 0 || of >= cut.from) &&
            ((what & Cut::before_to) == 0 || of < cut.to);
   };
-  // The first hue of a sextant is also the last of the one before: an end of 256 lies there.
+  // The first hue of a sextant is also the last of the previous one, where a border of 256 lies.
   const int sextant = hue / kSextant;
   const bool in = share > 0 ? asks(sextant, share) : asks((sextant + 5) % 6, kSextant);
   return in != (cut.opposite != 0);

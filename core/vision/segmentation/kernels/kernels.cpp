@@ -44,7 +44,7 @@ struct Pixel {
   [[nodiscard]] int sum() const { return r + g + b; }
 };
 
-// Brightness has changed, or what is left of the colour when both are as bright.
+// True if brightness has changed, or the colour at equal brightness.
 bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, const Explained& light) {
   const int s = seen.sum(), e = expected.sum();
   const int most = std::max(s, e);

@@ -1,4 +1,5 @@
-// Compiled with AVX2: nothing inline of others may be used here, because the linker keeps any one copy of it.
+// Compiled with AVX2: this file may use no inline function of another file, because the linker keeps only one
+// copy of it.
 #include "core/vision/segmentation/kernels/kernels.h"
 
 #if defined(__AVX2__)
@@ -25,8 +26,8 @@ struct Rgb {
   V r, g, b;
 };
 
-// 32 pixels, in order. Each half takes 16 of them out of three loads: of the three, byte i of a channel is
-// never in one place, so that they are blended first and put in order by one shuffle.
+// Loads 32 pixels, in order. Each half takes 16 pixels from three loads. Byte i of a channel is at a
+// different position in each of the three. So a blend merges them first, and one shuffle puts them in order.
 Rgb load_rgb(const unsigned char* p) {
   const auto half = [p](int at) {
     const auto part = [p](int i) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + i)); };
@@ -46,13 +47,13 @@ Rgb load_rgb(const unsigned char* p) {
 }
 
 struct Hue {
-  V with;     // 255 where there is one
-  V sextant;  // 0 to 5; where two sextants meet either, but never 2 for 3 or 5 for 0
+  V with;     // 255 if the pixel has a hue
+  V sextant;  // 0 to 5; either one where two sextants meet, but never 2 for 3 or 5 for 0
   V d, chroma;
 };
 
 Hue hue_of(const Rgb& p, const Cut& cut) {
-  // Which is larger, in bits: 1 g >= b, 2 b >= g, 4 r >= g, 8 b >= r.
+  // Bits of the comparisons: 1 g >= b, 2 b >= g, 4 r >= g, 8 b >= r.
   static constexpr char kSextant[16] = {0, 1, 3, 3, 0, 0, 5, 0, 0, 2, 3, 3, 0, 2, 4, 0};
   const V gb = _mm256_max_epu8(p.g, p.b), most = _mm256_max_epu8(p.r, gb);
   const V least = _mm256_min_epu8(p.r, _mm256_min_epu8(p.g, p.b));
@@ -72,7 +73,7 @@ Hue hue_of(const Rgb& p, const Cut& cut) {
   return hue;
 }
 
-// 4 times the bin of eight: 45 degrees are 3/4 of a sextant, so three sextants have one edge each within.
+// 4 times the bin out of eight: 45 degrees are 3/4 of a sextant, so three sextants contain one edge each.
 V four_bins(const Hue& hue) {
   static constexpr char kFirstBin[16] = {0, 4, 8, 16, 20, 24};
   static constexpr char kThird[16] = {-1, 0, 0, -1, 0, 0}, kFirstThird[16] = {0, -1, 0, 0, -1, 0};
@@ -107,8 +108,8 @@ V skin_of(const Hue& hue, const Cut& cut) {
   return _mm256_and_si256(_mm256_xor_si256(in, bytes(cut.opposite)), hue.with);
 }
 
-// Of 32 columns, each bin of hue in four bits. A shift of 32 or more gives no count: so a pixel without a hue
-// counts nowhere.
+// Counts of each hue bin in 32 columns, four bits each. A shift of 32 or more counts nothing, so a pixel
+// without a hue is not counted.
 struct Columns {
   V eight[4] = {_mm256_setzero_si256(), _mm256_setzero_si256(), _mm256_setzero_si256(),
                 _mm256_setzero_si256()};
@@ -130,7 +131,7 @@ void read_rows(const Rows& rows, int n, int bins, const Cut& cut, std::uint32_t*
     Columns sums;
     for (int y = 0; y < rows.count; ++y) {
       const std::uint8_t* rgb = rows.rgb + 3 * (rows.width * y + x);
-      // Rows in turn are no stream that the processor would foresee: the same place of the next tiles.
+      // Prefetch this position of the next tiles, because the processor cannot predict row-by-row access.
       _mm_prefetch(rgb + 3 * rows.width * rows.count, _MM_HINT_T0);
       _mm_prefetch(rgb + 3 * rows.width * rows.count + 64, _MM_HINT_T0);
       const Hue hue = hue_of(load_rgb(rgb), cut);
@@ -159,7 +160,7 @@ void match_row(const std::uint64_t* seen, const std::uint64_t* model, int n, int
   if (i < n) plain_kernels().match_row(seen + i, model + i, n - i, pixels, need, found + i);
 }
 
-// 16 pixels in words, in the order that unpacking leaves; packing puts them back.
+// 16 pixels in words, in the order of unpacking; packing restores their order.
 struct Words {
   V r, g, b;
 };
@@ -219,7 +220,7 @@ void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& 
     const Hue hue = hue_of(white, cut);
     const V is_skin = skin_of(hue, cut);
     store(skin + x, is_skin);
-    // Unpacking takes words 0 to 7 and 16 to 23 of the row first.
+    // Unpacking starts with words 0 to 7 and 16 to 23 of the row.
     const V one = load(row.side + x), two = load(row.side + x + 16);
     const V a = changed(low(p), low(mean), low(noise), _mm256_permute2x128_si256(one, two, 0x20), light);
     const V b = changed(high(p), high(mean), high(noise), _mm256_permute2x128_si256(one, two, 0x31), light);
