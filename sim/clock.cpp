@@ -30,7 +30,7 @@ Tick Paced::next() {
     start_ns_ = now_ns();
     first_ = tick.t;
   }
-  // If experiment time is hours and the pace slow, wall time is too long for an integer.
+  // If experiment time is hours and the pace slow, wall time would overflow an integer.
   constexpr double kForEver = 9e17;  // ns
   const double after = std::min(seconds(tick.t - first_) / factor_ * 1e9, kForEver);
   const double period = std::min(seconds(tick.dt) / factor_ * 1e9, kForEver);

@@ -15,7 +15,7 @@
 namespace enc::sim {
 namespace {
 
-// Null without a user.
+// The tool of the user; null without a user.
 const ToolSpec* users_tool(const SceneSpec& scene) {
   if (!scene.user || scene.tools.empty()) return nullptr;
   return &scene.tools[static_cast<std::size_t>(held_tool(scene))];
@@ -28,7 +28,7 @@ std::vector<std::vector<Vec3>> markers_of(const std::vector<ToolSpec>& tools) {
   return all;
 }
 
-// From the tool's tip to the middle of its markers, in T.
+// Vector from the tool's tip to the middle of its markers, in T.
 Vec3 shaft_of(const ToolSpec& tool) { return middle_of(tool.markers) - tool.tip; }
 
 // The person points the tool along the surface normal: tip towards the surface, markers away from it.
@@ -37,8 +37,8 @@ Quat pointed(const Vec3& shaft_T, const Vec3& normal) {
 }
 Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) { return pointed(shaft_of(tool), normal); }
 
-// The hand's grip holds a tool by a force that stays for a step: on a lighter one it diverges at once,
-// whatever the integrator. A first-order step is at its limit where 4 m = 2 b h + k h^2.
+// The grip's force on a tool is constant for a step, so a lighter tool diverges at once, whatever the
+// integrator. A first-order step is at its limit at 4 m = 2 b h + k h^2.
 void check_weight(const WorldSpec& spec, const ToolSpec& tool) {
   const double h = spec.twin.stepping(spec.scene).timestep;
   const double least = h * (2.0 * spec.twin.hand.grip_damping + h * spec.twin.hand.grip_stiffness) / 4.0;
@@ -67,7 +67,7 @@ SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const std::optiona
                  const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
   const ToolSpec* clamped = clamped_tool(spec.scene);
   const std::int32_t other = user ? user->other_tool() : -1;
-  // A finger points to where it comes from.
+  // A finger points back to its origin.
   const Vec3 finger =
       user ? (user->start() - enc::press_point(spec.scene, *spec.scene.user).point).e().normalized()
            : Vec3(Vec3::UnitZ());
@@ -139,17 +139,17 @@ void World::physics_step(double t) {
   try {
     if (step_work_) (this->*steps_.begin_work)();
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
-  } catch (const Error& e) {  // MuJoCo gave up on this step
+  } catch (const Error& e) {  // MuJoCo aborted this step
     diverged_at_ = next_.index;
     fatal_ = e.what();
   }
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
-  // A step leaves the bodies where its last stage had them.
+  // After a step the bodies are at the poses of its last stage.
   if (arm) mj_kinematics(physics_.model(), physics_.data());
   if (step_work_) (this->*steps_.count_work)(h);
 }
 
-// The tool in the hand, which weighs what pushes it back.
+// The tool in the hand, whose mass measures the force that pushes it back.
 Scale World::scale() const {
   if (!user_) return {};
   const std::int32_t held = user_->tool();
@@ -158,11 +158,11 @@ Scale World::scale() const {
   return {};
 }
 
-// The hand carries the tool that it holds; the other one lies still.
+// The hand moves the tool that it holds; the second tool lies still.
 void World::hold_tools(double t, double h) {
   mjData* d = physics_.data();
   const std::int32_t held = user_->tool();
-  Point<'W'> at = user_->state().hand;  // an empty hand feels nothing
+  Point<'W'> at = user_->state().hand;  // the force on an empty hand is zero
   Vec<'W'> moving = user_->state().hand_velocity;
   for (const HeldTool& tool : tools_) {
     if (tool.index != held) continue;
@@ -241,7 +241,7 @@ Vec<'W'> World::pointing() const {
   return Vec<'W'>(Vec3(-user_->shaft(seconds(truth_.t.time_since_epoch())).e().normalized()));
 }
 
-// The tool tilts about its tip. Under load its markers go on where its tip stops.
+// The tool tilts about its tip. Under load its markers move on after its tip has stopped.
 Pose<'W', 'T'> World::held_tool_pose(double t) const {
   const Vec3 tip_T = in_hand_ != nullptr ? in_hand_->tip_T : Vec3(Vec3::Zero());
   Quat q = q_WT_;
@@ -280,7 +280,7 @@ Tick World::advance() {
   return tick;
 }
 
-// ---- save and restore: each part's plain state, in a fixed order, behind its size
+// ---- Save and restore: each part's plain state, in a fixed order, after its size.
 
 namespace {
 
@@ -370,10 +370,10 @@ void World::restore(const std::vector<std::byte>& saved) {
   from.end();
   fatal_.clear();
   physics_.restore(physics);
-  if (arm) mj_kinematics(physics_.model(), physics_.data());  // the prop is turned by where its arm is
+  if (arm) mj_kinematics(physics_.model(), physics_.data());  // the arm's pose determines the prop's
 }
 
-// ---- the roles of a simulated rig: small views on one world
+// ---- The roles of a simulated rig: small views of one world.
 
 namespace {
 
@@ -454,7 +454,7 @@ class SimGripper final : public Gripper {
   explicit SimGripper(World& world) : world_(world) {}
   Stamped<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
   void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
-  void stop() noexcept override {}  // without a command it stays as it is
+  void stop() noexcept override {}  // without a command it keeps its state
 
  private:
   World& world_;

@@ -89,7 +89,7 @@ class World {
   [[nodiscard]] Scale scale() const;
   [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // without weight and errors
 
-  const MachineSteps& steps_;  // of the scene's machine
+  const MachineSteps& steps_;  // steps of the scene's machine
   TwinSpec twin_;
   const Scene& prepared_;
   double dt_, mass_behind_ = 0.0;  // s; behind the sensor, kg
@@ -102,13 +102,13 @@ class World {
   std::optional<User> user_;
   Physics physics_;
   std::optional<ArmBody> arm_body_;
-  ArmAbility arm_ability_;             // what a maker's sheet says
+  ArmAbility arm_ability_;             // figures of the data sheet
   std::optional<StepWork> step_work_;  // set if work was requested; only observes
   Point<'W'> work_from_;               // a hexapod's tip as the step begins
   std::vector<HeldTool> tools_;        // the first tool, and the one to change to
   const HeldTool* in_hand_ = nullptr;  // one of these; null: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
-  double programme_time_ = 10.0;  // of user, probe, pusher or travel, where there is one
+  double programme_time_ = 10.0;  // s, of user, probe, pusher or travel, if any
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;

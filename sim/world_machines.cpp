@@ -1,6 +1,6 @@
-// The parts of the world that differ from machine to machine. An arm: its torques, its prop and what is seen
-// of both. A hexapod: how it is placed or carried by its legs, what pushes or is pushed by its tip, what its
-// force sensor reads.
+// The parts of the world that differ from machine to machine. Arm: its torques, its prop and the observation
+// of both. Hexapod: its placement or legs, the bodies that push its tip or are pushed by it, and the readings
+// of its force sensor.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ struct Faced {
   Vec<'W'> normal;
 };
 
-// The surface that the prop stands for: the one nearest to the finger.
+// The surface that the prop represents: the one nearest to the finger.
 Faced nearest_surface(const Scene& scene, const Point<'W'>& p) {
   Faced faced;
   double least = std::numeric_limits<double>::infinity();
@@ -54,8 +54,8 @@ void World::set_up_arm(const WorldSpec& spec) {
   face_prop(0.0);
 }
 
-// The gimbal of the prop keeps its front parallel to the surface that it stands for: the commanded one.
-// Before, it faces what is nearest to it.
+// The gimbal of the prop keeps its front parallel to the commanded surface. Before the first command, the
+// front faces the nearest surface.
 void World::face_prop(double h) {
   mjModel* m = physics_.model();
   mjData* d = physics_.data();
@@ -89,8 +89,8 @@ void World::count_arm_work(double h) {
                     h, truth_.work);
 }
 
-// Forces are those of the step's last stage, which is as good as at this very time; velocities are evaluated
-// once more, as places were after the step.
+// Forces are those of the step's last stage, which is as good as the present time. Velocities are evaluated
+// once more, as positions were after the step.
 void World::observe_arm() {
   const mjModel* m = physics_.model();
   mjData* d = physics_.data();
@@ -113,15 +113,15 @@ BallContact probed_ball(const WorldSpec& spec) {
   if (object.shape != ShapeKind::sphere)
     throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
                 "object." + object.name + ".shape");
-  constexpr double kDeepest = 8e-3;  // m: the end of the plant's table
+  constexpr double kDeepest = 8e-3;  // m: end of the plant's table
   if (spec.prepared.probe()->depth > kDeepest)
     throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
 
-// MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on the
-// sensor: contact plus weight. In the control form inertia is missing, because the platform is placed and not
-// accelerated.
+// MuJoCo reports the force of the parent on the child, in the site's axes; the sensor measures the force of
+// the tip's side on the sensor: contact plus weight. The control form lacks inertia, because the platform is
+// placed and not accelerated.
 Wrench raw_wrench(const mjData* d) {
   return {Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
           Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
@@ -163,8 +163,8 @@ void World::set_up_hexapod(const WorldSpec& spec) {
   if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
 }
 
-// The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
-// a tip that moves away at 1 mm/s was damped as if the tip stood still, and was lost for single steps.
+// The platform's pose and velocity are prescribed. A mocap body would have no velocity: contacts with a tip
+// that moved away at 1 mm/s were damped as if it stood still, and were lost for single steps.
 void World::place_machine(const Pose<'R', 'H'>& from) {
   const HexapodPlant::State& to = machine->state();
   const Pose<'W', 'H'> X_WH = X_WR_ * from;
@@ -174,7 +174,7 @@ void World::place_machine(const Pose<'R', 'H'>& from) {
   q[0] = X_WH.xyzw[3];
   std::copy_n(X_WH.xyzw.begin(), 3, q + 1);
   const Vec3 velocity = X_WR_.q() * to.velocity.e();
-  const Vec3 turning = from.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
+  const Vec3 turning = from.q().conjugate() * to.turning.e();  // MuJoCo stores it in the body's axes
   std::copy_n(velocity.data(), 3, d->qvel + platform_qvel_);
   std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
 }
@@ -195,15 +195,15 @@ void World::move_hexapod(double t, double h) {
     machine->move(h);
     place_machine(placed);
   }
-  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has
-  // it.
+  // The probe of the control form reaches the machine's new pose in this step; on legs it is where the
+  // physics has it.
   if (by_own_law()) {
     const Point<'W'> to = legs ? from.origin() : X_WR_ * machine->true_pose().origin();
     ball ? press_ball(from, to, h) : push_tip(from, to, t, h);
   }
 }
 
-// The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
+// The ball pushes at the probe's position after this step, so that force and pose of a tick belong together.
 void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h) {
   ball->move(to, h);
   const BallContact::State& pressed = ball->state();
@@ -211,7 +211,7 @@ void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double 
   truth_.penetration = pressed.penetration;
 }
 
-// The pusher acts on the tip in the same way.
+// The pusher acts on the tip at its position after this step, too.
 void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h) {
   if (force && pusher->near(t, h, twin_.force.drift_ahead)) force->begin_push();
   const Vec<'W'> velocity(Vec3(Eigen::Map<const Vec3>(physics_.data()->qvel + platform_qvel_)));
@@ -219,11 +219,11 @@ void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t,
   apply(pushed, to + truth_.tip_radius * pusher->normal(), X_WH, to);
 }
 
-// A force on the haptic-tip, whose centre gets to `to` in this step.
+// Applies a force to the haptic-tip, whose centre reaches `to` in this step.
 void World::apply(const Vec<'W'>& pushed, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
                   const Point<'W'>& to) {
   const mjModel* m = physics_.model();
-  // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
+  // MuJoCo takes force and torque at the body's centre of mass, which does not move before this step.
   const double* middle = m->body_ipos + 3 * tip_body_;
   const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
   const Vec3 shift = (to - X_WH.origin()).e();
@@ -244,8 +244,8 @@ void World::count_hexapod_work(double h) {
   if (force) work.sensed += way.dot(felt_by_sensor().e());
 }
 
-// Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
-// belongs to its last stage, so all is evaluated once more at this very time.
+// Control form: the tip is at the servo's pose. Structural form: the physics has its pose; the data after a
+// step belong to its last stage, so everything is evaluated once more for the present time.
 void World::observe_hexapod() {
   if (!legs) {
     truth_.tip = X_WR_ * machine->true_pose().origin();

@@ -33,7 +33,7 @@ struct MachineSteps {
   void (World::*set_up)(const WorldSpec& spec);
   void (*begin_cycle)(World& world);
   void (World::*drive)(double t, double h);  // before a physics step
-  void (World::*begin_work)();               // of a physics step
+  void (World::*begin_work)();               // start of a physics step
   void (World::*count_work)(double h);
   void (World::*observe)();
 };

@@ -14,7 +14,7 @@ namespace {
 using Rgba = std::array<float, 4>;
 constexpr Rgba kProp{0.90F, 0.55F, 0.20F, 1};
 const char* const kJoints[kMostJoints] = {"arm_1", "arm_2", "arm_3"};
-const char* const kElbow = "arm_elbow";  // of a PHANToM, in place of arm_3: q3 - q2
+const char* const kElbow = "arm_elbow";  // PHANToM joint in place of arm_3: q3 - q2
 
 void name(mjsElement* element, const char* text) {
   if (mjs_setName(element, text) != 0)
@@ -23,11 +23,11 @@ void name(mjsElement* element, const char* text) {
 
 struct Solid {
   double mass;   // kg
-  Vec3 centre;   // of mass, from the body's origin, m
-  Vec3 inertia;  // about it, along the body's axes, kg m^2
+  Vec3 centre;   // centre of mass from the body's origin, m
+  Vec3 inertia;  // about that centre, along the body's axes, kg m^2
 };
 
-// The place of a part: on a body, or on the base, which is a frame of the world and no body.
+// The mount of a part: a body, or the base, which is a frame of the world without a body.
 struct Mount {
   mjsBody* body;
   mjsFrame* frame = nullptr;
@@ -56,8 +56,8 @@ mjsJoint* add_joint(mjsBody* body, const char* called, mjtJoint type, const Vec3
   return joint;
 }
 
-// A motor's joint, or the tendon that stands for one: its rotor, friction, limits. `more`: inertia that turns
-// with it and has no body.
+// Sets rotor, friction and limits of a motor's joint, or of the tendon in its place. `more`: inertia that
+// turns with it and has no body.
 template <class Driven>
 void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more) {
   const ArmDrive& drive = parts.machine.drives[i];
@@ -65,8 +65,8 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   driven->damping[0] = parts.truth.viscous[i];
   if (parts.truth.friction_form == ArmFriction::dry) {
     driven->frictionloss = parts.truth.friction[i];
-    // A friction that holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the
-    // friction does, 0.1 mm in a second. MuJoCo takes no time constant below two of its time steps.
+    // Friction must hold without creep. With MuJoCo's own impedance of 0.9, a tip under half of the friction
+    // creeps 0.1 mm in a second. MuJoCo takes no time constant below two of its time steps.
     driven->solref_friction[0] = parts.truth.friction_time;
     driven->solimp_friction[0] = driven->solimp_friction[1] = 0.9999;
   }
@@ -75,9 +75,9 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   driven->range[1] = drive.high;
 }
 
-// The published inertias need not be those of a body: I_xx of the published upper arm is larger than the sum
-// of the other two. What no body has is put on its joint, where it counts about the hinge alone: that is all
-// that the equations of motion see of it.
+// The published inertias may be impossible for a body: I_xx of the published upper arm exceeds the sum of the
+// other two. The excess goes to the joint, where it counts about the hinge alone. The equations of motion
+// need no more.
 double split(Solid& solid) {
   Vec3& inertia = solid.inertia;
   const double most = inertia.x() + inertia.z();
@@ -86,7 +86,7 @@ double split(Solid& solid) {
   return rest;
 }
 
-// An inertia that is published about the hinge, with the centre of mass `length` from it.
+// Checks an inertia published about the hinge, with the centre of mass `length` away from it.
 void check_about_hinge(double mass, double across, double along, double length, const char* key) {
   const double shift = mass * length * length;
   if (across < shift || along < shift)
@@ -97,25 +97,26 @@ struct Phantom {
   mjsBody *turret, *upper, *forearm;
 };
 
-// Upper arm and forearm with what the parallelogram adds to them.
+// Upper arm and forearm, each with its part of the parallelogram.
 struct Carried {
   Solid upper, forearm;
-  double weightless;                 // share of the forearm's mass that has no weight
-  double second = 0.0, third = 0.0;  // inertia without a body, of the joints of motors 2 and 3, kg m^2
+  double weightless;                 // share of the forearm's mass without weight
+  double second = 0.0, third = 0.0;  // inertia without a body, on the joints of motors 2 and 3, kg m^2
 };
 
 // The parallelogram without its loop (docs/reference/phantom_twin.md). The link stays parallel to the upper
-// arm and the crank to the forearm, so their own inertias are added to those. A mass m at a u2 + b u3, u2
-// along the upper arm and u3 along the forearm, moves by m a^2, m a b and m b^2, and so does m / 4 at twice
-// of both: the link's middle, at l1 / 2 and l3, becomes a point of the forearm, 2 l3 from the elbow. The
-// crank has a = 0 and is inertia alone. Weight goes by m a and m b, which this does not keep: that of the
-// forearm is put right by gravity compensation, then that of the upper arm by its centre of mass. Its mass is
-// free, since it turns about a point that stands still: it is large enough for its inertia to hold it.
+// arm and the crank to the forearm, so their own inertias are added to those.
+// A mass m at a u2 + b u3 contributes m a^2, m a b and m b^2, with u2 along the upper arm and u3 along the
+// forearm. A mass m / 4 at twice a and b contributes as much. So the link's middle, at l1 / 2 and l3, becomes
+// a point of the forearm, 2 l3 from the elbow. The crank has a = 0 and is inertia alone.
+// Weight depends on m a and m b, which this changes. Gravity compensation corrects the weight of the forearm,
+// the centre of mass that of the upper arm. The upper arm's mass is free, because it turns about a fixed
+// point. It is large enough for its inertia.
 Carried carried(const PhantomGeometry& g) {
   check_about_hinge(g.m_be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
   check_about_hinge(g.m_df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");
-  // Published axes: x is the hinge; across it, y and z are those which are vertical where the link lies at 0
-  // and at 90 degrees.
+  // Published axes: x is the hinge. Across it, y and z are the axes that are vertical with the link at 0 and
+  // at 90 degrees.
   const auto lying = [](const Vec3& I) { return Vec3(I.z(), I.x(), I.y()); };
   Carried c{};
   const double quarter = 0.25 * g.m_c, middle = 0.5 * g.l2, beyond = 2.0 * g.l3;
@@ -141,21 +142,22 @@ Carried carried(const PhantomGeometry& g) {
   return c;
 }
 
-// Along x where they lie at q = 0: the upper arm; along -z the forearm. All hinges are along -y, so that a
-// positive angle lifts the upper arm and swings the forearm out. Motor 3 turns the forearm against the
-// turret: q3 is the sum of both hinges' angles, and a tendon reads it.
+// The upper arm lies along x at q = 0, the forearm along -z. All hinges are along -y, so that a positive
+// angle lifts the upper arm and swings the forearm out. Motor 3 turns the forearm against the turret: q3 is
+// the sum of both hinges' angles, and a tendon reads it.
 mjsBody* build_phantom(mjSpec* spec, const Mount& base, const ArmParts& parts) {
   const PhantomGeometry& g = parts.machine.phantom;
   const Vec3 o = Vec3::Zero();
   const Carried c = carried(g);
   Phantom p{};
-  p.turret = add_body(base, o, {g.m_be, o, Vec3::Constant(g.I_base)});  // its mass stands still
+  p.turret = add_body(base, o, {g.m_be, o, Vec3::Constant(g.I_base)});  // its mass does not move
   fit_drive(add_joint(p.turret, kJoints[0], mjJNT_HINGE, Vec3::UnitZ()), parts, 0, 0.0);
   p.upper = add_body({p.turret}, o, c.upper);
   fit_drive(add_joint(p.upper, kJoints[1], mjJNT_HINGE, -Vec3::UnitY()), parts, 1, c.second);
   p.forearm = add_body({p.upper}, {g.l1, 0, 0}, c.forearm);
   p.forearm->gravcomp = c.weightless;
-  // MuJoCo looks for more weight on one body only if it finds less on another; the turret's does nothing.
+  // MuJoCo searches for negative compensation only if some body has a positive one; the turret's has no
+  // effect.
   if (c.weightless < 0.0) p.turret->gravcomp = 1.0;
   mjsJoint* elbow = add_joint(p.forearm, kElbow, mjJNT_HINGE, -Vec3::UnitY());
   elbow->limited = mjLIMITED_TRUE;
@@ -181,7 +183,7 @@ mjsBody* build_chain(const Mount& base, const ArmParts& parts) {
   return add_body(on, parts.machine.tip, {parts.prop ? parts.prop->mass : 0.0, Vec3::Zero(), Vec3::Zero()});
 }
 
-// The prop's front. Its own friction and stop count, whatever touches it.
+// The prop's front. Its own friction and stop apply to every contact.
 void add_front(mjsBody* prop, const ArmParts& parts) {
   const PropSpec& spec = *parts.prop;
   mjsGeom* front = mjs_addGeom(prop, nullptr);
@@ -232,7 +234,7 @@ ArmBody::ArmBody(const Physics& physics, std::size_t joints)
   front_ = mj_name2id(m, mjOBJ_GEOM, "prop_front");
   if (front_ < 0) return;
   middle_ = Vec3(0, 0, -m->geom_size[3 * front_ + 2]);
-  m->geom_sameframe[front_] = mjSAMEFRAME_NONE;  // it is turned against its body
+  m->geom_sameframe[front_] = mjSAMEFRAME_NONE;  // the front is rotated against its body
 }
 
 PerJoint ArmBody::joints(const mjData* d) const noexcept {

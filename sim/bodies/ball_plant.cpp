@@ -13,14 +13,14 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<BallPlantState>);
 
-constexpr double kStep = 0.02e-3;  // m, of the table
-constexpr int kRows = 402;         // 0 ... 8 mm, and one row more for the slope at the end
+constexpr double kStep = 0.02e-3;  // m, step of the table
+constexpr int kRows = 402;         // 0 ... 8 mm, and one more row for the slope at the end
 
-// Core: a thin shell that softens as it dents (Reissner's stiffness at first), and the gas, both stiffened by
-// large strain.
+// Core: a thin shell that softens as it dents (at first with Reissner's stiffness), and the gas, both
+// stiffened by large strain.
 double core_force(const BallParameters& p, double w) {
   const double middle = p.outer_radius - p.felt - 0.5 * p.wall;
-  // Reissner, point load, Poisson's ratio 1/2: 4 E h^2 / (R sqrt(3 (1 - nu^2))), the root is 1.5
+  // Reissner, point load, Poisson's ratio 1/2: 4 E h^2 / (R sqrt(3 (1 - nu^2))); the root is 1.5
   const double reissner = 4.0 * p.rubber_modulus * p.wall * p.wall / (1.5 * middle);
   const double shell =
       0.652 * reissner * w / std::pow(1.0 + std::pow(w / (0.736 * p.wall), 3.43), 1.0 / 6.86);
@@ -28,7 +28,7 @@ double core_force(const BallParameters& p, double w) {
   return (shell + gas) * (1.0 + 0.062 * w / p.wall);
 }
 
-// Felt compressed by c, as a bed of springs that lock at its thickness; the touched patch grows as the core
+// Felt compressed by c: a bed of springs that lock at its thickness. The touched patch grows as the core
 // yields by w.
 double felt_force(const BallParameters& p, double c, double w) {
   const double x = c / p.felt;
@@ -37,8 +37,8 @@ double felt_force(const BallParameters& p, double c, double w) {
          (-x - std::log1p(-x));
 }
 
-// In series: the core's dent w and the felt's c add up to the deflection and carry one force. Halving in w:
-// the felt alone holds more than the core at w = 0 and nothing at w = deflection.
+// Two springs in series: the core's dent w and the felt's c add up to the deflection and carry one force.
+// Bisection in w: the felt alone holds more than the core at w = 0 and nothing at w = deflection.
 double series_force(const BallParameters& p, double deflection) {
   double lo = std::max(0.0, deflection - p.felt);
   double hi = deflection;
@@ -77,8 +77,8 @@ BallParameters ball_set(BallSet set) {
       p.felt_modulus = 0.12e6;
       break;
     case BallSet::regulation:
-      // Within 8-10 MPa, 70-100 kPa and 0.6-1.0 MPa, such that the loop at 4 mm/s ends at 45-52 N. The middle
-      // of all three would give that at rest and 16 % more in the loop.
+      // Within 8-10 MPa, 70-100 kPa and 0.6-1.0 MPa, chosen so that the loop at 4 mm/s ends at 45-52 N. The
+      // middle of all three ranges would give that force at rest, and 16 % more in the loop.
       p.rubber_modulus = 8.0e6;
       p.pressure = 75e3;
       p.felt_modulus = 0.80e6;
@@ -104,8 +104,8 @@ BallPlant BallPlant::with_loss(const BallParameters& loss) const {
 
 double BallPlant::elastic(double deflection) const {
   if (!(deflection > 0.0)) return 0.0;
-  // Cubic between the rows, slopes by central differences (0 at the start: felt begins with the square of its
-  // compression).
+  // Cubic between the rows, with slopes by central differences (0 at the start, where the felt's force grows
+  // with the square of its compression).
   const double row = deflection / kStep;
   const auto slope = [&](std::size_t i) { return i == 0 ? 0.0 : 0.5 * (table_[i + 1] - table_[i - 1]); };
   constexpr std::size_t kLast = kRows - 2;
@@ -119,7 +119,7 @@ double BallPlant::elastic(double deflection) const {
 }
 
 double BallPlant::step(BallPlantState& state, double deflection, double dt) const {
-  const double to = std::max(deflection, 0.0);  // no felt is moved without touch
+  const double to = std::max(deflection, 0.0);  // without touch the felt does not move
   const double before = elastic(state.deflection);
   const double after = elastic(to);
   double force = after;
@@ -130,7 +130,7 @@ double BallPlant::step(BallPlantState& state, double deflection, double dt) cons
     state.relaxing[j] = state.relaxing[j] * std::exp(-a) + parameters_.relaxing[j] * (after - before) * mean;
     force += state.relaxing[j];
   }
-  // z' = (d' / d_y) (1 - z sign d'): towards +-1 with travel, whatever the time it took
+  // z' = (d' / d_y) (1 - z sign d'): towards +-1 with travel, however long it takes
   const double travel = to - state.deflection;
   if (travel != 0.0) {
     const double end = travel > 0.0 ? 1.0 : -1.0;
@@ -180,15 +180,15 @@ BallContact::BallContact(const BallTruth& truth, const Point<'W'>& centre, doubl
       probe_radius_(probe_radius),
       plant_(checked(truth, radius, probe_radius)) {}
 
-// A ball is not the same everywhere (the ITF allows 0.76 mm between three axes). The spots over its poles are
-// as the parameters say; away from them it is stiffer by `uneven`.
+// A ball is not uniform (the ITF allows 0.76 mm between three axes). The spots over its poles follow the
+// parameters; elsewhere it is stiffer by `uneven`.
 double BallContact::evenness(const Vec3& normal) const {
-  constexpr double kSpot = 3e-3;  // m on the surface: about the patch that a probe first touches
+  constexpr double kSpot = 3e-3;  // m on the surface: about the size of the patch at a probe's first touch
   const double away = radius_ * std::asin(std::min(1.0, std::hypot(normal.x(), normal.y()))) / kSpot;
   return 1.0 + truth_.uneven * -std::expm1(-away * away);
 }
 
-// s' = v / travel (1 - s along v), Dahl's form: it sticks elastically at first and slides in the end.
+// s' = v / travel (1 - s along v), Dahl's form: elastic at first, sliding in the end.
 void BallContact::drag(const Vec3& travel, const Vec3& normal) {
   const Vec3 across = travel - normal * normal.dot(travel);
   Vec3 stretch = state_.stretch.e() - normal * normal.dot(state_.stretch.e());

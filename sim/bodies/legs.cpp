@@ -17,12 +17,13 @@ namespace {
 using Wrench6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 constexpr int kLegs = 6;
-// In mjData's userdata, which is saved with the rest: when the step began, then four coefficients a leg.
+// Stored in mjData's userdata, which is saved with the rest: start time of the step, then four coefficients a
+// leg.
 constexpr int kWords = 1 + 4 * kLegs;
 
-// MuJoCo asks for controls at the time of every stage of a step.
+// MuJoCo requests controls at the time of every stage of a step.
 void lead(const mjModel* m, mjData* d) {
-  if (m->nuserdata != kWords || m->nu != kLegs) return;  // of another world in this process
+  if (m->nuserdata != kWords || m->nu != kLegs) return;  // belongs to another world in this process
   const double s = d->time - d->userdata[0];
   for (int leg = 0; leg < kLegs; ++leg) {
     const double* a = d->userdata + 1 + 4 * leg;
@@ -31,7 +32,7 @@ void lead(const mjModel* m, mjData* d) {
 }
 
 // c = 2 zeta sqrt(k m / 6): a leg with a sixth of the moved mass has the damping ratio zeta. The vertical
-// mode, which has 5.2 and not 6 legs' stiffness, so gets 0.93 zeta, softer ones less.
+// mode has the stiffness of 5.2 legs instead of 6, so it gets 0.93 zeta; softer modes get less.
 double damping_of(const StructureTruth& truth, double moved_mass) {
   return 2.0 * truth.leg_damping * std::sqrt(truth.leg_stiffness * moved_mass / kLegs);
 }
@@ -69,7 +70,7 @@ void set_inertia(mjsBody* body, double mass, const Vec3& centre, const Vec3& ine
   std::copy_n(inertia.data(), 3, body->inertia);
 }
 
-// Weight on the legs: force and moment about H in R's axes, of all that moves but the payload.
+// Weight on the legs: force and moment about H in R's axes, from all moving bodies except the payload.
 Wrench6 weight(const Physics& physics, int platform, int payload, const Pose<'W', 'R'>& X_WR) {
   const mjModel* m = physics.model();
   const Eigen::Map<const Vec3> gravity(m->opt.gravity);
@@ -86,18 +87,18 @@ Wrench6 weight(const Physics& physics, int platform, int payload, const Pose<'W'
   return total;
 }
 
-// Mass matrix of the platform with all it carries, for motions of H along and about R's axes, at zero.
+// Mass matrix of the platform with its load, for motions of H along and about R's axes, at zero.
 Mat6 mass_matrix(const Physics& physics, int first_dof, const Pose<'W', 'R'>& X_WR) {
   const mjModel* m = physics.model();
   Eigen::MatrixXd all(m->nv, m->nv);
   mj_fullM(m, physics.data(), all.data());
-  Mat6 turn = Mat6::Identity();  // MuJoCo's speeds of a free body: along the world's axes, about its own
+  Mat6 turn = Mat6::Identity();  // MuJoCo: speeds along the world's axes, rates about the body's
   turn.topLeftCorner<3, 3>() = X_WR.q().toRotationMatrix();
   const Mat6 M = all.block<6, 6>(first_dof, first_dof);
   return turn.transpose() * M * turn;
 }
 
-// How far a method may step, in radians of the fastest vibration: its limit with a tenth or so in hand.
+// Longest step of a method, in radians of the fastest vibration: its limit less about a tenth.
 double longest_step(int integrator) {
   if (integrator == mjINT_DISCRETE) return std::numeric_limits<double>::infinity();
   return integrator == mjINT_RK4 ? 2.5 : 1.8;
@@ -109,7 +110,7 @@ void Legs::build(mjSpec* spec, const Hexapod& machine, const StructureTruth& tru
   spec->nuserdata = kWords;
   mjsBody* base = mjs_findBody(spec, "base");
   mjsBody* platform = mjs_findBody(spec, "platform");
-  // A disc of the platform's size in its joint plane; the payload is a cube of 10 cm that stands on it.
+  // A disc of the platform's size in its joint plane; the payload is a cube of 10 cm on top of it.
   const double r = machine.geometry().platform_radius;
   const Vec3 plate(0, 0, -machine.geometry().tip_height);
   set_inertia(platform, truth.platform_mass, plate, truth.platform_mass * r * r * Vec3(0.25, 0.25, 0.5));

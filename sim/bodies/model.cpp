@@ -15,7 +15,7 @@
 namespace enc::sim {
 namespace {
 
-constexpr int kRings = 96, kSectors = 144;  // under 1.5 mm apart on a tennis ball
+constexpr int kRings = 96, kSectors = 144;  // less than 1.5 mm apart on a tennis ball
 
 std::vector<float> ball_vertices(double radius) {
   std::vector<float> xyz;
@@ -56,7 +56,7 @@ mjsGeom* add_seen(mjSpec* spec, std::size_t object, const std::vector<float>& ve
   mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
   mjs_setInt(mesh->userface, triangles.data(), static_cast<int>(triangles.size()));
   mesh->smoothnormal = true;
-  mesh->inertia = mjMESH_INERTIA_SHELL;  // it has none, and needs no convex hull for it
+  mesh->inertia = mjMESH_INERTIA_SHELL;  // it has no inertia, and needs no convex hull for it
   geom->type = mjGEOM_MESH;
   mjs_setString(geom->meshname, name.c_str());
   geom->contype = geom->conaffinity = 0;
@@ -134,7 +134,7 @@ int dent_seen(mjModel* m, const mjData* data, const Scene& scene, std::size_t ob
   const Pose<'O', 'W'> X_OW = seen.X_WO.inverse();
   const DentField<double> field =
       dent_field(seen.surface, dent_of(seen.surface, static_cast<std::int32_t>(object), X_OW * tip));
-  // MuJoCo keeps a mesh in its own axes of inertia.
+  // MuJoCo stores a mesh in its own principal axes of inertia.
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const Vec3 p = Vec3::Map(data->geom_xpos + static_cast<std::ptrdiff_t>(3) * geom);
   const Mat3 turned = RowMajor::Map(data->geom_xmat + static_cast<std::ptrdiff_t>(9) * geom);
@@ -165,7 +165,7 @@ void set4(double* to, const Quat& q) {  // MuJoCo writes w first
   to[2] = q.y();
   to[3] = q.z();
 }
-// mjs_setName says -1 for a duplicate and the spec still compiles: check (sources/twin 4).
+// mjs_setName returns -1 for a duplicate and the spec still compiles, so check it (sources/twin 4).
 void name(mjsElement* element, const std::string& text) {
   if (mjs_setName(element, text.c_str()) != 0)
     throw Error("two parts of the simulated world are called '" + text + "'");
@@ -184,8 +184,7 @@ mjsGeom* drawn(mjsBody* body, mjtGeom type, const Vec3& position, const Vec3& si
   return geom;
 }
 
-// A hard stop between tool and haptic-tip.
-// No haptic stiffness is rendered by it: that is the core's business.
+// A hard stop between tool and haptic-tip. It renders no haptic stiffness; the core does that.
 void hard_contact(mjsGeom* geom, const WorldTruth& world) {
   geom->contype = geom->conaffinity = 1;
   geom->condim = 3;
@@ -195,7 +194,7 @@ void hard_contact(mjsGeom* geom, const WorldTruth& world) {
   geom->solimp[0] = geom->solimp[1] = 0.99;
 }
 
-// Markers and shaft of a tool, for the picture; its tip's centre at `tip`, turned by q.
+// Markers and shaft of a tool, for the picture. `tip`: centre of its tip; q: its rotation.
 void draw_tool(mjsBody* body, const ToolSpec& tool, const Quat& q, const Vec3& tip) {
   const auto placed = [&](const Vec3& p_T) { return Vec3(tip + q * (p_T - tool.tip)); };
   Vec3 middle = Vec3::Zero();
@@ -211,7 +210,7 @@ void draw_tool(mjsBody* body, const ToolSpec& tool, const Quat& q, const Vec3& t
 
 constexpr std::array<float, 4> kSkin{0.87F, 0.66F, 0.54F, 1};
 
-// A fingertip is a tool without markers. Its last two joints, slightly bent.
+// A fingertip is a tool without markers. Draws its last two joints, slightly bent.
 void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
   const Vec3 bent = (to_hand + 0.4 * to_hand.unitOrthogonal()).normalized();
   const Vec3 joint = 0.024 * to_hand;
@@ -222,8 +221,8 @@ void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
   }
 }
 
-// A child of the tip's body: a weld to it would err by 128 um at 40 mm/s (sources/twin 3). It touches
-// nothing.
+// A child of the tip's body, because a weld to it would err by 128 um at 40 mm/s (sources/twin 3). It has no
+// contacts.
 void add_clamped_tool(mjsBody* behind_sensor, const ToolSpec& tool, const Pose<'H', 'T'>& X_HT) {
   mjsBody* body = mjs_addBody(behind_sensor, nullptr);
   name(body->element, "clamped_tool");
@@ -267,17 +266,17 @@ void add_hexapod(mjSpec* spec, const ModelParts& parts) {
   Legs::build(spec, Hexapod(parts.twin.hexapod.geometry), parts.twin.structure, moved);
 }
 
-// Nothing but a tool can touch a hexapod, which has no other constraint.
+// Only a tool can touch a hexapod, which has no other constraint.
 void touch_hexapod(mjSpec* spec, const ModelParts& parts) {
   if (parts.tool == nullptr) spec->option.disableflags |= mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
 }
 
-// All parts of an arm hang together: islands would only be looked for (8 % of the run time).
+// All parts of an arm belong to one island, so the search for islands would waste 8 % of the run time.
 void add_arm(mjSpec* spec, const ModelParts& parts) {
   spec->option.disableflags |= mjDSBL_ISLAND;
   const ArmMachine machine = true_machine(parts.twin.arm);
   build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR});
-  spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that turns on its body
+  spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that rotates on its body
 }
 
 void add_sensor(mjSpec* spec, mjtSensor type, const char* text) {
@@ -288,13 +287,13 @@ void add_sensor(mjSpec* spec, mjtSensor type, const char* text) {
   name(sensor->element, text);
 }
 
-// A tool of the user's: its tip's centre on three slides. The hand keeps its orientation.
+// A tool of the user: its tip's centre on three slides. The hand keeps its orientation.
 void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const std::string& called) {
   mjsBody* body = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
   name(body->element, called);
   body->mass = tool.mass;
   body->explicitinertial = true;
-  set3(body->ipos, Vec3::Zero());  // unset, MuJoCo compiles the body and leaves its mass out of the MJCF
+  set3(body->ipos, Vec3::Zero());  // if unset, MuJoCo compiles the body but omits its mass from the MJCF
   std::fill_n(body->inertia, 3, 1e-5);
   for (int axis = 0; axis < 3; ++axis) {
     mjsJoint* slide = mjs_addJoint(body, nullptr);
@@ -315,8 +314,8 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   colour(tip, kSkin);
 }
 
-// The only two that can touch: then no others are looked for (3 % of the instructions of a tick). Friction
-// and stop are those of the first.
+// Declares the only pair that can touch, so that MuJoCo checks no other pair (3 % of the instructions of a
+// tick). Friction and stop are those of the first geom.
 mjsPair* only_pair(mjSpec* spec, const char* one, const char* other) {
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, one);
@@ -347,7 +346,7 @@ mjsGeom* draw_slab(mjSpec* spec, std::size_t index, const ObjectSpec& object, co
 mjsGeom* draw_drum(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Object& prepared) {
   const Pose<'W', 'O'>& X_WO = prepared.X_WO;
   const Vec3 way = prepared.interaction.way.normalized();
-  const bool across = std::abs(way.x()) > std::abs(way.y());  // the face's width is along the way
+  const bool across = std::abs(way.x()) > std::abs(way.y());  // the face's width is along that direction
   const double radius = 0.5 * (across ? object.width : object.height);
   const Vec3 axis = 0.5 * (across ? object.height : object.width) * way.cross(Vec3::UnitZ());
   mjsGeom* geom = drawn(mjs_findBody(spec, "world"), mjGEOM_CYLINDER, Vec3::Zero(), {radius, 0, 0},
@@ -377,12 +376,12 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
   for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
     mjsGeom* geom = draw_object(spec, i, parts.scene.objects[i], parts.prepared.objects[i]);
-    set4(geom->quat, Quat(X_WO.q()));  // `fromto`, where it is set, comes before it
+    set4(geom->quat, Quat(X_WO.q()));  // `fromto`, if set, takes precedence
     const bool real = parts.prepared.probe() && parts.prepared.probe()->object == static_cast<int>(i);
     if (real) geom->rgba[3] = 1.0F;
     set_material(spec, geom, i, parts.scene.objects[i], real);
   }
-  // A picture shows a belt on its rollers in place of the box that is touched (app/view/moment/depict.cpp).
+  // A picture shows a belt on its rollers instead of the touched box (app/view/moment/depict.cpp).
   if (parts.scene.prop && parts.scene.prop->kind == PropKind::drum)
     mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, "prop_front"))->rgba[3] = 0.0F;
   for (const double side : {-1.0, 1.0}) {
@@ -404,12 +403,12 @@ void touch_arm(mjSpec* spec, const ModelParts& parts) {
 // The parts of a scene's model that differ from machine to machine.
 struct MachineModel {
   void (*add)(mjSpec* spec, const ModelParts& parts);    // its bodies
-  void (*touch)(mjSpec* spec, const ModelParts& parts);  // what can touch it, once all bodies are there
-  int noslip;  // steps of the pass that removes creep, unless the rig file says
+  void (*touch)(mjSpec* spec, const ModelParts& parts);  // contacts with the machine, once all bodies exist
+  int noslip;  // steps of the pass that removes creep, unless the rig file sets it
 };
-// Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds. Not
-// by the last pass where there is an arm: that changes the dry friction of its joints after the contact
-// forces are found, and a pressed finger is let go for a tick whenever the arm begins to slip.
+// Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds. A
+// scene with an arm does without the last pass. That pass changes the dry friction of the joints after the
+// contact forces are found, and would release a pressed finger for a tick whenever the arm begins to slip.
 constexpr PerMachine<MachineModel> kModels{.hexapod = {add_hexapod, touch_hexapod, 4},
                                            .arm = {add_arm, touch_arm, 0}};
 
@@ -438,7 +437,7 @@ void set_solver(const SolverTruth& solver, int noslip, mjOption& option) {
 }  // namespace
 
 SpecPtr build_model(const ModelParts& parts) {
-  install_mujoco_handlers();  // attaching warns on standard output otherwise
+  install_mujoco_handlers();  // otherwise attaching prints warnings on standard output
   SpecPtr spec(mj_makeSpec());
   const MachineModel& machine = kModels.of(parts.scene);
   const Stepping stepping = parts.twin.stepping(parts.scene);
@@ -446,8 +445,8 @@ SpecPtr build_model(const ModelParts& parts) {
   set3(spec->option.gravity, {0, 0, -9.80665});
   spec->option.integrator = integrator_of(stepping);
   set_solver(parts.twin.solver, machine.noslip, spec->option);
-  // Looks a step ahead: 5 m/s are 5 mm a step, and the tool would go through the tip. Slower ones keep their
-  // bits.
+  // Speculative contacts: at 5 m/s a tool moves 5 mm a step and would pass through the tip. Slower tools keep
+  // their bits.
   spec->option.enableflags |= mjENBL_SPECULATIVE;
   machine.add(spec.get(), parts);
   if (parts.scene.force) {

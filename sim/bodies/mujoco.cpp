@@ -13,10 +13,10 @@ namespace {
   throw Error(std::string("MuJoCo: ") + text, {}, ErrorKind::device);
 }
 void on_warning(const char*) {
-}  // the counters in mjData are read on every step; nothing is printed or written to a file
+}  // step() reads the counters in mjData; nothing is printed or written to a file
 
-// A step works in an arena of megabytes: contacts from its begin, passing values from its end. The first
-// contact must not wait for a page that was never written to. Shipped scenes use 18 kB.
+// A step works in an arena of megabytes: contacts from its start, temporary values from its end. Touch the
+// pages now, so that the first contact does not wait for one. Shipped scenes use 18 kB.
 void touch_arena(mjData& data) {
   constexpr std::size_t kUsed = 64 * 1024;  // bytes, at either end
   auto* arena = static_cast<std::byte*>(data.arena);
@@ -29,7 +29,7 @@ void touch_arena(mjData& data) {
 }  // namespace
 
 void install_mujoco_handlers() {
-  // Once, whichever thread comes first: worlds run side by side.
+  // The first thread installs them, once; worlds run side by side.
   [[maybe_unused]] static const bool installed = [] {
     mju_user_error = on_error;
     mju_user_warning = on_warning;
@@ -41,7 +41,7 @@ std::string mujoco_version() { return mj_versionString(); }
 
 std::string mujoco_problem(int version) {
   if (version / 1'000'000 != 4) return "version 4 is needed; run ./encounter once more, it fetches it";
-  // Its issue 3767: rows of a sparse constraint Jacobian share a block of the Cholesky factor wrongly.
+  // MuJoCo's issue 3767: rows of a sparse constraint Jacobian wrongly share a block of the Cholesky factor.
   if (version == 4'000'000)
     return "its solver factors a wrong Hessian, mended in 4.0.1; unset ENCOUNTER_MUJOCO or point it to a "
            "later "
@@ -65,8 +65,8 @@ Physics::Physics(SpecPtr spec) : spec_(std::move(spec)) {
   touch_arena(*data_);
 }
 
-// What came to its last iteration and would have gone on. The statistics of a pass against creep follow those
-// of the solver, with a gradient of 0. Without a tolerance nothing is asked for.
+// False if the solver used its last iteration without reaching the tolerance. The statistics of the pass
+// against creep follow those of the solver, with a gradient of 0. Without a tolerance every solution counts.
 bool Physics::solved() const noexcept {
   const mjOption& option = model_->opt;
   if (!(option.tolerance > 0.0)) return true;
@@ -74,7 +74,7 @@ bool Physics::solved() const noexcept {
   for (int i = 0; i < islands; ++i) {
     const int most = option.iterations;
     if (data_->solver_niter[i] < most) continue;
-    if (most > mjNSOLVER) {  // of so many there are no statistics
+    if (most > mjNSOLVER) {  // MuJoCo keeps no statistics beyond this number
       if (data_->solver_niter[i] >= most + option.noslip_iterations) return false;
       continue;
     }
@@ -119,7 +119,7 @@ std::vector<double> Physics::save() const {
 
 void Physics::restore(const std::vector<double>& state) {
   mj_setState(model_.get(), data_.get(), state.data(), mjSTATE_INTEGRATION);
-  for (mjWarningStat& warning : data_->warning) warning = {};  // what was wrong before is not wrong now
+  for (mjWarningStat& warning : data_->warning) warning = {};  // the restored state starts without warnings
 }
 
 }  // namespace enc::sim

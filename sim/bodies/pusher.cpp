@@ -9,7 +9,7 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kClear = 2e-3;  // m above the surface where it waits
+constexpr double kClear = 2e-3;  // m above the surface, the waiting position
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void Pusher::next_phase(double t) {
   }
 }
 
-// Narrow-band noise: a phasor that turns at the tremor's rate and forgets itself within a second.
+// Narrow-band noise: a phasor that turns at the tremor's rate and decorrelates within a second.
 double Pusher::tremble(double h) {
   constexpr double kMemory = 1.0;  // s
   const double angle = 2.0 * std::numbers::pi * truth_.tremor_rate * h;
@@ -81,7 +81,7 @@ double Pusher::tremble(double h) {
 bool Pusher::near(double t, double h, double ahead) const {
   if (done() || state_.phase != Phase::wait) return false;
   const double left = state_.phase_start + spec_.rest_time - std::min(ahead, spec_.rest_time - h) - t;
-  return left > 0.5 * h && left <= 1.5 * h;  // one step is, whatever the rounding
+  return left > 0.5 * h && left <= 1.5 * h;  // true for exactly one step, whatever the rounding
 }
 
 Vec<'W'> Pusher::act(double t, double h, const Point<'W'>& tip, const Vec<'W'>& velocity) {

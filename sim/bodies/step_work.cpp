@@ -5,8 +5,8 @@
 
 namespace enc::sim {
 
-// The solver's answer as the step begins, which the step itself will find: it begins from where it would
-// have.
+// The solver's result at the start of the step. The step itself will find it, because it starts from the same
+// point.
 void StepWork::look(const Physics& physics) {
   const mjModel* m = physics.model();
   mjData* d = physics.data();
@@ -30,7 +30,7 @@ void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* a
   std::copy_n(d->qpos, std::min<std::size_t>(static_cast<std::size_t>(m->nq), kMostDofs), qpos_.begin());
   tip_ = arm->tip(d).e();
   turned_ = arm->turned(d);
-  if (torque == torque_) return;  // nothing leaps: it begins as the last one ended
+  if (torque == torque_) return;  // no jump: the torque is unchanged since the last step
   look(physics);
   held_ = held_back(physics, *arm);
   torque_ = torque;
@@ -42,7 +42,7 @@ Vec3 StepWork::pushed(const Physics& physics, double h) const {
   return applied_ - tool_.mass * (now - velocity_) / h;
 }
 
-// Dry friction and the stops, all that is no contact, as the last stage of the step has them.
+// Dry friction and the stops, i.e. every constraint except contacts, as in the last stage of the step.
 StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
@@ -62,14 +62,14 @@ StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   return held;
 }
 
-// A touch that is over by the end of the step has left no point behind. At the begin of the step, the front's
-// point nearest to the tool's tip is half way between both; in the axes of the body that the prop is on.
+// A touch that ended within the step leaves no contact point. At the start of the step, the front's point
+// nearest to the tool's tip is halfway between both. Returned in the axes of the body that carries the prop.
 Vec3 StepWork::touched_first(const Physics& physics, const ArmBody& arm) const {
   const mjModel* m = physics.model();
   const Eigen::Map<const Vec3> middle(m->geom_pos + 3 * arm.front()), half(m->geom_size + 3 * arm.front());
   const double* q = m->geom_quat + 4 * arm.front();
   const Quat front(q[0], q[1], q[2], q[3]);
-  const auto dof = static_cast<std::size_t>(tool_.dof);  // its coordinates are as many as its speeds
+  const auto dof = static_cast<std::size_t>(tool_.dof);  // as many coordinates as speeds
   const Vec3 tool(qpos_[dof], qpos_[dof + 1], qpos_[dof + 2]);
   const Vec3 centre = turned_.conjugate() * (tool - tip_);
   const Vec3 near = middle + front * (front.conjugate() * (centre - middle)).cwiseMax(-half).cwiseMin(half);
@@ -86,7 +86,7 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
     const double way = joints[i] - joints_[i];
     sum.motors += torque[i] * way;
     sum.friction -= smooth[i] * way;
-    // The cubic through both ends has this rate in its middle.
+    // The cubic through both ends has this rate at its middle.
     const double middle = 1.5 * way / h - 0.25 * (rates_[i] + rates[i]);
     sum.viscous +=
         truth.viscous[i] * h / 6.0 * (rates_[i] * rates_[i] + 4.0 * middle * middle + rates[i] * rates[i]);
@@ -101,7 +101,7 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
   held_ = now;
   sum.rates = rates;
   if (!touched) return;
-  // The point that is touched, as a point of the body that the prop is on.
+  // The touched point, fixed to the body that carries the prop.
   const Vec3 tip = arm.tip(d).e();
   const Quat turned = arm.turned(d);
   const Vec3 at = d->ncon > 0 ? Vec3(turned.conjugate() * (Eigen::Map<const Vec3>(d->contact[0].pos) - tip))

@@ -29,7 +29,7 @@ class Egl final : public DrawingContext {
   OffscreenContext context_;
 };
 
-// The used part of GL/osmesa.h, which need not be there.
+// The used part of GL/osmesa.h, which may be missing.
 constexpr int kRgba = 0x1908;
 constexpr unsigned kUnsignedByte = 0x1401;
 using Create = void* (*)(unsigned format, int depth, int stencil, int accumulate, void* shared);
@@ -65,7 +65,7 @@ class OsMesa final : public DrawingContext {
   }
 
  private:
-  static constexpr int kSide = 16;  // px; pictures are drawn into MuJoCo's own buffer, never into this one
+  static constexpr int kSide = 16;  // px; MuJoCo draws into its own buffer, never into this one
   void* library_ = nullptr;
   void* context_ = nullptr;
   MakeCurrent current_ = nullptr;
@@ -73,7 +73,7 @@ class OsMesa final : public DrawingContext {
   mutable unsigned char window_[4 * kSide * kSide]{};
 };
 
-// MuJoCo takes OpenGL's functions from the library that this names.
+// `mujoco_gl` selects the library from which MuJoCo takes OpenGL's functions.
 template <class Context>
 std::unique_ptr<DrawingContext> made(const char* mujoco_gl) {
   auto context = std::make_unique<Context>();

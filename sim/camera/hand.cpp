@@ -15,7 +15,7 @@ constexpr double kFinger = 0.088;            // m, from the middle of the tip's 
 constexpr double kWrist = -kFinger - 0.080;  // m
 constexpr int kAround = 24;                  // corners of a round section
 
-// A ring of a body of revolution: where along the axis, half axes, and how much its normals look along.
+// A ring of a body of revolution: position along the axis, half axes, and the axial part of its normals.
 struct Ring {
   double z, x, y, tilt;
 };
@@ -41,8 +41,8 @@ class Builder {
       rings.push_back(ring(0.0, (-0.5 + i / 12.0) * std::numbers::pi, half.x(), half.y(), half.z()));
     solid(at, Vec3(0, 0, 1), Vec3(0, 1, 0), rings);
   }
-  // Open at its ends, which are inside of something or out of the picture; nearly closed at `from` by a
-  // collar where asked.
+  // Open at its ends, which are inside of another body or out of the picture. A collar, if requested, nearly
+  // closes the end at `from`.
   void oval(const Vec3& from, const Vec3& to, double y0, double z0, double y1, double z1, bool collar) {
     std::vector<Ring> rings;
     if (collar) rings = {{0.0, 0.6 * y0, 0.5 * z0, -1.0}, {0.0, y0, z0, -1.0}};
@@ -120,7 +120,7 @@ HandMesh bare_hand() {
   palm(hand);
   thumb(hand);
   hand.ellipsoid({kWrist - 0.002, -0.0265, -0.004}, {0.0300, 0.020, 0.0185});
-  // A forearm as long as the sleeve may leave bare.
+  // The forearm is as long as the sleeve may leave bare.
   hand.oval({kWrist, -0.0265, -0.004}, {kWrist - 0.40, -0.0265, -0.026}, 0.0285, 0.0190, 0.0400, 0.0330,
             true);
   return hand.mesh;
@@ -144,21 +144,21 @@ HandMesh unit_tube() {
 Mat3 hand_axes(const HandPose& pose) {
   const double length = pose.along.norm();
   const Vec3 along = length > 0.0 ? Vec3(pose.along.e() / length) : Vec3(0, -1, 0);
-  // Without roll the back of the hand looks to the camera as far as it can.
+  // Without roll the back of the hand faces the camera as far as it can.
   const Vec3 to_camera = Vec3(0, 0, -1) + along * along.z();
   const Vec3 up = to_camera.norm() > 1e-3 ? Vec3(to_camera.normalized())
                                           : Vec3((Vec3(0, -1, 0) + along * along.y()).normalized());
   const Vec3 back = std::cos(pose.roll) * up + std::sin(pose.roll) * along.cross(up);
   Mat3 axes;
   axes.col(0) = along;
-  axes.col(1) = back.cross(along);  // of a right hand
+  axes.col(1) = back.cross(along);  // a right hand
   axes.col(2) = back;
   return axes;
 }
 
 namespace {
 
-constexpr int kPieces = 12;  // of the finger, each a little wider
+constexpr int kPieces = 12;  // pieces of the finger, each a little wider
 constexpr double kFingerLength = 0.088;
 
 mjvGeom taken(const mjModel* model, mjvScene& scene, const char* name) {
@@ -173,7 +173,7 @@ mjvGeom taken(const mjModel* model, mjvScene& scene, const char* name) {
   return geom;
 }
 
-// Hands differ less than their fingers do.
+// Hands differ less in size than their fingers.
 double size_of(const HandLook& look) { return 0.5 + 0.5 * look.finger_width / 0.016; }
 
 void place(mjvGeom& geom, const Vec3& at, const Mat3& axes) {
@@ -202,7 +202,7 @@ HandDrawing::HandDrawing(const mjModel* model, mjvScene& scene)
       background_(scene.ngeom),
       sleeve_at_(kPieces + 2) {}
 
-// MuJoCo keeps a mesh about its middle and along its principal axes.
+// MuJoCo stores a mesh about its middle and along its principal axes.
 void HandDrawing::add_mesh(const mjvGeom& mesh, const Vec3& at, const Mat3& axes, const Rgb& colour,
                            mjvScene& scene) const {
   const int id = mesh.dataid / 2;

@@ -30,7 +30,7 @@ class Clouds {
   explicit Clouds(Stream& random) : grid_(kGrid * kGrid) {
     for (float& g : grid_) g = static_cast<float>(2.0 * random.uniform() - 1.0);
   }
-  // x and y in periods of the torus, `cells` of the coarsest noise along each.
+  // x and y in periods of the torus; `cells`: cells of the coarsest noise along each.
   [[nodiscard]] double at(double x, double y, int cells, int octaves) const {
     double sum = 0.0, weight = 1.0;
     for (int i = 0; i < octaves; ++i, cells *= 2, weight *= 0.5) sum += weight * smooth(x, y, cells, 7 * i);
@@ -169,8 +169,8 @@ Texture screen(Stream& random) {
   return t;
 }
 
-// A picture of many colours, from green to blue alone: seen from afar colours mix, and yellow with purple would
-// make the hue of skin.
+// A picture with colours from green to blue only: from afar colours mix, and yellow with purple would give
+// the hue of skin.
 Texture patches(Stream& random, double saturation) {
   const auto colour = [&](double share, double value) {
     return of_hue(90.0 + 160.0 * random.uniform(), share, value);
@@ -205,8 +205,8 @@ Texture face(Stream& random) {
   });
 }
 
-// Factors of skin's colour: blotches, creases, pores. Blood is under some places more than under others: red
-// varies less than green and blue.
+// Factors on the colour of skin: blotches, creases, pores. The amount of blood differs from place to place,
+// so red varies less than green and blue.
 Texture skin(Stream& random) {
   const Clouds clouds(random);
   return painted(128, [&](double x, double y) -> Rgb {
@@ -217,7 +217,7 @@ Texture skin(Stream& random) {
   });
 }
 
-// A room: x to the right, y away from the camera, z up, from the camera that looks down by a few degrees.
+// A room: x to the right, y away from the camera, z up. The camera looks down by a few degrees.
 class Room {
  public:
   Room(Scenery kind, std::uint64_t seed) : random_(seed, "scenery"), kind_(kind), spec_(mj_makeSpec()) {
@@ -440,7 +440,7 @@ void Room::furnish() {
   if (kind_ != Scenery::office) boxes(kind_ == Scenery::clutter ? 24 : 9);
 }
 
-// Behind the camera; a HandDrawing takes them from there.
+// Templates behind the camera; a HandDrawing copies them.
 void Room::template_of_hand() {
   const auto hidden = [&](const char* name, const std::string& look, const HandMesh& shape) {
     mjsMesh* mesh = mjs_addMesh(spec_.get(), nullptr);

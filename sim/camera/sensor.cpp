@@ -17,20 +17,20 @@ std::array<double, 2> distorted(const Lens& lens, double x, double y) {
           y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
 
-// Newton's method from the distorted point itself; the derivative is that of distorted().
+// Newton's method, started at the distorted point; the derivative is that of distorted().
 std::array<double, 2> undistorted(const Lens& lens, double x, double y) {
   const auto& [k1, k2, p1, p2, k3] = lens.distortion;
   double u = x, v = y;
   for (int i = 0; i < 30; ++i) {
     const double r2 = u * u + v * v;
     const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    const double slope = k1 + r2 * (2.0 * k2 + 3.0 * r2 * k3);  // of radial, over r2
+    const double slope = k1 + r2 * (2.0 * k2 + 3.0 * r2 * k3);  // derivative of radial by r2
     const auto [du, dv] = distorted(lens, u, v);
     const double xx = radial + 2.0 * u * u * slope + 2.0 * p1 * v + 6.0 * p2 * u;
     const double xy = 2.0 * u * v * slope + 2.0 * p1 * u + 2.0 * p2 * v;
     const double yy = radial + 2.0 * v * v * slope + 6.0 * p1 * v + 2.0 * p2 * u;
     const double determinant = xx * yy - xy * xy;
-    // Beyond where the lens folds the picture over there is nothing.
+    // Beyond the fold of the lens there is no image.
     if (!(determinant > 0.0 && xx + yy > 0.0)) return {kUnset, kUnset};
     const double ex = x - du, ey = y - dv;
     u += (yy * ex - xy * ey) / determinant;
@@ -57,7 +57,7 @@ Warp::Warp(const Lens& lens, int width, int height)
 }
 
 void Warp::find_taps(const Lens& lens) {
-  std::vector<std::array<double, 2>> seen;  // px of an unbent picture of the same focal length
+  std::vector<std::array<double, 2>> seen;  // px of an undistorted picture of the same focal length
   seen.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   std::array<double, 4> edge{0, 0, 0, 0};  // least column and row, greatest column and row
   for (int y = 0; y < height_; ++y)
@@ -140,7 +140,7 @@ double rms_of_rounded(const std::vector<float>& normal, double scale) {
   return std::sqrt(sum / static_cast<double>(normal.size()));
 }
 
-// Scale of the normal numbers before rounding: found by halving, because rounding adds noise of its own.
+// Scale of the normal numbers before rounding, found by bisection, because rounding adds noise of its own.
 double scale_for(const std::vector<float>& normal, double rms) {
   double low = 0.0, high = rms + 1.0;
   for (int i = 0; i < 40; ++i) {
@@ -166,7 +166,7 @@ SensorNoise::SensorNoise(double rms, std::uint64_t seed) : seed_(seed) {
         static_cast<std::int8_t>(std::clamp(std::round(scale * static_cast<double>(n)), -127.0, 127.0)));
 }
 
-// Each row takes a stretch of the table that begins anywhere.
+// Each row takes a section of the table that begins at a random position.
 void SensorNoise::add(Image& image, std::uint64_t frame, std::uint64_t eye) const {
   if (table_.empty()) return;
   Stream starts(seed_ ^ (2 * frame + eye + 1) * 0x9e3779b97f4a7c15ULL, "rows");

@@ -1,6 +1,6 @@
-// MuJoCo's classic renderer, one drawing for each eye. The background never changes; a hand is appended to it
-// as geoms of the picture alone. Light, exposure and white balance are strengths of lamps, so that they are
-// exact and saturate where a sensor does.
+// MuJoCo's classic renderer, one drawing for each eye. The background never changes; a hand is appended as
+// geoms of the picture alone. Lamp strengths implement light, exposure and white balance, so that they are
+// exact and saturate like a sensor.
 #include "sim/camera/stage.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 constexpr double kNear = 0.05, kFar = 6.0;  // m
 constexpr int kRoom = 256;                  // geoms
 
-// OpenGL would cut light at 1 before the texture darkens it.
+// Without this, OpenGL would clip light at 1 before the texture darkens it.
 void let_light_exceed_one(const DrawingContext& context) {
   constexpr unsigned kClampVertexColour = 0x891A;
   const auto clamp = reinterpret_cast<void (*)(unsigned, unsigned)>(context.function("glClampColor"));
@@ -68,7 +68,7 @@ const StageSpec& checked(const StageSpec& spec) {
 struct Stage::Parts {
   explicit Parts(const StageSpec& given);
 
-  [[nodiscard]] std::unique_lock<std::mutex> current() const;  // and so as long as it is held
+  [[nodiscard]] std::unique_lock<std::mutex> current() const;  // current while the lock is held
   void light(const Light& light);
   void render(int eye, bool segments);
   void read(int eye, Image& picture, std::uint64_t frame);
@@ -85,7 +85,7 @@ struct Stage::Parts {
   SensorNoise noise;
   std::optional<HandDrawing> hands;
   std::vector<std::uint8_t> drawing;
-  std::array<Image, 2> clean;  // of each eye, what was drawn last: without noise
+  std::array<Image, 2> clean;  // last drawing of each eye, without noise
   std::vector<float> depth;
 };
 
@@ -125,7 +125,7 @@ std::unique_lock<std::mutex> Stage::Parts::current() const {
   return lock;
 }
 
-// A lamp over the viewer's shoulder, a weaker one beside the camera, and what the room throws back.
+// A lamp over the viewer's shoulder, a weaker one beside the camera, and the reflections of the room.
 void Stage::Parts::light(const Light& light) {
   mjvScene& scene = renderer.scene;
   scene.nlight = 2;
@@ -174,7 +174,7 @@ void Stage::Parts::expose(int eye, Image& picture, std::uint64_t frame) const {
 
 namespace {
 
-// A cap in the picture: its centre, and the radius of the circle of its outline's area.
+// Ground truth of a cap in the picture: its centre, and the radius of the circle with its outline's area.
 void tell_cap(const Lens& lens, const Vec3& centre, double radius, PixelTruth& truth) {
   truth.column = truth.row = truth.radius = kUnset;
   const double distance2 = centre.squaredNorm();
@@ -182,7 +182,7 @@ void tell_cap(const Lens& lens, const Vec3& centre, double radius, PixelTruth& t
   const auto [column, row] = projected(lens, centre);
   truth.column = column;
   truth.row = row;
-  // The outline is the circle of the sphere in which rays from the camera touch it.
+  // The outline is the circle of the sphere where rays from the camera touch it.
   const double share = radius * radius / distance2;
   const Vec3 middle = (1.0 - share) * centre;
   const double rim = radius * std::sqrt(1.0 - share);

@@ -22,7 +22,7 @@ bool TwinCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   try {
     stage_.draw(show_(now), static_cast<std::uint64_t>(exposures_.n), left_, right_);
   } catch (const std::exception& e) {
-    failure_ = e.what();  // it says nothing more
+    failure_ = e.what();  // the reason, stored once
     return silent(now, newest);
   }
   ++drawn_;

@@ -12,7 +12,7 @@ Vec3 at_most(const Vec3& v, double most) {
 
 }  // namespace
 
-// The wanted place, corrected: a drag into the surface within 45 degrees of its normal counts as along it.
+// The corrected target: a drag into the surface within 45 degrees of its normal counts as along the normal.
 Vec3 SteeredPlan::meant() const {
   if (!touched) return to.e();
   const Vec3 n = normal.e(), way = (to - anchor).e();

@@ -15,7 +15,7 @@ double expected_of_ball(const Object&) {
   constexpr double kBall = 1900.0;  // N/m: mean of the ball's press curve
   return kBall;
 }
-// The stiffness that an arm renders; nothing for a real thing.
+// The stiffness that an arm renders; 0 for a real object.
 double expected_of_rendered(const Object& object) {
   return std::isnan(object.stiffness) ? 0.0 : object.stiffness;
 }
@@ -45,8 +45,8 @@ Places::Places(const SceneSpec& scene, const Scene& prepared)
       lowest_(std::cos(everywhere_ ? scene.user->reaches->polar_most : scene.user->session->polar_most)),
       spread_(everywhere_ ? scene.user->reaches->spread : 0.0) {}
 
-// A point of a plane is near its origin, of a button on the middle half of its face, at which people aim, of
-// a ball on its cap.
+// A random point: on a plane near its origin, on a button in the middle half of its face, where people aim,
+// on a ball on its cap.
 PressPoint Places::on(const Object& object, Stream& draws) const {
   const Vec<'O'> up(0, 0, 1);
   if (const auto* sphere = std::get_if<Sphere>(&object.surface.shape())) {
@@ -85,20 +85,20 @@ double Places::gap(const Point<'W'>& tip, const Tool& tool) const {
 
 namespace {
 
-constexpr double kSessionWait = 0.8;  // s before the first reach, at least: the force zero is found meanwhile
+constexpr double kSessionWait = 0.8;  // s before the first reach, at least: meanwhile the force zero is found
 constexpr double kAfter = 0.5;        // s after the last reach
-constexpr double kSessionClear = 0.002;  // m above the surface where a release ends
+constexpr double kSessionClear = 0.002;  // m above the surface, end of a release
 constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [sources/hand 2]
-constexpr double kCarry = 1.2;    // s, of a tool to the tray or from it
+constexpr double kCarry = 1.2;    // s to carry a tool to the tray or from it
 constexpr double kSwap = 0.8;     // s with an empty hand
 constexpr double kCrosses = 0.7;  // share of a correction's time at which it crosses the surface
-constexpr double kOverlap = 0.8;  // a correction begins when at least so much of the primary's time is over
+constexpr double kOverlap = 0.8;  // least share of the primary's time before a correction begins
 
 double draw(Stream& draws, const std::vector<double>& range) {
   return range[0] + (range[1] - range[0]) * draws.uniform();
 }
 
-// Standard normal, drawn again beyond two standard deviations.
+// Standard normal, redrawn beyond two standard deviations.
 double draw_bounded(Stream& draws) {
   while (true) {
     const double x = draws.normal();
@@ -112,7 +112,7 @@ std::int32_t index_of(const SceneSpec& scene, const std::string& name) {
   return name.empty() ? 0 : -1;
 }
 
-// Unit, at an angle from an axis, to an even side.
+// Unit vector at an angle from an axis, in a uniformly random direction around it.
 Vec3 beside(const Vec3& axis, double angle, Stream& draws) {
   const Vec3 x = axis.unitOrthogonal();
   const double turn = 2.0 * std::numbers::pi * draws.uniform();
@@ -139,7 +139,7 @@ Point<'W'> SessionPlan::spot(std::int32_t which) const {
   return Point<'W'>(Vec3(session_->tray + SessionSpec::kTrayBeside * which * Vec3::UnitY()));
 }
 
-// A bare finger comes from where no object is near.
+// A bare finger starts where no object is near.
 void SessionPlan::draw_start(Stream& draws, const Tool& tool, Press& press) const {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
@@ -177,7 +177,7 @@ void SessionPlan::draw_reach(Stream& draws, Press& press) const {
   }
   const Vec3 n = press.at.normal.e();
   const Vec3 left = way - primary;
-  const double above = -n.dot(left);  // m over the surface where the primary ends; negative: below it
+  const double above = -n.dot(left);  // m above the surface, end of the primary; negative: below
   const MinimumJerk crossing(kCrosses);
   const double down = std::max(0.0, above) / crossing.x;
   press.second = {(kOverlap + (1.0 - kOverlap) * onset) * press.primary.time,
@@ -205,7 +205,7 @@ SessionPlan::State SessionPlan::begin(std::uint64_t seed) const {
   State state;
   state.draws = Stream(seed, "session");
   state.change_at = tools_[1] >= 0 ? draw(state.draws, session_->change) * session_->duration : kUnset;
-  draw_press(state, 0);  // it begins over the first place: no way to go
+  draw_press(state, 0);  // the hand begins over the first point, so this path has no length
   state.from = state.press.start;
   state.from_normal = state.press.at.normal;
   state.press.transit = 0.0;
@@ -237,7 +237,7 @@ double SessionPlan::phase_time(const State& state) const {
 void SessionPlan::next_press(State& state) const {
   state.from = state.press.start;
   state.from_normal = state.press.at.normal;
-  const bool change = !state.changed && state.phase_start >= state.change_at;  // never where that is unset
+  const bool change = !state.changed && state.phase_start >= state.change_at;  // never if change_at is unset
   draw_press(state, state.changed || change ? 1 : 0);
   const Press& p = state.press;
   const double rest =
@@ -292,7 +292,7 @@ double SessionPlan::duration(const State& begun) const {
 
 namespace {
 
-// Straight from one place to another within `time`, which begins at `begin`.
+// Straight from one point to another within `time`, starting at `begin`.
 HandPlan on_the_way(const Point<'W'>& from, const Point<'W'>& to, double begin, double time, double since) {
   HandPlan plan{from.e()};
   if (time > 0.0) Submovement{begin, time, to - from}.add_to(plan, since);

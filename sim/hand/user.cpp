@@ -12,17 +12,17 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kWait = 0.6;      // s before the first approach: the force zero is found meanwhile
-constexpr double kClear = 0.002;   // m above the surface where a release ends
-constexpr double kSettle = 0.020;  // s in which the person takes the approach speed out after the touch
+constexpr double kWait = 0.6;      // s before the first approach: meanwhile the force zero is found
+constexpr double kClear = 0.002;   // m above the surface, end of a release
+constexpr double kSettle = 0.020;  // s in which the person stops after the touch
 constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
-constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
+constexpr std::size_t kSines = 4;  // sines of a tremor band, for each axis
 
-// Time of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
+// Time of one stroke of the slide, s: the peak speed of a minimum-jerk motion is 1.875 times its mean.
 double slide_time(const UserSpec& spec) { return 1.875 * spec.slide / spec.slide_speed; }
 
-// Each sine has a quarter of the band to itself, so that they beat and none is drawn twice.
+// Each sine has a quarter of the band to itself, so that they beat and no two coincide.
 void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
   for (std::size_t i = 0; i < state.band_rate.size(); ++i) {
     const double share = (static_cast<double>(i % kSines) + draws.uniform()) / kSines;
@@ -100,7 +100,7 @@ double User::phase_time(Phase phase) const {
     case Phase::retreat:
       return kRetreat;
     case Phase::change:
-      break;  // of what is drawn only
+      break;  // only in a drawn session
   }
   return 0.0;
 }
@@ -121,7 +121,7 @@ HandPlan User::approach(double since) const {
   const double v = approach_speed();
   const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
   const double s = std::min(1.0, since / speed_up);
-  // Speed follows a half cosine; the way is its integral.
+  // The speed follows a half cosine; the distance is its integral.
   const double angle = std::numbers::pi * s;
   const double way = since < speed_up ? v * speed_up * 0.5 * (s - std::sin(angle) / std::numbers::pi)
                                       : v * (0.5 * speed_up + since - speed_up);
@@ -215,8 +215,8 @@ Vec3 User::tremor(double t, double h) {
   return tremor;
 }
 
-// Low-passed noise of the wanted rms below 2 Hz. Drawn each millisecond, with lines between: whatever the
-// step of the physics, it is the same hand.
+// Low-passed noise of the wanted rms below 2 Hz. One value each millisecond, linear in between, so the hand
+// does not depend on the step of the physics.
 Vec3 User::drift(double t) {
   constexpr double kGrid = 1e-3;                                 // s
   constexpr double kDriftCorner = 2.0 * std::numbers::pi * 1.0;  // rad/s
@@ -272,7 +272,7 @@ void User::steer(const Point<'W'>& place, const Point<'W'>& tip) {
 
 void User::change_tool(const Point<'W'>& tip) {
   if (other_tool() < 0 || state_.touching || state_.change.stage != ToolChange::Stage::none) return;
-  const bool empty = state_.session.held < 0;  // it was taken over in the middle of a change: both tools lie
+  const bool empty = state_.session.held < 0;  // taken over during a change: both tools lie down
   if (!state_.steered.on) steer(tip, tip);
   state_.change = {empty ? ToolChange::Stage::empty : ToolChange::Stage::away,
                    empty ? 0 : state_.session.held, 0.0, state_.steered.to};
@@ -311,7 +311,7 @@ Vec<'W'> User::act_steered(double t, double h, const Point<'W'>& tool_tip, const
   return Vec<'W'>(gripped);
 }
 
-// Along the normal the arm is no longer a spring to a place but a force, damped.
+// Along the normal the arm acts as a damped force instead of a spring to a position.
 void User::push_along(const Vec3& n, double since, Vec3& pulled) const {
   const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
                        : state_.phase == Phase::release
@@ -332,8 +332,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   const bool pressing = phase() == Phase::press || phase() == Phase::hold || phase() == Phase::release;
   const bool pushing = pressing && !session_ && !std::isnan(spec_.push);
 
-  // Intent: the plan, plus what experience says the ball will take, plus what the depth loop has found to be
-  // missing.
+  // Intent: the plan, plus the ball's resistance by experience, plus the correction of the depth loop.
   const double depth = dot(touch - tool_tip, normal);
   const double before = state_.integral;
   if (touching && pressing && !pushing)
@@ -348,7 +347,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   const Vec3 gripped = grip(tool_tip, tool_velocity);
   Vec3 pulled = arm(p, intent);
   if (pushing) push_along(n, t - state_.phase_start, pulled);
-  // A person who pushes with all strength does not push harder because the depth is not reached.
+  // A person who pushes at full strength does not push harder to reach the depth.
   const double effort = pulled.norm();
   if (effort > hand_.strength) {
     pulled *= hand_.strength / effort;

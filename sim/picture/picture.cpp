@@ -59,7 +59,7 @@ Image shrunk(const Image& picture, int factor) {
   return small;
 }
 
-// In memory: libpng takes away the file that it could not write, whatever that is.
+// Encodes in memory, because libpng deletes any file that it could not write.
 std::string png(const Image& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -94,7 +94,7 @@ void spread_column(std::vector<LabelRow*>& column, double pitch, double top, dou
   }
 }
 
-// Twice the area of a triangle; its sign is the side of a-b on which c is.
+// Twice the area of a triangle; its sign is the side of a-b on which c lies.
 double side(double ax, double ay, double bx, double by, double cx, double cy) {
   return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
 }
@@ -114,7 +114,7 @@ bool cross(const LabelRow& a, const LabelRow& b) {
   return meet(line_a, line_b) || meet(line_a, text_b) || meet(line_b, text_a);
 }
 
-// Crossings first, then the length of all lines, px.
+// The cost of crossings first, then the length of all lines, px.
 double cost(const std::vector<LabelRow*>& column) {
   constexpr double kCrossing = 1e6;
   double sum = 0.0;

@@ -57,8 +57,8 @@ void ArmPlant::move_prop(const PropCommand& prop) noexcept {
   if (prop.facing.finite() && prop.facing.norm() > 0.5) state_.facing_wanted = prop.facing;
 }
 
-// Beyond its peak a motor does not push; a warm one gets less, and one at the temperature that the continuous
-// torque would bring it to gets no more than that.
+// A motor gives at most its peak torque. A warm motor gives less; at the temperature that the continuous
+// torque would cause, it gives only the continuous torque.
 double ArmPlant::limited(std::size_t i, double torque) noexcept {
   const double ratio = truth_.machine.drives[i].ratio;
   const double continuous = truth_.continuous_torque[i];
@@ -81,7 +81,7 @@ void ArmPlant::begin_cycle() noexcept {
 }
 
 PerJoint ArmPlant::friction(const PerJoint& rates) const noexcept {
-  constexpr double kSteep = 10.0;  // s/rad, of the published form
+  constexpr double kSteep = 10.0;  // s/rad, in the published form
   PerJoint torque{};
   if (truth_.friction_form == ArmFriction::smooth)
     for (std::size_t i = 0; i < believed_.joints(); ++i)

@@ -50,7 +50,7 @@ bool DisplayPlant::poll(Stamped<DentSample>& newest) noexcept {
 
 namespace {
 
-// One channel set: noise, steps, range. Says whether the range was met.
+// One channel set: noise, steps, range. `saturated`: the range was exceeded.
 Vec3 digitised(const Vec3& value, double quantum, double range, bool& saturated) {
   const Vec3 stepped = quantum > 0.0 ? Vec3((value / quantum).array().round() * quantum) : value;
   const Vec3 kept = stepped.cwiseMax(-range).cwiseMin(range);

@@ -58,7 +58,7 @@ void HexapodPlant::begin_cycle() noexcept {
   ++pending.head;
   const Pose<'R', 'H'>& command =
       pending.line[static_cast<std::size_t>(due % static_cast<std::int64_t>(kLongestDelay))];
-  // Steps are counted from the machine's zero.
+  // Steps count from the machine's zero.
   const Vec3 zero = machine_.zero().p();
   const Pose<'R', 'H'> before = state_.wanted;
   state_.wanted = Pose<'R', 'H'>(Quat(command.q()), Vec3(zero + in_steps(command.p() - zero, truth_.step)));

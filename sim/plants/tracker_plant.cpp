@@ -24,7 +24,7 @@ std::optional<StereoPixel> StereoPoints::project(const Point<'C'>& point) const 
   const StereoPixel pixel{0.5 * last_column + truth_.focal * point.e().x() / z,
                           0.5 * last_row + truth_.focal * point.e().y() / z,
                           truth_.focal * truth_.baseline / z};
-  // The right camera stands to the right, so all of the scene is further to the left in its image.
+  // The right camera stands to the right, so the scene is shifted to the left in its image.
   const bool seen = pixel.column - pixel.disparity >= 0.0 && pixel.column <= last_column &&
                     pixel.row >= 0.0 && pixel.row <= last_row;
   return seen ? std::optional(pixel) : std::nullopt;
@@ -33,14 +33,14 @@ std::optional<StereoPixel> StereoPoints::project(const Point<'C'>& point) const 
 Point<'C'> StereoPoints::triangulate(const StereoPixel& pixel) const {
   if (!(pixel.disparity > 0.0)) return {};
   const double z = truth_.focal * truth_.baseline / pixel.disparity;
-  const double each = z / truth_.focal;  // m that a pixel is wide there
+  const double each = z / truth_.focal;  // m per pixel there
   return {(pixel.column - 0.5 * static_cast<double>(truth_.width - 1)) * each,
           (pixel.row - 0.5 * static_cast<double>(truth_.height - 1)) * each, z};
 }
 
 Vec<'C'> StereoPoints::scatter(const Point<'C'>& point) const {
   const double z = point.e().z();
-  // A uniform step has a variance of a twelfth of its square; noise that is wider makes it independent.
+  // A uniform step has a variance of a twelfth of its square; wider noise makes it independent.
   const double disparity = std::hypot(truth_.matching, truth_.disparity_step / std::sqrt(12.0));
   const double depth = z * z / (truth_.focal * truth_.baseline) * disparity;
   const double aside = z / truth_.focal * truth_.pointing;
@@ -109,14 +109,16 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   const double t = seconds(at.time_since_epoch());
   const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
-  if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
+  if (blind || tool < 0)
+    return;  // the tool is out of view: a hand covers the markers, or the user holds no
+             // tool
   Quat turned(X_WT.q());
-  if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
+  if (truth_.turn_noise > 0.0)  // otherwise no number is drawn, so that other noise keeps its values
     turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
   const Pose<'W', 'T'> shifted(turned, Vec3(X_WT.p() + error));
   const bool has_markers =
       static_cast<std::size_t>(tool) < markers_.size() &&
-      markers_[static_cast<std::size_t>(tool)].size() >= kFewestMarkers;  // a finger has none
+      markers_[static_cast<std::size_t>(tool)].size() >= kFewestMarkers;  // a finger has no markers
   const TrackedTool seen = has_markers && !std::isnan(truth_.marker_noise)
                                ? by_markers(tool, shifted)
                                : TrackedTool{tool, X_CW_ * shifted};
@@ -135,7 +137,7 @@ void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
     put(state_.on_wire, sample, at + from_seconds(delay));
 }
 
-// The newest pose that the server has, unless it was sent before.
+// The server's newest pose, unless it was sent before.
 void TrackerPlant::poll_exposed(Time now) {
   for (Packet& packet : state_.exposed) {
     if (!packet.waiting || packet.due > now) continue;

@@ -1,6 +1,6 @@
 #include "sim/view/egl.h"
 
-// No X11 types: the surfaceless platform needs none of them.
+// No X11 types: the surfaceless platform does not need them.
 #define EGL_NO_X11
 #include <cstdlib>
 #include <string>
@@ -36,8 +36,8 @@ EGLDisplay surfaceless(void* egl) {
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
-  // Mesa's software rasteriser draws in this thread instead of one more for each core. The picture is the
-  // same.
+  // Mesa's software rasteriser draws in this thread instead of one more for each core; the picture does not
+  // change.
   setenv("LP_NUM_THREADS", "0", 0);
   // Global: MuJoCo's renderer looks eglGetProcAddress up among the program's symbols.
   library_ = dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL);

@@ -19,8 +19,8 @@ mjvGeom* new_geom(mjvScene& scene, mjtGeom type, const Colour& colour) {
   return geom;
 }
 
-// One lamp with shadows, over the viewer's left shoulder, besides the headlight. The model's own lights are
-// left out.
+// One lamp with shadows over the viewer's left shoulder, besides the headlight. The model's own lights are
+// removed.
 void light(mjvScene& scene) {
   const auto own = std::remove_if(scene.lights, scene.lights + scene.nlight,
                                   [](const mjvLight& l) { return l.headlight == 0; });
@@ -46,7 +46,7 @@ void light(mjvScene& scene) {
 ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks, int slices) {
   ModelPtr model(mj_copyModel(nullptr, request.model));
   if (!model) throw Error("not enough memory for a picture", {}, ErrorKind::device);
-  model->vis.quality.offsamples = 0;  // the picture is drawn larger instead
+  model->vis.quality.offsamples = 0;  // a larger drawing replaces multisampling
   model->vis.quality.shadowsize = shadow_size;
   model->vis.quality.numslices = slices;
   model->vis.quality.numstacks = stacks;
@@ -79,8 +79,8 @@ void add_extras(mjvScene& scene, const ViewRequest& request) {
     const Point<'W'> to = arrow.from + arrow.along;
     mjvGeom* geom = new_geom(scene, mjGEOM_ARROW, arrow.colour);
     mjv_connector(geom, mjGEOM_ARROW, arrow.radius, arrow.from.xyz.data(), to.xyz.data());
-    geom->size[2] *= 2.0F;  // an arrow is drawn half as long as mjv_connector makes it
-    geom->emission = 0.4F;  // readable on its dark side too
+    geom->size[2] *= 2.0F;  // mjv_connector draws an arrow twice as long
+    geom->emission = 0.4F;  // keeps the dark side readable
     geom->castshadow = 0;
   }
   for (const ViewLabel& sign : request.signs) {
@@ -127,7 +127,7 @@ void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool
   std::copy_n(request.camera.look_at.xyz.begin(), 3, camera.lookat);
   mjv_updateScene(model, request.data, &option, nullptr, &camera, mjCAT_ALL, &scene);
   light(scene);
-  // Whatever is drawn translucent is virtual: it is not there, and casts no shadow.
+  // A translucent geom is virtual and casts no shadow.
   for (int i = 0; i < scene.ngeom; ++i)
     if (scene.geoms[i].rgba[3] < 1.0F) scene.geoms[i].castshadow = 0;
   scene.flags[mjRND_SHADOW] = shadows ? 1 : 0;
@@ -136,7 +136,7 @@ void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool
 
 namespace {
 
-constexpr int kNoShadows = 256;  // px: MuJoCo makes a shadow map whether or not it is used
+constexpr int kNoShadows = 256;  // px: MuJoCo allocates a shadow map even if it is unused
 
 }  // namespace
 
@@ -173,7 +173,7 @@ std::optional<Point<'W'>> Painter::seen_at(double across, double up, double aspe
   return Point<'W'>(at[0], at[1], at[2]);
 }
 
-// The renderer has its own copy of each mesh. Only a mesh that is dented, or was, is given to it again.
+// The renderer has its own copy of each mesh. Only a mesh that is or was deformed is uploaded again.
 void Painter::dent(const ViewRequest& request) {
   const int before = dented_;
   restore();

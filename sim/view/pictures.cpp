@@ -15,16 +15,16 @@
 namespace enc::sim {
 namespace {
 
-// ---- lettering of a picture: a title, and labels in both margins with lines to their objects
+// ---- Lettering of a picture: a title, and labels in both margins with lines to their objects.
 
 constexpr Ink kText{35, 40, 50};
 constexpr Ink kLine{120, 128, 140};
 
-// The place of a point of W in the picture.
+// Position of a point of W in the picture.
 Eigen::Vector2d projected(const mjvScene& scene, const Point<'W'>& p, int width, int height) {
   const auto vec = [](const float* f) { return Vec3(f[0], f[1], f[2]); };
   const mjvGLCamera& a = scene.camera[0];
-  const mjvGLCamera& b = scene.camera[1];  // the two eyes; the picture is from between them
+  const mjvGLCamera& b = scene.camera[1];  // the two eyes; the picture is taken from between them
   const Vec3 eye = 0.5 * (vec(a.pos) + vec(b.pos));
   const Vec3 forward = vec(a.forward).normalized();
   const Vec3 up = vec(a.up).normalized();
@@ -49,7 +49,7 @@ void write(const std::string& text, double x, double middle, const Image& pictur
            static_cast<float>(1.0 - base / picture.height), 1, 1, 1);
 }
 
-// The lines of a text; one that is wider than `most` pixels goes on in the next, from a space on.
+// The lines of a text; a line wider than `most` pixels is wrapped at a space.
 std::vector<std::string> lines_of(const std::string& text, double most, const mjrContext& context) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
@@ -83,11 +83,11 @@ void letter(Image& picture, const mjvScene& scene, const mjrContext& context, co
   spread_rows(rows, pitch, clear + pitch, picture.height - pitch);
   uncross(rows);
 
-  // Without labels only the title's rows are drawn, read and inked.
+  // A picture without labels needs only the title's rows drawn, read and inked.
   const int high =
       rows.empty() ? std::min(picture.height, static_cast<int>(clear + 0.5 * pitch)) : picture.height;
   const mjrRect used{0, picture.height - high, picture.width, high};
-  mjr_rectangle({0, 0, picture.width, picture.height}, 0, 0, 0, 1);  // text has its place in it
+  mjr_rectangle({0, 0, picture.width, picture.height}, 0, 0, 0, 1);  // background of the text mask
   for (std::size_t i = 0; i < title.size(); ++i)
     write(title[i], margin, (1.0 + static_cast<double>(i)) * pitch, picture, context);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -106,7 +106,7 @@ void letter(Image& picture, const mjvScene& scene, const mjrContext& context, co
   ink_through(picture, mask, kText);
 }
 
-// Multiplies the white backdrop, and what shines through from it, by a soft gradient.
+// Multiplies the white backdrop, and everything through which it shines, by a soft gradient.
 void tint_backdrop(Image& picture, const std::vector<float>& depth, const mjvGLCamera& eye) {
   // Depth of a plane a little in front of the backdrop, as OpenGL stores it.
   const double from = static_cast<double>(eye.frustum_near);
@@ -127,10 +127,10 @@ void tint_backdrop(Image& picture, const std::vector<float>& depth, const mjvGLC
 
 // Settings of each Finish.
 struct Fineness {
-  int finer;  // drawn so many times larger and shrunk: smooth edges
+  int finer;  // drawn this many times larger, then shrunk: smooth edges
   int shadow_size;
-  int stacks;                           // of a round body
-  mjtFontScale letters, small_letters;  // small: of a picture that is less than kLow high
+  int stacks;                           // parts of a round body along its axis
+  mjtFontScale letters, small_letters;  // small: used in a picture less than kLow high
 };
 constexpr Fineness kStill{3, 4096, 48, mjFONTSCALE_300, mjFONTSCALE_200};
 constexpr Fineness kFilm{2, 2048, 16, mjFONTSCALE_200, mjFONTSCALE_150};
@@ -158,7 +158,7 @@ class OffscreenPictures final : public Pictures {
   }
 
  private:
-  OffscreenContext context_;  // before the painter, which is made and destroyed in it
+  OffscreenContext context_;  // before the painter, which needs it from construction to destruction
   int finer_;
   mjrRect all_;
   Painter painter_;

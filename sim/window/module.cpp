@@ -27,7 +27,7 @@ extern "C" Display* glfwGetX11Display(void);
 namespace enc::sim {
 namespace {
 
-// ---- elements over or beside the picture: charts, the bar of time, images, tiles. Positions are px of the
+// ---- Elements over or beside the picture: charts, the bar of time, images, tiles. Positions are px of the
 // framebuffer, from below.
 
 // MuJoCo draws text only with a model's context: this one has an empty model.
@@ -102,7 +102,7 @@ void draw_image(const Image& picture, int left, int bottom, const mjrContext& co
   mjr_drawPixels(turned.rgb.data(), nullptr, where, &context);
 }
 
-// Scaled by the nearest pixel.
+// Scales to the nearest pixel.
 Image resized(const Image& from, int width, int height) {
   Image to(std::max(1, width), std::max(1, height));
   for (int y = 0; y < to.height; ++y)
@@ -111,7 +111,7 @@ Image resized(const Image& from, int width, int height) {
   return to;
 }
 
-// The first half of a text's lines, and the rest.
+// Splits a text at half of its lines.
 std::pair<std::string, std::string> halves(const std::string& text) {
   const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
   std::size_t at = 0;
@@ -149,7 +149,7 @@ void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& cont
 
 // A window is drawn many times a second, often in software.
 constexpr PaintSettings kQuick{.stacks = 16, .slices = 32};
-constexpr int kSamples = 4;   // of a pixel, with a graphics card
+constexpr int kSamples = 4;   // samples of a pixel, with a graphics card
 constexpr int kSmallest = 2;  // px: a smaller window is not drawn
 
 [[noreturn]] void no_window(const char* why) {
@@ -192,7 +192,7 @@ struct WindowDelete {
   void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
-// In software several samples of a pixel cost three times one.
+// A software renderer needs three times as long with several samples a pixel.
 bool in_software() {
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   const std::unique_ptr<GLFWwindow, WindowDelete> probe(glfwCreateWindow(1, 1, "", nullptr, nullptr));
@@ -218,7 +218,7 @@ class GlfwWindow final : public ViewWindow {
     glfwSwapInterval(0);  // the caller sets the pace
     renderer_ = renderer_name();
     listen();
-    // Xlib would exit at once, without sealing a record. A Wayland session gives no X display.
+    // Xlib would exit at once, without sealing a record. A Wayland session has no X display.
     XSetIOErrorHandler([](::Display*) { return 0; });
     XSetErrorHandler([](::Display*, XErrorEvent*) {
       failed() = true;
@@ -276,7 +276,7 @@ class GlfwWindow final : public ViewWindow {
     return painter_ ? painter_->seen_at(x / w, 1.0 - y / h, w / h, data) : std::nullopt;
   }
   std::optional<double> chart_at(double x, double y) const override {
-    std::pair<int, int> pixels;  // of the framebuffer, which may be finer than the window
+    std::pair<int, int> pixels;  // size of the framebuffer, which may be finer than the window
     glfwGetFramebufferSize(window_.get(), &pixels.first, &pixels.second);
     const double px = x * pixels.first / std::max(1, width());
     const double py = (height() - y) * pixels.second / std::max(1, height());
@@ -301,7 +301,7 @@ class GlfwWindow final : public ViewWindow {
     glfwGetWindowSize(window_.get(), &size.first, &size.second);
     return size;
   }
-  // Side by side above the bar.
+  // Images side by side above the bar.
   void inset(const ViewRequest& request, const mjrRect& all) {
     const mjrContext& context = painter_->context();
     const int gap = 6, w = all.width / 4, up = static_cast<int>(kBarHeight + 2.0 * kBarSide);
@@ -351,9 +351,10 @@ class GlfwWindow final : public ViewWindow {
     if (!request.title.empty())
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOP, all, request.title.c_str(), nullptr, &context);
   }
-  // The left stick moves right and up, the right one away; the left bumper is finer, as Shift is.
+  // The left stick moves right and up, the right one away. The left bumper makes the motion finer, like
+  // Shift.
   void read_gamepad() {
-    constexpr double kStill = 0.15, kLongest = 0.1;  // of a stick at rest; s
+    constexpr double kStill = 0.15, kLongest = 0.1;  // deflection of a stick at rest; s
     const double now = glfwGetTime(), since = std::min(kLongest, now - sticks_read_);
     sticks_read_ = now;
     GLFWgamepadstate pad;
@@ -393,7 +394,7 @@ class GlfwWindow final : public ViewWindow {
     });
     glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int key, int scan, int action, int) {
       const bool moves = key >= GLFW_KEY_RIGHT && key <= GLFW_KEY_PAGE_DOWN;
-      if (action == GLFW_REPEAT && !moves) return;  // a key that is held asks for one thing
+      if (action == GLFW_REPEAT && !moves) return;  // a held key triggers once
       // Letters follow the user's keyboard layout.
       const char* name = key < GLFW_KEY_ESCAPE ? glfwGetKeyName(key, scan) : nullptr;
       const bool letter = name != nullptr && name[0] != '\0' && name[1] == '\0';
@@ -408,7 +409,7 @@ class GlfwWindow final : public ViewWindow {
   std::vector<WindowEvent> events_;
   double sticks_read_ = 0.0;          // s of GLFW
   std::unique_ptr<Painter> painter_;  // destroyed before the window: it uses its context
-  std::unique_ptr<Letters> letters_;  // likewise
+  std::unique_ptr<Letters> letters_;  // destroyed before the window
   mjvFigure figure_{};
   struct Plot {  // a chart as last drawn
     mjrRect where;

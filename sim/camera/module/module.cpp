@@ -1,4 +1,4 @@
-// The module encounter_camera: the twin's stereo head. OpenGL is mapped by it alone.
+// The module encounter_camera: the twin's stereo head. It alone maps OpenGL.
 #include "core/devices/module.h"
 
 #include "sim/camera/context.h"
