@@ -22,11 +22,11 @@ namespace enc::models {
 namespace {
 
 namespace fs = std::filesystem;
-using Identity = std::pair<dev_t, ino_t>;  // of a file, whatever it is called
+using Identity = std::pair<dev_t, ino_t>;  // identifies a file, whatever its name
 
 struct Inputs {
   std::mutex mutex;
-  std::set<std::string> all;  // paths, which the program may write over as soon as they are gone
+  std::set<std::string> all;  // paths; the program may overwrite one once the file is gone
 };
 Inputs& inputs() {
   static Inputs all;
@@ -49,8 +49,8 @@ void refuse_input(const std::string& path) {
     throw Error(fmt::format("{}: is read by this command; expected another file to write; choose one", path));
 }
 
-// It points to a place that the user did not name. A device or a pipe may be called by a link, as /dev/stdout
-// is.
+// A link leads to a path that the user did not name. Links to devices and pipes are allowed, such as
+// /dev/stdout.
 void refuse_link(const std::string& path) {
   struct stat s {};
   if (lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode))
@@ -60,7 +60,7 @@ void refuse_link(const std::string& path) {
                     path));
 }
 
-// Unless something of that name is there. Not every file system can do it in one step.
+// Renames, unless the new name exists. Not every file system can do that in one step.
 int rename_to_free(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return -1;
@@ -145,7 +145,7 @@ void OutFile::refuse_existing() const {
                   path_));
 }
 
-// A run that writes a file has it locked from its beginning.
+// A run locks its output file from the start.
 bool OutFile::lock() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
 void OutFile::refuse_other_run() {
@@ -157,7 +157,7 @@ void OutFile::refuse_other_run() {
 }
 
 bool OutFile::begin() {
-  refuse_existing();  // before anything is made
+  refuse_existing();  // before creating anything
   fd_ = open(aside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (fd_ < 0 && errno == EEXIST) {
     remove_left_over();
@@ -167,7 +167,7 @@ bool OutFile::begin() {
   if (!lock()) refuse_other_run();
   if (!is_ours()) return false;
   try {
-    refuse_existing();  // that other run may have ended just now
+    refuse_existing();  // the other run may have ended just now
   } catch (const Error&) {
     unlink(aside_.c_str());
     close();

@@ -12,10 +12,10 @@
 namespace enc::models {
 namespace {
 
-// Dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983). Starts at the
+// Dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983). It starts at the
 // unconstrained minimum and adds the most violated constraint, one at a time, keeping the multipliers of the
 // active ones non-negative. The cost rises with each, so no active set returns and the end is the exact
-// minimum. There are few unknowns: everything is factored anew in each step.
+// minimum. The problems are small, so everything is factored anew in each step.
 class ActiveSet {
  public:
   explicit ActiveSet(const Quadratic& q) : factor_(q.gram), x_(factor_.solve(q.moment)) {}
@@ -32,12 +32,13 @@ class ActiveSet {
   }
 
  private:
-  // Steps until the constraint holds with equality, dropping those that would have to pull.
+  // Steps until the constraint holds with equality, dropping constraints whose multiplier would turn
+  // negative.
   void add(const Eigen::VectorXd& next, double bound) {
     double multiplier = 0.0;
     for (;;) {
-      // In the metric of the cost: the part of next's normal that the active normals do not span is the way
-      // to go.
+      // The step direction is the part of next's normal that the active normals do not span, in the metric of
+      // the cost.
       const Eigen::VectorXd normal = factor_.matrixL().solve(next);
       const Eigen::VectorXd share = spanned(normal);
       Eigen::VectorXd way = normal;
@@ -46,7 +47,7 @@ class ActiveSet {
       constexpr double kInfinite = std::numeric_limits<double>::infinity();
       double step = kInfinite;  // to equality
       if (way.squaredNorm() > 1e-14 * normal.squaredNorm()) step = (bound - next.dot(x_)) / way.squaredNorm();
-      double allowed = kInfinite;  // until an active multiplier vanishes
+      double allowed = kInfinite;  // until an active multiplier becomes zero
       std::size_t first = 0;
       for (std::size_t j = 0; j < active_.size(); ++j) {
         const double s = share[static_cast<Eigen::Index>(j)];
@@ -68,7 +69,7 @@ class ActiveSet {
     }
   }
 
-  // Coefficients of the active normals that come nearest to `normal`.
+  // Least-squares coefficients of `normal` in the active normals.
   [[nodiscard]] Eigen::VectorXd spanned(const Eigen::VectorXd& normal) const {
     if (active_.empty()) return {};
     Eigen::MatrixXd normals(normal.size(), static_cast<Eigen::Index>(active_.size()));
@@ -78,7 +79,7 @@ class ActiveSet {
   }
 
   struct Active {
-    Eigen::VectorXd normal;  // in the metric of the cost
+    Eigen::VectorXd normal;  // metric of the cost
     double multiplier;
   };
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -93,8 +93,7 @@ std::vector<double> weights(const std::vector<Direction>& directions, const Pres
   }
   const double scale = std::max(1e-6, angles.cwiseAbs().maxCoeff());
   angles /= scale;
-  // The sum is 1: a third row of far greater weight. The last term prefers even weights where several would
-  // do.
+  // The sum is 1: a third row of far greater weight. The last term prefers even weights if several sets fit.
   constexpr double kSum = 1e4, kEven = 1e-6;
   const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(n);
   Quadratic q;

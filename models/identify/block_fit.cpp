@@ -9,7 +9,7 @@
 namespace enc::models {
 namespace {
 
-// Least share of a column's square that the columns before it leave: with less, both are the same thing.
+// Least share of a column's square that the columns before it must leave; below it, the column is redundant.
 constexpr double kApart = 1e-8;
 
 // Degrees of freedom: the scatter of fewer blocks is unknown.
@@ -82,7 +82,7 @@ BlockFit::Result BlockFit::solve() const {
   const Eigen::VectorXd found = covariance * (z * y);
   const Eigen::VectorXd left = y - z.transpose() * found;
   result.rms = std::sqrt(left.squaredNorm() / static_cast<double>(rows));
-  std::map<std::int64_t, std::size_t> number;  // of a block that has rows
+  std::map<std::int64_t, std::size_t> number;  // index of a block that has rows
   for (const double t : t_)
     number.try_emplace(static_cast<std::int64_t>(std::floor(t / block_)), number.size());
   const Blocks none{std::vector<double>(number.size(), 0.0), std::vector<double>(number.size(), 0.0)};

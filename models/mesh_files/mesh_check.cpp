@@ -18,8 +18,8 @@ namespace enc::models {
 namespace {
 
 constexpr std::size_t kMostParts = 1000;
-constexpr double kNarrow = 1e-4;  // of the mesh's size: a gap below is no hole that somebody left
-constexpr double kFlat = 1e-10;   // height over longest side: a triangle flatter than this has no normal
+constexpr double kNarrow = 1e-4;  // share of the mesh's size: a narrower gap is no intended hole
+constexpr double kFlat = 1e-10;   // height over longest side: a flatter triangle has no normal
 
 using Faces = std::vector<std::size_t>;
 
@@ -65,7 +65,7 @@ class Checker {
     throw Error(fmt::format("{}{}: {} {}", name_, line, numbered(faces), what));
   }
   void note(const std::string& what) { result_.notes.push_back(fmt::format("{}: {}", name_, what)); }
-  // With the numbers that the faces have in the file. One of a file may be several here.
+  // List of faces by their numbers in the file. One face of the file may have become several.
   [[nodiscard]] std::string numbered(Faces faces) const {
     for (std::size_t& face : faces) face = number_[face];
     return face_list(sorted(faces), lines_);
@@ -81,7 +81,7 @@ class Checker {
                           v, "xyz"[i], x, kFarthestVertex));
   }
 
-  // A triangle with one vertex twice is an edge: without it the others close as before.
+  // A triangle with one vertex twice is an edge; without it the other faces still close.
   void drop_degenerate() {
     Faces dropped;
     std::size_t kept = 0;
@@ -113,8 +113,8 @@ class Checker {
               "vertices, or mesh the part again");
   }
 
-  // Coordinates that went through float differ in their last digits where a corner was computed twice. The
-  // nearest corners first, so that a narrow gap does not depend on how far the widest may be.
+  // Coordinates stored as float differ in their last digits where a corner was computed twice. The nearest
+  // corners are joined first, so that a narrow gap does not depend on the widest one.
   void weld_open_corners() {
     Weld all;
     for (int steps = 1; steps <= kMostSteps && !edges_.open.empty(); steps *= 2) {
@@ -158,7 +158,7 @@ class Checker {
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     return faces;
   }
-  // Faces with the same three vertices.
+  // Refuses faces with equal vertices.
   void refuse_doubles(const Faces& crowded) const {
     std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> keys;
     for (const std::size_t face : sorted(crowded)) {
@@ -174,7 +174,7 @@ class Checker {
               "doubled: another face has the same three vertices; expected each face once; remove them");
   }
 
-  // Walks over each connected part, so that all its faces turn the same way as its first one.
+  // Walks over each connected part and orients all its faces like its first one.
   void orient() {
     part_.assign(mesh_.triangles.size(), -1);
     std::vector<bool> turn(mesh_.triangles.size(), false);
@@ -186,7 +186,7 @@ class Checker {
       for (std::size_t i = 0; i < walk.size(); ++i)
         for (const Neighbour& n : edges_.neighbours[walk[i]]) {
           const auto face = static_cast<std::size_t>(n.face);
-          const bool turns = turn[walk[i]] == n.same;  // what the first face and this way ask for
+          const bool turns = turn[walk[i]] == n.same;  // orientation required along this path
           if (part_[face] < 0) {
             part_[face] = parts_ - 1;
             turn[face] = turns;
@@ -195,7 +195,7 @@ class Checker {
             twisted.push_back(face);
           }
         }
-      // The fewer are the wrong ones; which side is out is decided later.
+      // The minority is wrong; the outer side is decided later.
       const auto count = static_cast<std::size_t>(
           std::count_if(walk.begin(), walk.end(), [&](std::size_t f) { return turn[f]; }));
       const bool most = 2 * count > walk.size();
@@ -211,10 +211,10 @@ class Checker {
     if (static_cast<std::size_t>(parts_) > kMostParts)
       fail(fmt::format("{} separate parts; expected at most {}; keep the surface only", parts_, kMostParts));
   }
-  // Keeps side 1-2 in its place, so edges_ is only good for walking from here on.
+  // Keeps side 1-2 in its place; afterwards edges_ is only valid for walking on.
   void flip(std::size_t face) { std::swap(mesh_.triangles[face][1], mesh_.triangles[face][2]); }
 
-  // All faces at a vertex form one fan: as many as one meets going round from neighbour to neighbour.
+  // All faces at a vertex must form one fan: as many as a walk from neighbour to neighbour meets.
   void check_vertices() const {
     std::vector<std::int32_t> count(mesh_.vertices.size(), 0), first(mesh_.vertices.size(), -1);
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
@@ -256,7 +256,7 @@ class Checker {
     return volume;
   }
 
-  // A part inside another is a hollow, and its faces look into the hollow.
+  // A part inside another one is a hollow, and its faces must face the hollow.
   void check_sides() {
     const std::vector<double> volume = volumes();
     const std::vector<int> depth = depths_of(mesh_, part_, static_cast<std::size_t>(parts_));
@@ -329,7 +329,7 @@ class Checker {
   const std::string& name_;
   CheckedMesh result_;
   Mesh& mesh_;
-  std::vector<std::size_t> number_;  // of each face in the file, or its line there
+  std::vector<std::size_t> number_;  // number or line of each face in the file
   bool lines_ = false;
   Edges edges_;
   std::vector<std::int32_t> part_;  // connected part of each face

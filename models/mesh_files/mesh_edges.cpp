@@ -15,16 +15,16 @@ namespace enc::models {
 namespace {
 
 constexpr std::size_t kMostOpen = 4'000'000;
-constexpr std::size_t kMostWeldPairs = 100'000'000;  // of corners: some seconds
+constexpr std::size_t kMostWeldPairs = 100'000'000;  // pairs of corners: some seconds
 constexpr std::size_t kMostMeasured = 9'000'001;  // pairs of edges: 3,000 with each other, or fewer with more
 constexpr double kBeside = 4.0;                   // times the widest gap: a corner that far from all others
-constexpr double kOpposite = -0.1;                // cosine between edges that run opposite ways, or less
+constexpr double kOpposite = -0.1;                // cosine between edges with opposite directions, at most
 
 Vec3 place(const Mesh& mesh, std::int32_t vertex) {
   return Vec3(mesh.vertices[static_cast<std::size_t>(vertex)].data());
 }
 
-// How far apart two floats are that are as large as the largest coordinate, or as the mesh.
+// Distance of neighbouring floats at the size of the largest coordinate, or of the mesh.
 Vec3 float_step(const MeshBox& box) {
   return std::numeric_limits<float>::epsilon() *
          box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).cwiseMax(box.size());
@@ -39,13 +39,13 @@ std::vector<std::int32_t> ends_of(const std::vector<OpenEdge>& open) {
   return ends;
 }
 
-// Points in cells of twice the reach: whatever is within reach of a point lies in one of eight cells.
+// Points in cells of twice the reach: every point within reach of a given one lies in one of eight cells.
 class Grid {
  public:
   Grid(const Vec3& reach, std::size_t points)
       : reach_(reach), first_(std::bit_ceil(2 * points + 1), -1), next_(points, -1) {}
 
-  // Numbers of the points so far whose cells are within reach, and others that share their slots.
+  // Visits the earlier points whose cells are within reach, and others that share their slots.
   template <class Use>
   void each_near(const Vec3& p, const Use& use) const {
     const Cell low = cell(p - reach_), high = cell(p + reach_);
@@ -85,7 +85,7 @@ class Grid {
   std::vector<std::int32_t> first_, next_;  // chains of points, one for each slot
 };
 
-// Sets that grow together; the lowest number of each stands for it.
+// Sets that grow together; the lowest number represents each set.
 class Sets {
  public:
   explicit Sets(std::size_t count) : above_(count) {
@@ -113,10 +113,10 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 // The sides of all faces, sorted into buckets by their lower vertex, then by the upper one.
 struct Side {
   std::int32_t high, face;
-  bool up;  // runs from the lower vertex to the higher
+  bool up;  // runs from the lower vertex to the higher one
 };
 struct Sides {
-  std::vector<std::size_t> start;  // of each vertex, and the end
+  std::vector<std::size_t> start;  // first side of each vertex, and the end
   std::vector<Side> all;
 };
 
@@ -144,7 +144,7 @@ void link(const Mesh& mesh, Edges& edges, std::int32_t low, const Side& a, const
     const std::int32_t first = s.up ? low : s.high;
     return static_cast<std::size_t>(std::find(t.begin(), t.end(), first) - t.begin());
   };
-  const bool same = a.up != b.up;  // neighbours run along their edge in opposite ways
+  const bool same = a.up != b.up;  // neighbours run in opposite directions along their edge
   edges.neighbours[static_cast<std::size_t>(a.face)][side_of(a)] = {b.face, same};
   edges.neighbours[static_cast<std::size_t>(b.face)][side_of(b)] = {a.face, same};
 }
@@ -218,7 +218,7 @@ Gap widest_gap(const Mesh& mesh, const std::vector<OpenEdge>& open) {
     if (const Vec3 way = to - from; way.squaredNorm() > 0.0) lines.push_back({from, to, way.normalized()});
   }
   struct Sample {
-    double width, to_corner;  // to the nearest edge that runs the other way, and to the nearer end of it
+    double width, to_corner;  // distances to the nearest opposite edge, and to its nearer end
   };
   std::vector<Sample> ends;
   Gap gap;
@@ -247,7 +247,7 @@ Gap widest_gap(const Mesh& mesh, const std::vector<OpenEdge>& open) {
 
 namespace {
 
-// Faces that are looked at: some seconds, and so many times all of them.
+// Limits on visited faces: in total (some seconds), and as a multiple of all faces.
 constexpr std::size_t kMostRound = 100'000'000, kMostRoundEach = 64;
 
 Vec3 corner_of(const Mesh& mesh, std::size_t face, std::size_t i) {
@@ -276,7 +276,7 @@ std::vector<Extent> extents_of(const Mesh& mesh, const std::vector<std::int32_t>
   return all;
 }
 
-// Whether a part goes round a point, by its winding number there [van Oosterom and Strackee 1983].
+// True if a part encloses a point, by its winding number there [van Oosterom and Strackee 1983].
 bool goes_round(const Mesh& mesh, const Extent& part, const Vec3& probe) {
   double angle = 0.0;
   for (const std::size_t f : part.faces) {
@@ -291,7 +291,7 @@ bool goes_round(const Mesh& mesh, const Extent& part, const Vec3& probe) {
 
 }  // namespace
 
-// By one vertex of each part; only a part whose box holds that vertex is looked at.
+// Tests one vertex of each part against the parts whose box contains it.
 std::vector<int> depths_of(const Mesh& mesh, const std::vector<std::int32_t>& part, std::size_t parts) {
   std::vector<int> depth(parts, 0);
   if (parts < 2) return depth;

@@ -55,7 +55,7 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-// Zeros or the end mark of DOS (1A) behind a text. Gives how many bytes that were.
+// Removes zeros or DOS's end mark (1A) behind a text. Returns the number of bytes removed.
 std::size_t drop_padding(std::string& text) {
   const std::size_t end = text.find_last_not_of(std::string_view("\0\x1a", 2)) + 1;  // npos + 1 is 0
   const std::size_t padding = text.size() - end;
@@ -97,7 +97,7 @@ bool read_number(std::string_view word, double& number) {
 }
 
 void weld(Mesh& mesh) {
-  // Another one in each process, so that no file can be made whose vertices all fall into one slot.
+  // A random key for each process, so that no file can be crafted whose vertices all fall into one slot.
   static const std::uint64_t kKey = [] {
     std::random_device random;
     return (std::uint64_t{random()} << 32U) | random();
@@ -107,7 +107,7 @@ void weld(Mesh& mesh) {
   std::int32_t kept = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     std::array<double, 3> v = mesh.vertices[i];
-    for (double& x : v) x += 0.0;  // -0 is at the same place as 0
+    for (double& x : v) x += 0.0;  // -0 and 0 are the same position
     std::size_t slot = hash_of(v, kKey) & (slots.size() - 1);
     while (slots[slot] >= 0 && mesh.vertices[static_cast<std::size_t>(slots[slot])] != v)
       slot = (slot + 1) & (slots.size() - 1);
@@ -183,14 +183,14 @@ std::string stl(const Mesh& mesh) {
   bytes.resize(80, ' ');
   put(bytes, count_of(mesh.triangles.size()));
   for (const auto& t : mesh.triangles) {
-    put_point(bytes, {0, 0, 0});  // a reader works the normal out
+    put_point(bytes, {0, 0, 0});  // readers compute the normal
     for (const std::int32_t corner : t) put_point(bytes, mesh.vertices[static_cast<std::size_t>(corner)]);
     put(bytes, std::uint16_t{0});
   }
   return bytes;
 }
 
-// glTF wants the box around the positions, as the floats that are written.
+// glTF requires the box of the positions, as the floats that are written.
 std::string box(const Mesh& mesh, bool high) {
   std::string list;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -203,7 +203,7 @@ std::string box(const Mesh& mesh, bool high) {
 }
 
 std::string glb(const Mesh& mesh) {
-  const bool small = mesh.vertices.size() <= 65535;  // indices of two bytes do
+  const bool small = mesh.vertices.size() <= 65535;  // two-byte indices suffice
   std::string data;
   for (const auto& v : mesh.vertices) put_point(data, v);
   const std::size_t positions = data.size();
@@ -263,7 +263,7 @@ class PointsReader {
                           models::quoted(line_)));
   }
 
-  // False at the end of the file.
+  // Reads the next point. False at the end of the file.
   bool next(Vec3& point) {
     if (at_ >= text_.size()) return false;
     if (line().empty()) {

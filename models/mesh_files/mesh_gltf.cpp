@@ -1,5 +1,5 @@
 // glTF 2.0 (.gltf, .glb): tinygltf reads JSON and buffers, everything after that is checked here. Positions
-// go through the node tree; animations and images are passed over, and of looks one material is taken.
+// go through the node tree. Animations and images are skipped, and one material is read.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -21,7 +21,8 @@
 namespace enc::models {
 namespace {
 
-// ---- the files that a glTF reader may open: those in its own folder; tinygltf asks here before it opens one
+// ---- The files that a glTF reader may open: only those in its own folder. tinygltf calls these functions
+// before it opens one.
 
 constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // total of all buffer files
 
@@ -37,7 +38,7 @@ struct GltfFolder {
     return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
   }
   bool may_read(const std::string& asked) {
-    if (asked.starts_with("./")) return false;  // because tinygltf then also looks in the working directory
+    if (asked.starts_with("./")) return false;  // otherwise tinygltf also looks in the working directory
     std::error_code failed;
     const std::filesystem::path path = std::filesystem::weakly_canonical(asked, failed);
     const std::filesystem::path inside = failed ? std::filesystem::path("..") : path.lexically_relative(root);
@@ -60,7 +61,8 @@ struct GltfFolder {
 
 tinygltf::FsCallbacks callbacks(GltfFolder& folder) {
   tinygltf::FsCallbacks calls{};
-  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };  // no ~, no $VARIABLE
+  // expands neither ~ nor $VARIABLE
+  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };
   calls.FileExists = [](const std::string& path, void* user) {
     return static_cast<GltfFolder*>(user)->may_read(path);
   };
@@ -80,13 +82,13 @@ bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const
   return true;
 }
 
-// tinygltf's own words on one line, with the place if they name one.
+// Puts tinygltf's message on one line, with the position if it names one.
 [[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
   while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();
   words = printable(std::move(words));
   if (words.size() > 200) words = words.substr(0, 200) + "...";
   if (words.empty()) words = "no reason given";
-  // nlohmann's JSON says "... at line 3, column 7: ...".
+  // nlohmann's JSON reports "... at line 3, column 7: ...".
   std::size_t line = 1, column = 1;
   const std::size_t said = words.find("at line ");
   const bool placed = said != std::string::npos &&
@@ -112,7 +114,7 @@ class GltfReader {
   }
 
  private:
-  // No place in the file is known any more, but which part of it is.
+  // The position in the file is lost here, but the part of the file is known.
   [[noreturn]] void fail(const std::string& what) const {
     if (binary_) file_.fail_at_byte(20, what);
     file_.fail_at_text(0, what);
@@ -128,7 +130,7 @@ class GltfReader {
     return list[static_cast<std::size_t>(index)];
   }
 
-  // The library's own reading, into model_.
+  // The library's own parser, into model_.
   bool load(GltfFolder& folder, unsigned size, std::string& error) {
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks(callbacks(folder));
@@ -140,7 +142,7 @@ class GltfReader {
                                                    size, folder.root.string())
                      : loader.LoadASCIIFromString(&model_, &error, &warning, file_.bytes.data(), size,
                                                   folder.root.string());
-    } catch (const std::exception& e) {  // of its JSON, on values of another type than it looks for
+    } catch (const std::exception& e) {  // thrown by its JSON for values of an unexpected type
       error += e.what();
       return false;
     }
@@ -191,7 +193,7 @@ class GltfReader {
     return found;
   }
 
-  // The node tree of the scene, from the roots down, without recursion. A tree meets each node once.
+  // Walks the node tree of the scene from the roots, without recursion. A tree contains each node once.
   void walk() {
     const std::size_t count = model_.nodes.size();
     struct Step {
@@ -248,7 +250,7 @@ class GltfReader {
     return m;
   }
 
-  // The data of an accessor, proved to lie within its buffer.
+  // The data of an accessor, checked to lie within its buffer.
   struct View {
     const unsigned char* data;
     std::size_t count, stride;
@@ -321,7 +323,7 @@ class GltfReader {
     const Eigen::Vector3d shift = placed.topRightCorner<3, 1>();
     for (std::size_t i = 0; i < view.count; ++i) {
       std::array<float, 3> raw{};
-      std::memcpy(raw.data(), view.data + i * view.stride, sizeof(raw));  // need not be aligned
+      std::memcpy(raw.data(), view.data + i * view.stride, sizeof(raw));  // the data may be unaligned
       const Eigen::Vector3d at = turn * Eigen::Vector3f(raw.data()).cast<double>() + shift;
       if (!at.allFinite())
         fail(fmt::format(
@@ -343,7 +345,7 @@ class GltfReader {
                                                                                         : 4;
     std::vector<std::int32_t> list(view.count);
     for (std::size_t i = 0; i < view.count; ++i) {
-      std::uint32_t value = 0;  // little-endian: the low bytes come first
+      std::uint32_t value = 0;  // little-endian: the low byte is first
       std::memcpy(&value, view.data + i * view.stride, size);
       if (value >= vertices)
         fail(
@@ -370,7 +372,7 @@ class GltfReader {
       } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
         t = {c[i + 1], c[i + 2], c[0]};
       } else {
-        t = {c[i], c[i + 1 + i % 2], c[i + 2 - i % 2]};  // every second one turns the other way
+        t = {c[i], c[i + 1 + i % 2], c[i + 2 - i % 2]};  // every second triangle has the opposite order
       }
       if (mirrored) std::swap(t[1], t[2]);
       for (std::int32_t& corner : t) corner += first;
@@ -378,7 +380,7 @@ class GltfReader {
     }
   }
 
-  // The material of most triangles. A picture is no reason to refuse a mesh: an unusable one is passed over.
+  // The material of most triangles. An unusable texture is skipped and is no reason to refuse a mesh.
   [[nodiscard]] std::optional<SurfaceMaterial> material() const {
     const auto most = std::max_element(covered_.begin(), covered_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -392,9 +394,9 @@ class GltfReader {
       return static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
     };
     SurfaceMaterial material;
-    for (std::size_t i = 0; i < 3; ++i)  // the file's are linear in light
+    for (std::size_t i = 0; i < 3; ++i)  // the file's colours are linear in light
       material.colour[i] = std::pow(share(colour[i]), 1.0F / 2.2F);
-    // OPAQUE, the default, ignores the fourth number; MASK shows what is above its cut-off.
+    // OPAQUE, the default, ignores the fourth number; MASK shows values above its cut-off.
     const tinygltf::Material& whole = model_.materials[static_cast<std::size_t>(most->first)];
     if (whole.alphaMode == "BLEND") material.opacity = share(colour[3]);
     if (whole.alphaMode == "MASK" && colour[3] < whole.alphaCutoff) return {};
@@ -416,7 +418,7 @@ class GltfReader {
 
 FileMesh read_gltf(const MeshBytes& file, bool binary) { return GltfReader(file, binary).read(); }
 
-// ---- what is checked of a glTF file's bytes before tinygltf sees them
+// ---- Checks of a glTF file's bytes before tinygltf reads them.
 
 namespace {
 
@@ -428,13 +430,13 @@ std::size_t word_at(const std::string& bytes, std::size_t at) {
   return word;
 }
 
-// Extensions that concern looks alone.
+// Extensions that only affect the look.
 bool only_looks(const std::string& name) {
   return name.starts_with("KHR_materials") || name.starts_with("KHR_texture") ||
          name.starts_with("EXT_texture") || name == "KHR_lights_punctual";
 }
 
-// The begin of the array that follows a key of the outermost object; npos without one.
+// Start of the array behind a key of the outermost object; npos if the key is missing.
 std::size_t array_of(std::string_view json, std::string_view key) {
   int depth = 0;
   for (std::size_t i = 0; i < json.size(); ++i) {
@@ -465,7 +467,7 @@ std::vector<std::string> names_in(std::string_view json, std::string_view key) {
   return names;
 }
 
-// How data is stored that an extension packs; empty: it packs none.
+// Data packing of an extension; empty: it packs no data.
 std::string packing(const std::string& extension) {
   const auto has = [&](const char* part) { return extension.find(part) != std::string::npos; };
   return has("draco")          ? "compressed with Draco"

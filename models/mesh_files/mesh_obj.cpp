@@ -1,4 +1,4 @@
-// Wavefront OBJ: the lines `v x y z` and `f a b c ...`; what only concerns looks is passed over.
+// Wavefront OBJ: the lines `v x y z` and `f a b c ...`; all lines that only affect the look are skipped.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -42,7 +42,7 @@ class ObjReader {
   }
 
  private:
-  // The next line into line_, without its comment.
+  // Takes the next line into line_, without its comment.
   void take_line() {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     line_ = text_.substr(at_, end - at_);
@@ -60,7 +60,7 @@ class ObjReader {
     }
   }
   static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-  // The next word of the line; empty at its end.
+  // Takes the next word of the line; empty at its end.
   std::string_view word() {
     while (cursor_ < line_.size() && is_space(line_[cursor_])) ++cursor_;
     const std::size_t start = cursor_;
@@ -79,7 +79,7 @@ class ObjReader {
             fmt::format("{} is no coordinate; expected 'v x y z' with three finite numbers; correct the line",
                         quoted(std::string(text))));
     }
-    mesh_.vertices.push_back(v);  // what may follow is a weight or a colour
+    mesh_.vertices.push_back(v);  // a weight or a colour may follow
   }
 
   // "7", "7/1", "7//3", "7/1/3" or "-1"; only the first number is used.
@@ -127,26 +127,26 @@ class ObjReader {
 
 FileMesh read_obj(const MeshBytes& file) { return ObjReader(file).read(); }
 
-// ---- polygons of a file as triangles: in their plane, ear by ear [Meisters 1975].
+// ---- Polygons of a file as triangles: in their plane, ear by ear [Meisters 1975].
 
 namespace {
 
-constexpr std::size_t kMostConcave = 2'000;  // corners: every side is compared with every other one
-constexpr double kWarp = 0.1;                // how far corners may be off their plane, of the polygon's size
-// How flat an ear may be: its height over its longest side. Only where there is no better one it may be
-// nearly as flat as check_mesh() takes it.
+constexpr std::size_t kMostConcave = 2'000;  // corners: every side is compared with every other side
+constexpr double kWarp = 0.1;                // accepted warp, over the polygon's size
+// Least height of an ear over its longest side. If no better ear exists, it may be nearly as flat as
+// check_mesh() accepts.
 constexpr double kThin = 1e-6, kThinnest = 1e-9;
 
 using Vec2 = Eigen::Vector2d;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-// Twice the area, positive where the corners turn left.
+// Twice the area, positive if the corners turn left.
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
 double longest(const Vec2& a, const Vec2& b, const Vec2& c) {
   return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
 }
 
-// Whether two sides have a point in common, their ends included.
+// True if two sides have a common point, ends included.
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto apart = [](double p, double q, double r, double s) {
     return std::max(p, q) < std::min(r, s) || std::max(r, s) < std::min(p, q);
@@ -159,14 +159,14 @@ bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 class Polygon {
  public:
   Polygon(Mesh& mesh, const std::vector<std::int32_t>& corners) : mesh_(mesh) {
-    for (const std::int32_t corner : corners)  // a corner that is named twice in a row is one
+    for (const std::int32_t corner : corners)  // a corner named twice in a row counts once
       if (left_.empty() || place(corner) != place(left_.back())) left_.push_back(corner);
     while (left_.size() > 1 && place(left_.front()) == place(left_.back())) left_.pop_back();
   }
 
   std::string cut() {
     if (left_.size() <= 3) {
-      while (left_.size() < 3) left_.push_back(left_.back());  // check_mesh() says that it has no area
+      while (left_.size() < 3) left_.push_back(left_.back());  // check_mesh() reports that it has no area
       add(0, 1, 2);
       return {};
     }
@@ -194,7 +194,7 @@ class Polygon {
     mesh_.triangles.push_back({left_[a], left_[b], left_[c]});
   }
 
-  // Into the plane of the mean normal [Newell 1972], so that the polygon runs to the left.
+  // Projects onto the plane of the mean normal [Newell 1972], so that the polygon turns left.
   std::string lay_flat() {
     Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
     const Vec3 first = place(left_[0]);
@@ -224,9 +224,9 @@ class Polygon {
     return {};
   }
 
-  // Every corner turns left, and the whole goes round once.
+  // True if every corner turns left and the polygon goes round once.
   [[nodiscard]] bool convex() const {
-    int turns = 0;  // of the direction along x: two when it goes round once
+    int turns = 0;  // changes of direction along x: two for one round
     for (std::size_t i = 0, n = flat_.size(); i < n; ++i) {
       const Vec2 &a = flat_[i], &b = flat_[(i + 1) % n], &c = flat_[(i + 2) % n];
       if (!(turn(a, b, c) > kThin * longest(a, b, c))) return false;
@@ -244,7 +244,7 @@ class Polygon {
     return false;
   }
 
-  // The corner at `i` and its neighbours are a triangle with no other corner in it or on it.
+  // True if the corner at `i` and its neighbours form a triangle without another corner in it or on it.
   [[nodiscard]] bool ear(std::size_t i, double flat) const {
     const std::size_t n = flat_.size(), before = (i + n - 1) % n, after = (i + 1) % n;
     const Vec2 &a = flat_[before], &b = flat_[i], &c = flat_[after];
@@ -257,7 +257,7 @@ class Polygon {
     return true;
   }
 
-  // From the second corner on, as a fan is; a cut ear may make ears of its neighbours.
+  // Starts at the second corner, like a fan; cutting an ear may turn its neighbours into ears.
   bool clip_all() {
     std::size_t i = 1;
     while (left_.size() > 3) {
@@ -276,7 +276,7 @@ class Polygon {
 
   Mesh& mesh_;
   std::vector<std::int32_t> left_;  // corners that are not cut off yet
-  std::vector<Vec2> flat_;          // the same in their plane
+  std::vector<Vec2> flat_;          // those corners in their plane
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// STL, text and binary. Its normals are not used: the order of the corners says which side is out.
+// STL, text and binary. Its normals are not used: the order of the corners defines the outer side.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,8 +15,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "STL and glTF are little-endian: put byte swaps here");
 
-constexpr std::size_t kHeader = 84;  // 80 bytes of anything, then the count
-constexpr std::size_t kFacet = 50;   // normal, three corners, two bytes of anything
+constexpr std::size_t kHeader = 84;  // 80 arbitrary bytes, then the count
+constexpr std::size_t kFacet = 50;   // normal, three corners, two arbitrary bytes
 
 std::size_t stated_count(const std::string& bytes) {
   std::uint32_t count = 0;
@@ -24,20 +24,20 @@ std::size_t stated_count(const std::string& bytes) {
   return count;
 }
 
-// How many triangles the file has room for.
+// Number of triangles that fit into the file.
 std::size_t room(const std::string& bytes) {
   return bytes.size() < kHeader ? 0 : (bytes.size() - kHeader) / kFacet;
 }
 std::size_t rest(const std::string& bytes) { return bytes.size() - kHeader - kFacet * room(bytes); }
 
-// The size decides, because binary files may begin with "solid", too.
+// The size decides, because binary files may begin with "solid" as well.
 bool is_text(const std::string& bytes) {
   if (bytes.size() >= kHeader && room(bytes) == stated_count(bytes)) return false;
   const std::string_view head = std::string_view(bytes).substr(0, 1024);
   return head.find('\0') == std::string_view::npos;
 }
 
-// The header's count, or that of the size where the header has 0: some programs never fill it in.
+// The header's count, or the count by size if the header has 0: some programs never write it.
 std::size_t triangle_count(const MeshBytes& file, std::vector<std::string>& notes) {
   const std::string& bytes = file.bytes;
   if (bytes.size() < kHeader)

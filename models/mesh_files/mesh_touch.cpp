@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kLeaf = 4;
 constexpr double kTouching =
-    1e-12;  // of the mesh's size: below it the search takes two faces as equally near
-constexpr std::size_t kMostPairs = 100'000'000;  // of faces whose boxes meet: some seconds
+    1e-12;  // share of the mesh's size: below it, the search takes two faces as equally near
+constexpr std::size_t kMostPairs = 100'000'000;  // pairs of faces whose boxes overlap: some seconds
 
 struct Box {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -88,18 +88,18 @@ class Toucher {
   }
 
  private:
-  using Common = std::array<bool, 3>;  // corners of a face that another one has, too
+  using Common = std::array<bool, 3>;  // corners of a face that are shared with another one
   struct Node {
     Box box;
     std::size_t first, size;
-    std::uint32_t child = 0;  // the second one; the first follows its parent. 0: a leaf
+    std::uint32_t child = 0;  // the second child; the first follows its parent. 0: a leaf
   };
 
   [[nodiscard]] Vec3 corner(std::size_t face, std::size_t i) const {
     return Vec3(mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[face][i])].data());
   }
 
-  // Halves at the median along the longest side, so the depth is log2 of the size.
+  // Splits at the median along the longest side, so the depth is log2 of the size.
   std::uint32_t build(std::size_t first, std::size_t size) {
     const auto at = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({{}, first, size});
@@ -150,17 +150,17 @@ class Toucher {
     if (touch(f, g, of_f, of_g)) touched_[f] = g, touched_[g] = f;
   }
 
-  // Six times the volume of a tetrahedron; 0 where rounding decides its sign.
+  // Six times the volume of a tetrahedron; 0 if rounding decides its sign.
   static double side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
     const Vec3 u = a - p, v = b - p, w = c - p;
     const double volume = u.dot(v.cross(w));
     const auto size = [](const Vec3& x) { return x.lpNorm<Eigen::Infinity>(); };
     const double bound =
-        1e-14 * size(u) * size(v) * size(w);  // of 7.8e-16 times the permanent [Shewchuk 1997]
+        1e-14 * size(u) * size(v) * size(w);  // covers 7.8e-16 times the permanent [Shewchuk 1997]
     return std::abs(volume) > bound ? volume : 0.0;
   }
 
-  // The side p-q of one face goes strictly through the inside of the other.
+  // True if the side p-q of one face passes strictly through the inside of the other face.
   [[nodiscard]] bool pierces(const Vec3& p, const Vec3& q, std::size_t face) const {
     const Vec3 a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
     if (side(a, b, c, p) * side(a, b, c, q) >= 0.0) return false;
@@ -168,7 +168,7 @@ class Toucher {
     return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
   }
 
-  // Two faces with a common edge that lie on each other.
+  // True if two faces with a common edge lie on each other.
   [[nodiscard]] bool folded(std::size_t f, std::size_t g, std::size_t apex_f, std::size_t apex_g) const {
     const Vec3 a = corner(f, (apex_f + 1) % 3), b = corner(f, (apex_f + 2) % 3), p = corner(f, apex_f),
                q = corner(g, apex_g);
@@ -177,25 +177,26 @@ class Toucher {
     return up.dot(uq) > 0.0 && up.cross(uq).norm() <= 1e-12 * up.norm() * uq.norm();
   }
 
-  // Takes two faces with at most one common corner.
+  // True if two faces with at most one common corner pass through each other.
   [[nodiscard]] bool cross(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      // A side that begins at a common vertex cannot go through the inside.
+      // A side that starts at a common vertex cannot pass through the inside.
       if (!of_f[k] && !of_f[l] && pierces(corner(f, k), corner(f, l), g)) return true;
       if (!of_g[k] && !of_g[l] && pierces(corner(g, k), corner(g, l), f)) return true;
     }
     return false;
   }
 
-  // The least shift that parts two faces: along a normal, or across a side of each [Cameron and Culley 1986].
+  // The least shift that separates two faces: along a normal, or across a side of each [Cameron and Culley
+  // 1986].
   [[nodiscard]] double depth(std::size_t f, std::size_t g) const {
     const std::array<Vec3, 3> a{corner(f, 0), corner(f, 1), corner(f, 2)},
         b{corner(g, 0), corner(g, 1), corner(g, 2)};
     double least = std::numeric_limits<double>::infinity();
     const auto along = [&](const Vec3& u, const Vec3& v) {
       const Vec3 axis = u.cross(v);
-      if (!(axis.norm() > 1e-9 * u.norm() * v.norm())) return;  // sides that are parallel have none
+      if (!(axis.norm() > 1e-9 * u.norm() * v.norm())) return;  // parallel sides have no such axis
       const auto reach = [&](const std::array<Vec3, 3>& corners) {
         const Vec3 at(axis.dot(corners[0] - a[0]), axis.dot(corners[1] - a[0]), axis.dot(corners[2] - a[0]));
         return std::pair(at.minCoeff(), at.maxCoeff());
@@ -210,8 +211,8 @@ class Toucher {
     return std::max(least, 0.0);
   }
 
-  // All corners of a face, but for those that both have, are above a plane and not near it. `rounding`: by
-  // how much each part of the normal may be wrong.
+  // True if all corners of a face, except the common ones, are clearly above a plane. `rounding`: error of
+  // each component of the normal.
   [[nodiscard]] bool above(const Vec3& on, const Vec3& normal, double rounding, std::size_t face,
                            const Common& shared) const {
     const double near = near_ * normal.norm();
@@ -221,8 +222,8 @@ class Toucher {
     }
     return true;
   }
-  // `g` meets `f` at most where they have a corner in common: it is beside the plane of `f`, or beyond one of
-  // its sides (which has that corner).
+  // True if `g` meets `f` at most in a common corner: it is beside the plane of `f`, or beyond one of its
+  // sides (which has that corner).
   [[nodiscard]] bool beside(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     const std::array<Vec3, 3> c{corner(f, 0), corner(f, 1), corner(f, 2)};
     const Vec3 ab = c[1] - c[0], ac = c[2] - c[0], normal = ab.cross(ac);
@@ -236,13 +237,13 @@ class Toucher {
     return false;
   }
 
-  // A corner on a face or two sides that meet, beside what the faces have in common.
+  // True if a corner lies on a face or two sides meet, except at common corners.
   [[nodiscard]] bool touch(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k)
       if ((!of_f[k] && on(corner(f, k), g)) || (!of_g[k] && on(corner(g, k), f))) return true;
     for (std::size_t k = 0; k < 9; ++k) {
       const std::size_t i = k / 3, j = k % 3, after_i = (i + 1) % 3, after_j = (j + 1) % 3;
-      const bool joined = (of_f[i] || of_f[after_i]) && (of_g[j] || of_g[after_j]);  // at the one they share
+      const bool joined = (of_f[i] || of_f[after_i]) && (of_g[j] || of_g[after_j]);  // they share a corner
       if (!joined && between(corner(f, i), corner(f, after_i), corner(g, j), corner(g, after_j)) <= near_)
         return true;
     }
@@ -257,8 +258,8 @@ class Toucher {
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
   std::vector<bool> crosses_;
-  std::vector<std::uint32_t> touched_;  // by which face; as many as there are: by none
-  double near_ = 0.0;                   // m: at most so far apart is touching
+  std::vector<std::uint32_t> touched_;  // touching face of each face; the number of faces: none
+  double near_ = 0.0;                   // m: faces at most this far apart touch
   std::vector<Node> nodes_;
   std::size_t tested_ = 0;
   Touching result_;

@@ -1,4 +1,4 @@
-// The meshes of a scene: found, checked, noted by their hash, and carried by records.
+// The meshes of a scene: found, checked, noted by their hash, and stored in records.
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -30,7 +30,7 @@ std::vector<std::string> meshes_in(const fs::path& folder) {
   return names;
 }
 
-// A file below a folder, also after all links are followed; empty if it is not there.
+// A file below a folder, also after all links are resolved; empty if it does not exist.
 fs::path below(const fs::path& folder, const std::string& name) {
   std::error_code failed;
   const fs::path root = fs::canonical(folder.empty() ? "." : folder, failed);
@@ -112,7 +112,7 @@ Mesh unpacked(const std::string& bytes, const std::string& name) {
   for (const auto& t : mesh.triangles)
     for (const std::int32_t corner : t)
       if (corner < 0 || static_cast<std::uint64_t>(corner) >= counts[0]) damaged();
-  // A run records what check_mesh() gave it, and that leaves it as it is.
+  // A run records the result of check_mesh(), which a second check would not change.
   Mesh checked = mesh;
   weld(checked);
   checked = check_mesh(std::move(checked), name).mesh;
@@ -127,7 +127,7 @@ void fill_meshes(Setup& setup, const std::string& models_dir) {
     std::shared_ptr<const Mesh> mesh;
     std::optional<SurfaceMaterial> material;
   };
-  std::map<std::string, Loaded> loaded;  // each once, however many objects name it
+  std::map<std::string, Loaded> loaded;  // each file once, however many objects name it
   for (ObjectSpec& object : setup.scene.objects) {
     if (object.shape == ShapeKind::box) object.surface = box_surface(object.size);
     if (object.shape != ShapeKind::mesh) continue;

@@ -8,7 +8,7 @@
 namespace enc::models {
 namespace {
 
-// The first letter of a text in UTF-8, or its first byte where that begins none.
+// The first character of a text in UTF-8, or its first byte if that is invalid.
 struct Letter {
   char32_t code;
   std::size_t bytes;
@@ -28,12 +28,12 @@ Letter first_letter(std::string_view text) {
     code = code << 6U | (byte(i) & 0x3FU);
   }
   constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-  const bool half = code >= 0xD800 && code < 0xE000;  // of a pair of UTF-16
+  const bool half = code >= 0xD800 && code < 0xE000;  // half of a UTF-16 pair
   return code < kLeast[bytes] || code > 0x10FFFF || half ? alone : Letter{code, bytes};
 }
 
-// What terminals and viewers obey beyond ASCII: C1, separators of lines and paragraphs, and the direction of
-// text.
+// Characters beyond ASCII that terminals and viewers act on: C1, line and paragraph separators, and text
+// direction.
 bool moves_text(char32_t code) {
   return (code >= 0x80 && code < 0xA0) || code == 0x61C || code == 0x200E || code == 0x200F ||
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);

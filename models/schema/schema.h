@@ -84,7 +84,7 @@ void describe(Visitor&, PropSpec&);
 void describe(Visitor&, UserSpec&);
 void describe(Visitor&, InteractionSpec&);
 void describe(Visitor&, StereoRig&);
-// The part that a calibration knows; a calibration writes it in the form of a rig.
+// The part that a calibration determines; a calibration file writes it in the form of a rig.
 struct HeadKeys {
   std::string_view source;
   Presence presence = Presence::defaulted;

@@ -1,4 +1,5 @@
-// Keys of a scene, a rig and the simulator's truth about a force-controlled arm and what only it renders.
+// Keys of a scene, a rig and the simulator's ground truth for a force-controlled arm and for interactions
+// that only an arm renders.
 #include <algorithm>
 
 #include "models/schema/schema_walk.h"
@@ -9,7 +10,7 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-// PropKind, after a word for -1.
+// The words of PropKind, preceded by a word for -1.
 constexpr auto kAnyOrProp = [] {
   std::array<std::string_view, kWords<PropKind>.size() + 1> all{"any"};
   std::copy(kWords<PropKind>.begin(), kWords<PropKind>.end(), all.begin() + 1);

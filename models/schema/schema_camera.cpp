@@ -40,8 +40,8 @@ void describe(Visitor& v, Lens& lens, const HeadKeys& k) {
   lens.centre_y = centre[1];
 }
 
-// The right camera's pose: three angles, rounded to far less than a camera resolves, so that a text that was
-// read is written again unchanged.
+// The right camera's pose: three angles, rounded to far less than a camera resolves, so that a text that is
+// read is written unchanged.
 void describe(Visitor& v, Pose<'C', 'D'>& X_CD, const HeadKeys& k) {
   Vec3 position = X_CD.p(), rotation = angles_xyz(Quat(X_CD.q()));
   for (double& angle : rotation)

@@ -1,5 +1,4 @@
-// Keys of a rig: models/rigs/*.toml without [truth]. The numbers the core works with, and the calibration it
-// believes.
+// Keys of a rig: models/rigs/*.toml without [truth]. The numbers of the core, and its calibration.
 #include "models/schema/schema_walk.h"
 
 namespace enc::models {
@@ -8,7 +7,7 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-// A device table that is there must say by what the role is filled.
+// A device table must name the driver that fills the role.
 void driver(Visitor& v, std::string& value) {
   v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &value);
 }
@@ -260,7 +259,7 @@ void describe(Visitor& v, RigSpec& r) {
           &r.format);
   v.value({"title", "which rig it is, in a line", "rig", chosen}, &r.title);
   table(v, "loop", [&] {
-    // Below 200 Hz a cycle is longer than 5 ms, which no time step may be (sources/twin 2).
+    // Below 200 Hz a cycle is longer than 5 ms, the longest allowed time step (sources/twin 2).
     v.value({"rate_hz", "of the haptic loop", "[VHMR 2]", published, {200.0, 1e4}}, &r.loop.rate);
     v.value({"late_cycles", "missed cycles that mean hold", "sources/twin 2", assumed, {1.0, 1e6}},
             &r.loop.late_cycles);

@@ -295,7 +295,7 @@ void describe_behaviours(Visitor& v, std::vector<BehaviourSpec>& behaviours, boo
   list(v, "behaviour", behaviours, [&](BehaviourSpec& b) { describe(v, b, with_curves); });
 }
 
-// ---- the person: presses, a session, reaches
+// ---- The person: presses, a session, reaches.
 
 namespace {
 
@@ -327,7 +327,7 @@ void describe_presses(Visitor& v, UserSpec& u) {
   v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
 }
 
-// A pair is the least and the most of what is drawn.
+// A pair holds the minimum and maximum of a random value.
 void describe_ranges(Visitor& v, ReachRanges& r) {
   v.value({"tilt_deg", "of a reach from the surface normal: least, most", kAuthor, assumed, {0.0, 60.0}},
           &r.tilt);

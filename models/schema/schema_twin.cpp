@@ -9,7 +9,7 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr Range kRates{0.1, 1e5};  // of what comes again and again: a clock can count it
+constexpr Range kRates{0.1, 1e5};  // rates of repeated events: a clock can count them
 
 // 5 ms: beyond it a servo and a contact diverge (sources/twin 2).
 constexpr Range kTimestep{0.0, 5000.0, true};

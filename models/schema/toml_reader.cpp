@@ -37,7 +37,7 @@ std::string kind_of(const toml::node& node) {
   }
 }
 
-// One value as TOML writes it, the same in every locale.
+// One value as TOML writes it, in every locale.
 std::string text_of_node(const toml::node& node) {
   if (const auto* text = node.as_string()) return quoted_toml(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -51,10 +51,10 @@ std::string text_of_node(const toml::node& node) {
     for (const toml::node& item : *array) text += (text.empty() ? "" : ", ") + text_of_node(item);
     return "[" + text + "]";
   }
-  return quoted_toml(kind_of(node));  // in a list; which no key wants
+  return quoted_toml(kind_of(node));  // another kind of value; no key accepts it in a list
 }
 
-// One node into one target. `place` is where to look when it fails.
+// Reads one node into one target. `place`: position for messages.
 class Value {
  public:
   Value(const toml::node& node, const Key& key, std::string place)
@@ -76,7 +76,7 @@ class Value {
   }
   void read(std::string* to) const {
     *to = text();
-    // Else a title could print false lines of a report.
+    // Otherwise a title could print false lines of a report.
     if (const std::string shown = printable(*to); shown != *to)
       fail(fmt::format("is {}, which cannot be printed as it is", models::quoted(*to)),
            "printable text on one line");
@@ -132,7 +132,7 @@ class Value {
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
     const double si = to_si(unit_, value, k);
     if (!std::isfinite(si)) fail(fmt::format("is {}", value), "a finite number", part);
-    if (si == 0.0 && value != 0.0)  // and what is above 0 would be 0
+    if (si == 0.0 && value != 0.0)  // a positive value would become 0
       fail(fmt::format("is {}", value), "0, or a number of 1e-300 or more", part);
     check_range(value, fmt::format("{}", value), part);
     return si;
@@ -223,7 +223,7 @@ class Reader final : public Visitor {
     push(table, std::move(path), fmt::format("[[{}]] {}", list, quoted(name)));
   }
 
-  // Unknown keys come before missing ones: a key with a wrong name is usually both.
+  // Unknown keys are reported before missing ones: a misspelt key is usually both.
   void close() override {
     const Level& level = levels_.back();
     for (const auto& [key, node] : *level.table) {
@@ -281,7 +281,7 @@ class Reader final : public Visitor {
     throw Error(fmt::format("{}: {} is no name; expected letters, digits, '_' and '-'; choose another",
                             place_in(name_, key.source()), quoted(std::string(key.str()))));
   }
-  // What is asked for is known; nullptr if it is not there.
+  // Finds a key and marks it as known; nullptr if it does not exist.
   const toml::node* find(std::string_view name) {
     levels_.back().known.emplace_back(name);
     return levels_.back().table->get(name);

@@ -43,7 +43,7 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"_m", "m"},
                                              {"", ""}});
 
-// What people write in names, longest suffix first. `kind`: only units of one kind can be converted.
+// Units as people write them in names, longest suffix first. `kind`: only units of one kind can be converted.
 struct Written {
   std::string_view suffix;
   char kind;
@@ -68,7 +68,7 @@ const Written* written_in(std::string_view name) {
   return found == kWritten.end() ? nullptr : &*found;
 }
 
-// value * 10^power, rounded once. to_chars and from_chars know no locale.
+// value * 10^power, rounded once. to_chars and from_chars ignore the locale.
 double shift(double value, int power) {
   if (power == 0 || value == 0.0 || !std::isfinite(value)) return value;
   std::array<char, 64> text{};

@@ -87,7 +87,7 @@ struct Example {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// Letters to insert, remove or replace, case apart.
+// Number of letters to insert, remove or replace, ignoring case.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -102,7 +102,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// The stem of a name may be followed by any unit, or by none.
+// Searches a name with the stem of `word` and any unit, or none.
 std::string with_other_unit(std::string_view word, const std::vector<std::string>& names) {
   for (std::string_view stem = word; !stem.empty();) {
     const auto same = [&](const std::string& name) { return stem_of(name) == stem && name != word; };
@@ -156,11 +156,11 @@ std::string quoted_toml(const std::string& text) {
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
-  // A longer word is no typing error; and the time goes with the product of the lengths.
+  // A longer word is no typing error, and the time grows with the product of the lengths.
   constexpr std::size_t kLongest = 200;
   if (word.size() > kLongest) return {};
   if (std::string name = with_other_unit(word, names); !name.empty()) return name;
-  // A unit that no key has, as cm.
+  // A unit that no key uses, such as cm.
   for (const std::string& name : names)
     if (name != word && factor_between(word, name)) return name;
   std::string best;

@@ -23,7 +23,7 @@
 
 namespace enc::models {
 
-// ---- of a rig
+// ---- Calibration of a rig.
 
 namespace {
 
@@ -82,7 +82,7 @@ RigCalibration rounded(RigCalibration file) {
   return file;
 }
 
-// "gcs 192.168.0.10 50000"; of a driver that has no address, its name.
+// "gcs 192.168.0.10 50000"; for a driver without an address, its name.
 std::string device_of(const RigSpec& rig, const std::string& driver) {
   std::string device = driver;
   for (const char* key : {"address", "port"})
@@ -90,7 +90,7 @@ std::string device_of(const RigSpec& rig, const std::string& driver) {
   return device;
 }
 
-// Empty where it is the same rig.
+// The difference between two rigs; empty if they are equal.
 std::string other_rig(const RigIdentity& was, const RigIdentity& is) {
   const auto differs = [](const char* what, const std::string& before, const std::string& now) {
     return before == now
@@ -195,7 +195,7 @@ bool of_rig_calibration(std::string_view name) {
 
 namespace {
 
-// The calibration at `path`, which is of this rig and says all that it has.
+// Reads the calibration at `path`, which must belong to this rig and have all of its tables.
 RigCalibration read_measured(const Setup& setup, const std::string& path) {
   const RigSpec& rig = setup.rig;
   const std::string named = place_of(setup, "rig.calibration.file");
@@ -285,7 +285,7 @@ void fill_truth(Setup& setup) {
          setup.rig.manipulator.geometry.*side);
 }
 
-// ---- of a stereo head
+// ---- Calibration of a stereo head.
 
 namespace {
 
@@ -322,7 +322,7 @@ StereoFile rounded(StereoFile file) {
   throw Error(fmt::format("{} {}; expected {}; calibrate again", key, what, wanted), key);
 }
 
-// Whether what is farther from the axis is seen farther from it, up to the image's corner.
+// True if a point farther from the axis appears farther from it, up to the image's corner.
 bool unfolded(const Lens& lens, double width, double height) {
   const double x = std::max(lens.centre_x, width - 1.0 - lens.centre_x) / lens.focal_x;
   const double y = std::max(lens.centre_y, height - 1.0 - lens.centre_y) / lens.focal_y;
@@ -358,7 +358,7 @@ void check_lens(const Lens& lens, const StereoRig& rig, const std::string& side)
            "a lens that sees each direction once");
 }
 
-// The table or a key of it.
+// True for the table or a key of it.
 bool stands_in(std::string_view name, std::string_view table) {
   return name.starts_with(table) && (name.size() == table.size() || name[table.size()] == '.');
 }

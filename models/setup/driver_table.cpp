@@ -14,10 +14,10 @@ namespace {
 
 std::string path_of(const std::string& driver) { return "rig.driver." + driver; }
 
-// As --set gives it, "--set ..."; else a place in a file.
+// True for a place of --set, "--set ..."; otherwise it is a place in a file.
 bool is_set(const std::string& place) { return place.starts_with("--set "); }
 
-// Which of the two is mistyped, who wrote them knows: the near name, and where a role has it.
+// Either name may be the mistyped one: gives the similar name and the place where a role has it.
 std::string near_driver(const Setup& setup, const std::string& near) {
   std::string at;
   const auto look = [&](const char* table, const std::string& driver) {
@@ -96,22 +96,22 @@ void DriverTableReader::read(const Setting& setting, const Target& target) {
     read_value(found->text, place(name), key, target, is_set(place(name)) ? Quotes::may : Quotes::must);
   else if (setting.needed)
     missing_.push_back(missing_text(title_, key, target));
-  if (std::any_of(all_.begin(), all_.end(), is)) return;  // another role has it, too
+  if (std::any_of(all_.begin(), all_.end(), is)) return;  // another role has this driver, too
   std::string text = value_text(key, target);
-  if (text == "inf" || text == "-inf" || text == "[]") text.clear();  // as unset: no file says it
+  if (text == "inf" || text == "-inf" || text == "[]") text.clear();  // counts as unset: no file contains it
   const DriverValue value{name, text, std::string(key.meaning), std::string(key.source)};
   const auto after = [&](const DriverValue& v) { return v.key > name; };
   all_.insert(std::find_if(all_.begin(), all_.end(), after), value);
 }
 
-// Unknown keys come before missing ones: a key with a wrong name is usually both.
+// Unknown keys are reported before missing ones: a misspelt key is usually both.
 void DriverTableReader::finish() const {
   for (const DriverValue& value : given_)
     if (std::find(known_.begin(), known_.end(), value.key) == known_.end())
       throw Error(fmt::format("{}: {}", place(value.key), unknown_text(title_, value.key, known_)));
   if (missing_.empty()) return;
   std::string at = path_of(driver_);
-  if (!setup_.places.contains(at))  // no table at all: it is wanted where the driver is named
+  if (!setup_.places.contains(at))  // without a table: the place that names the driver
     each_role([&, first = true](const auto& role) mutable {
       if (!first || (setup_.rig.*role.rig).driver != driver_) return;
       at = fmt::format("rig.{}.driver", role.table);

@@ -17,7 +17,7 @@ std::size_t joints_of(const ArmMachine& machine) {
   return machine.kind == ArmKind::phantom ? kMostJoints : machine.links.size();
 }
 
-// At home all joints are at 0.
+// All joints are at 0 at home.
 void check_joints(const Setup& setup, const std::string& key, const ArmMachine& machine) {
   for (std::size_t i = 0; i < joints_of(machine); ++i) {
     const ArmDrive& drive = machine.drives[i];
@@ -49,7 +49,7 @@ void check_machine(const Setup& setup, const std::string& key, const ArmMachine&
   check_joints(setup, key, machine);
 }
 
-// A motor or a tip that gives a force for hours can give it for a moment.
+// A motor or a tip that exerts a force for hours can exert it briefly.
 void check_continuous(const Setup& setup, const std::string& table, const char* continuous, const char* peak,
                       double for_hours, double at_most) {
   if (for_hours <= at_most) return;
@@ -58,7 +58,7 @@ void check_continuous(const Setup& setup, const std::string& table, const char* 
                    at_most));
 }
 
-// MuJoCo takes no time constant shorter than two steps (its refsafe), and says nothing.
+// MuJoCo silently replaces a time constant below two steps (its refsafe).
 void check_friction_time(const Setup& setup) {
   const sim::ArmTruth& truth = setup.twin.arm;
   const double least = 2.0 * truth.timestep;
@@ -102,7 +102,7 @@ std::string naming(const Setup& setup, const BehaviourSpec& b) {
   return named == objects.end() ? "behaviour." + b.name : fmt::format("object.{}.behaviour", named->name);
 }
 
-// A force-controlled arm renders a spring as deep as the finger goes.
+// A force-controlled arm renders a spring to any depth of the finger.
 void check_no_limit(const Setup& setup, const std::string& key) {
   fail(setup, key,
        fmt::format("'{}' limits a deflection, which an arm does not; expected none; remove it",
@@ -129,7 +129,7 @@ void check_finger(const Setup& setup, const ToolSpec& tool) {
              quoted(tool.name)));
 }
 
-// Root of the sum of the squares of the markers' distances from the line that they are nearest to, m.
+// Root of the sum of squared distances of the markers from their best-fitting line, m.
 double off_the_line(const std::vector<Vec3>& markers) {
   const Vec3 middle = middle_of(markers);
   Mat3 scatter = Mat3::Zero();
@@ -137,8 +137,8 @@ double off_the_line(const std::vector<Vec3>& markers) {
   const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
   return std::sqrt(std::max(0.0, along[0] + along[1]));  // all but the greatest
 }
-// Noise of the markers turns the tool about that line by noise / (rms distance from it * sqrt(n)), rad, which
-// is noise / off_the_line(). At 0.3 mm noise and 6 mm that is 0.05, or 3 deg.
+// Noise of the markers rotates the tool about that line by noise / (rms distance from it * sqrt(n)), rad,
+// which is noise / off_the_line(). At 0.3 mm noise and 6 mm that is 0.05, or 3 deg.
 constexpr double kMostTurn = 0.05;
 constexpr double kLeastOffLine = kMarkerNoise / kMostTurn;  // m
 
@@ -207,7 +207,7 @@ void check_interaction(const Setup& setup, const BehaviourSpec& b) {
     check_unit(setup, path + ".interaction.way", does.way);
 }
 
-// A normal of another length than 1 still says which way is outward.
+// A normal with a length other than 1 still defines the outward direction.
 void mend_normals(Setup& setup) {
   for (ObjectSpec& o : setup.scene.objects) {
     if (o.shape != ShapeKind::plane && o.shape != ShapeKind::button) continue;
@@ -221,7 +221,7 @@ void mend_normals(Setup& setup) {
   }
 }
 
-// Notes a stop without an error: it is hard either way. Also notes what the solver makes of friction.
+// Notes a stop without an error: it is hard in either case. Also notes how the solver changes friction.
 void note_stops(Setup& setup) {
   const MachineChecks& machine = checks_of(setup.scene);
   if (!machine.simulated(setup.rig)) return;
@@ -244,7 +244,7 @@ void note_stops(Setup& setup) {
                     place_of(setup, "truth.solver.cone"), twin.solver.impratio));
 }
 
-// The prop is what is really felt [VisHap 2.2]. One line for each entry that wants another one.
+// The user really touches the prop [VisHap 2.2]. One line for each entry that needs another prop.
 void note_props(Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.prop) return;

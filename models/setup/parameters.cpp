@@ -18,7 +18,7 @@ namespace {
 
 void walk(Visitor& visitor, Setup& setup) { describe_all(visitor, setup.scene, setup.rig, setup.twin); }
 
-// Walks what is there and knows each value's full name.
+// Walks all existing values and tracks each value's full name.
 class Named : public Visitor {
  public:
   void value(const Key& key, const Target& target) final {
@@ -50,7 +50,7 @@ class Named : public Visitor {
   std::vector<std::string> paths_;
 };
 
-// As --set takes it: texts without quotes where they do not need them, "unset" for what is not set.
+// The form that --set accepts: texts without unnecessary quotes, "unset" for an unset value.
 std::string shown(const Key& key, const Target& target) {
   const auto* const* text = std::get_if<std::string*>(&target);
   const bool plain = text != nullptr && !(*text)->starts_with('"') && !(*text)->starts_with('\'');
@@ -84,7 +84,7 @@ class List final : public Named {
   }
 };
 
-// The value of a key, which is added where it is not there.
+// The value of a key; adds the key if it is missing.
 std::string& text_in(std::vector<DriverTable>& tables, const std::string& driver, const std::string& key) {
   const auto of = [](auto& items, const auto& name, auto member) {
     const auto after = [&](const auto& item) { return item.*member >= name; };
@@ -122,7 +122,7 @@ class Set final : public Named {
     found_ = true;
     read_value(value_, place_, key, target);
   }
-  // Its driver reads it later, and says what it is not.
+  // The driver reads its table later and reports its faults.
   void driver_tables(const std::string& path, std::vector<DriverTable>& tables) override {
     const std::string start = path + ".";
     const auto dot = name_.rfind('.');
@@ -147,7 +147,7 @@ class RoundToText final : public Named {
 }  // namespace
 
 std::vector<Parameter> parameters(const Setup& setup) {
-  Setup copy = setup;  // visitors may write, this one does not
+  Setup copy = setup;  // visitors may write; this one does not
   if (!setup.calibration.empty()) copy.rig.camera.calibration = setup.calibration;
   if (!setup.measured.empty()) copy.rig.calibration.file = setup.measured;
   List list;
@@ -199,18 +199,18 @@ Setup parse_resolved(const std::string& text, const std::string& name) {
   return setup;
 }
 
-// ---- the scene with only what it builds, as a scene file that stands alone
+// ---- The scene with only the parts that it builds, as a scene file that needs no other file.
 
 namespace {
 
-// The tables of rig and truth that nothing in this scene reads.
+// The tables of rig and truth that this scene does not read.
 std::vector<std::string> unread(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   std::vector<std::string> tables;
   const auto without = [&](bool part, std::initializer_list<const char*> its) {
     if (!part) tables.insert(tables.end(), its.begin(), its.end());
   };
-  // Also without [force] the loop of a hexapod is judged by [rig.force]: how soft an object may be.
+  // [rig.force] also limits the softness of objects in the loop of a hexapod without [force].
   without(s.manipulator.has_value(),
           {"rig.manipulator", "rig.force", "rig.admittance", "truth.hexapod", "truth.structure"});
   if (s.manipulator && !setup.twin.structural()) tables.emplace_back("truth.structure");
@@ -227,7 +227,7 @@ std::vector<std::string> unread(const Setup& setup) {
   return tables;
 }
 
-// Shows another visitor all but some tables.
+// Passes all but some tables to another visitor.
 class Without final : public Visitor {
  public:
   Without(Visitor& to, std::vector<std::string> tables) : to_(to), tables_(std::move(tables)) {}
@@ -283,7 +283,7 @@ void walk_built(Visitor& visitor, Setup& setup) {
 }
 
 std::string built_scene(const Setup& setup) {
-  Setup copy = setup;  // visitors may write, this one does not
+  Setup copy = setup;  // visitors may write; this one does not
   return write_toml([&](Visitor& visitor) { walk_built(visitor, copy); });
 }
 

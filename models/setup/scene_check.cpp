@@ -36,7 +36,7 @@ void check_named(const Setup& setup, const std::vector<T>& items, const std::str
                    advice(name, names)));
 }
 
-// Only what the probe presses may be there instead of being rendered.
+// Only an object pressed by the probe may be real instead of rendered.
 void check_real(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
   const bool probed = setup.scene.probe && &o == &probed_object(setup.scene);
@@ -57,7 +57,7 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
   }
 }
 
-// `most`: where the behaviour ends, 0 while that is not known.
+// `most`: end of the behaviour, 0 while it is unknown.
 void check_contacts(const Setup& setup, const ObjectSpec& o, double most, const std::string& behaviour) {
   const LimitCheck found = check_limits(o, most);
   if (found.fault == LimitFault::none) return;
@@ -94,7 +94,7 @@ void check_contacts(const Setup& setup, const ObjectSpec& o, double most, const 
 void check_object(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
   if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button) {
-    check_unit(setup, path + ".normal", o.normal);  // mend_normals() has mended what has a direction
+    check_unit(setup, path + ".normal", o.normal);  // mend_normals() has scaled every vector with a direction
   }
   if (o.behaviour.empty()) return check_real(setup, o);
   const auto b = std::find_if(setup.scene.behaviours.begin(), setup.scene.behaviours.end(),
@@ -108,7 +108,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
   check_contacts(setup, o, most, b->name);
 }
 
-// Called before and after the curves are there.
+// Called before and after the curves are loaded.
 void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   if (b.interaction.kind != Interaction::press) return check_interaction(setup, b);
   const std::string path = "behaviour." + b.name;
@@ -138,7 +138,7 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   }
 }
 
-// ---- [user.session] and [user.reaches]
+// ---- [user.session] and [user.reaches].
 
 void check_pair(const Setup& setup, const std::string& table, const std::string& key,
                 const std::vector<double>& pair) {
@@ -161,8 +161,8 @@ void check_ranges(const Setup& setup, const std::string& table, const ReachRange
     check_pair(setup, table, key, *pair);
 }
 
-// Signed distance of a point to an object's surface, m; of triangles to the nearest vertex, of a button to
-// the ball around it.
+// Signed distance of a point to an object's surface, m. Triangles: to the nearest vertex. Button: to the ball
+// around it.
 double distance_to(const ObjectSpec& object, const Vec3& point) {
   const Vec3 from = point - object.position;
   switch (object.shape) {
@@ -176,7 +176,7 @@ double distance_to(const ObjectSpec& object, const Vec3& point) {
     case ShapeKind::box:
       break;
   }
-  double nearest = std::numeric_limits<double>::infinity();  // of a mesh that is not read yet
+  double nearest = std::numeric_limits<double>::infinity();  // a mesh may not be loaded yet
   if (object.surface == nullptr) return nearest;
   const Vec3 at = rotation_xyz(object.rotation).conjugate() * from / object.scale;
   for (const auto& [x, y, z] : object.surface->vertices)
@@ -184,7 +184,7 @@ double distance_to(const ObjectSpec& object, const Vec3& point) {
   return nearest;
 }
 
-// The machine follows a tool to the nearest object, whichever is pressed.
+// The machine follows a tool to the nearest object, whether or not it is pressed.
 void check_tray(const Setup& setup, const SessionSpec& s) {
   for (const ObjectSpec& object : setup.scene.objects)
     for (const double beside : {0.0, SessionSpec::kTrayBeside}) {
@@ -199,7 +199,7 @@ void check_tray(const Setup& setup, const SessionSpec& s) {
     }
 }
 
-// A kind of user that is drawn has a table of its own name; then it presses to a depth.
+// A random kind of user has a table of its own name, and presses to a depth.
 bool has_table(const Setup& setup, UserKind kind, bool there) {
   const UserSpec& user = *setup.scene.user;
   const std::string_view word = word_of(kind);
@@ -277,7 +277,7 @@ void check_user(const Setup& setup) {
   check_reaches(setup);
 }
 
-// The limits of the simulated ball's law (sim/bodies/ball_plant.h). A real machine may press other things.
+// Limits of the simulated ball's law (sim/bodies/ball_plant.h). A real machine may press other objects.
 void check_probe(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.probe || setup.rig.force.driver != "sim") return;
@@ -349,10 +349,10 @@ void check_gripper(const Setup& setup) {
                      mm(2.0 * g.stroke)));
 }
 
-// ---- what a camera and what it looks at are to each other
+// ---- The camera and the objects in its view.
 
-// Why a finger at the object would not be seen, as far as the rig knows where its camera stands; empty where
-// it would. Pinholes: what a lens does to the edge of an image does not matter here.
+// The reason why a finger at the object would be out of view, by the rig's camera pose; empty if it is in
+// view. Pinholes are enough: the distortion at the edge of an image does not matter here.
 std::string unseen(const RigSpec& rig, const ObjectSpec& object) {
   const StereoRig& camera = rig.camera;
   const Point<'C'> at = pose_of<'W', 'C'>(rig.frames.W_C).inverse() * Point<'W'>(object.position);
@@ -373,7 +373,7 @@ std::string unseen(const RigSpec& rig, const ObjectSpec& object) {
   return {};
 }
 
-// A registration of another rig shows before anything moves: the camera would not see what is to be met.
+// Detects a registration of another rig before anything moves: the camera would not see the objects.
 void check_views(const Setup& setup) {
   const std::vector<ObjectSpec>& objects = setup.scene.objects;
   const auto seen = [&](const ObjectSpec& object) { return unseen(setup.rig, object).empty(); };
@@ -385,7 +385,7 @@ void check_views(const Setup& setup) {
                    objects.size() > 1 ? ", and none of the others in view" : ""));
 }
 
-// The twin's camera against the rig's.
+// Compares the twin's camera with the rig's.
 void check_twin(const Setup& setup) {
   const StereoRig& believed = setup.rig.camera;
   const sim::CameraTruth& truth = setup.twin.camera;
@@ -402,7 +402,7 @@ void check_twin(const Setup& setup) {
              truth.back_at));
 }
 
-// Vision sees a bare fingertip.
+// Vision detects a bare fingertip only.
 void check_camera(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.camera) return;
@@ -425,7 +425,7 @@ void check_camera(const Setup& setup) {
   } catch (const Error& e) {
     fail(setup, e.key(), e.what());
   }
-  if (setup.rig.camera.driver == "sim") check_twin(setup);  // what is seen depends on the size
+  if (setup.rig.camera.driver == "sim") check_twin(setup);  // the view depends on the image size
   check_views(setup);
 }
 
@@ -463,7 +463,7 @@ void check_rig(const Setup& setup) {
   }
 }
 
-// The physics steps a whole number of times in a haptic period, and not so often that a run never ends.
+// A haptic period needs a whole number of physics steps, and not so many that a run never ends.
 void check_stepping(const Setup& setup) {
   constexpr double kMost = 1000.0;
   const sim::Stepping stepping = setup.twin.stepping(setup.scene);
@@ -501,7 +501,7 @@ void check_unit(const Setup& setup, const std::string& key, const Vec3& v) {
                    length, none ? " and no direction" : "", name, u.x(), u.y(), u.z()));
 }
 
-// As with [user] and a real tracker: the scene says what is done, and who does it is there.
+// As with [user] and a real tracker: the scene describes the pushes, and a real pusher must perform them.
 void note_pusher(Setup& setup) {
   const std::string& driver = setup.rig.force.driver;
   if (!setup.scene.pusher || driver == "none" || driver == "sim") return;

@@ -34,9 +34,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongest = 16U << 20U;  // bytes: more is no text of ours
+constexpr std::size_t kLongest = 16U << 20U;  // bytes: a larger file is no text of ours
 
-// `what`: "scene"; `names`: files that are there.
+// `what`: "scene"; `names`: existing files.
 std::string text_of_file(const std::string& path, const std::string& what,
                          const std::vector<std::string>& names) {
   std::string why;
@@ -58,7 +58,7 @@ void read_scene(Setup& setup) {
   if (!why.empty()) refuse_scene(setup.scene_path, why);
   setup.places = read_toml(text, setup.scene_path, [&](Visitor& visitor) {
     describe(visitor, setup.scene);
-    // A file that stands alone, as `encounter check --resolved` prints it, has its response curves, too.
+    // A file that stands alone, as `encounter check --resolved` prints it, also has its response curves.
     const bool alone = table_if(visitor, "rig", false, [&] { describe(visitor, setup.rig); });
     describe_behaviours(visitor, setup.scene.behaviours, alone);
     if (alone) table(visitor, "truth", [&] { describe(visitor, setup.twin); });
@@ -74,7 +74,7 @@ void clear_absent_drivers(Setup& setup) {
   });
 }
 
-// Else it is a name in models/rigs.
+// True for a path; otherwise it is a name in models/rigs.
 bool is_path(const std::string& rig) { return rig.find('/') != std::string::npos || rig.ends_with(".toml"); }
 
 void read_rig(Setup& setup, const std::string& rig) {
@@ -96,7 +96,7 @@ void read_rig(Setup& setup, const std::string& rig) {
   refuse_driverless(setup);
 }
 
-// A path that a scene names begins at the scene's folder, wherever the program was started.
+// A path in a scene starts at the scene's folder, wherever the program was started.
 std::string rig_of_scene(const Setup& setup) {
   const std::string& rig = setup.scene.rig;
   if (rig.empty()) return "sim";
@@ -112,7 +112,7 @@ void read_rig_of(Setup& setup, const std::string& rig) {
   clear_absent_drivers(setup);
 }
 
-// The entries of models/behaviours.toml, and where they stand.
+// The entries of models/behaviours.toml, and their places.
 struct BehaviourList {
   std::string path;
   std::vector<BehaviourSpec> all;
@@ -134,7 +134,7 @@ const BehaviourSpec* named(const std::vector<BehaviourSpec>& behaviours, const s
   return found == behaviours.end() ? nullptr : &*found;
 }
 
-// One name means one behaviour, in every scene.
+// One name means one behaviour in every scene.
 void refuse_second_meaning(const Setup& setup, const BehaviourList& shipped) {
   for (const BehaviourSpec& own : setup.scene.behaviours) {
     if (named(shipped.all, own.name) == nullptr) continue;
@@ -146,11 +146,11 @@ void refuse_second_meaning(const Setup& setup, const BehaviourList& shipped) {
   }
 }
 
-// Objects take behaviours of their scene file and of models/behaviours.toml. `alone`: of a file that holds a
+// Objects use behaviours of their scene file and of models/behaviours.toml. `alone`: for a file that holds a
 // rig, as `check --resolved` prints it, with the behaviours that were in use.
 void read_behaviours(Setup& setup, bool alone) {
   std::vector<BehaviourSpec>& used = setup.scene.behaviours;
-  // check() says where an empty one is wrong.
+  // check() reports an empty one.
   const auto is_there = [&](const ObjectSpec& o) {
     return o.behaviour.empty() || named(used, o.behaviour) != nullptr;
   };
@@ -173,7 +173,7 @@ void read_behaviours(Setup& setup, bool alone) {
     used.push_back(*found);
   }
   setup.places.insert(shipped.places.begin(),
-                      shipped.places.end());  // what the scene file says of them is there already
+                      shipped.places.end());  // the scene file's entries are already present
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ ResponseSpec load_response(const std::string& path) {
 
 namespace {
 
-// A file of models/directions: mixed for the press that [user] plans.
+// Reads a file of models/directions and mixes it for the press that [user] plans.
 ResponseSpec mixed_response(const Setup& setup, const BehaviourSpec& b, const std::string& path,
                             const std::string& models_dir) {
   const std::string place = place_of(setup, fmt::format("behaviour.{}.response", b.name));
@@ -278,13 +278,13 @@ bool has_curves(const Setup& setup, const BehaviourSpec& b) {
 
 void fill_curves(Setup& setup, const std::string& models_dir) {
   for (BehaviourSpec& b : setup.scene.behaviours) {
-    if (b.interaction.kind != Interaction::press) continue;  // rendered from its stiffness alone
+    if (b.interaction.kind != Interaction::press) continue;  // rendered by its stiffness alone
     if (b.response.empty()) {
       b.curves = {{b.stiffness, 0, 0, 0}, {b.stiffness, 0, 0, 0}, b.limit};
       continue;
     }
     if (has_curves(setup, b)) continue;
-    if (b.response.find('/') != std::string::npos)  // a scene names no file outside of models/
+    if (b.response.find('/') != std::string::npos)  // a scene may name no file outside of models/
       throw Error(fmt::format("{}: 'response' is {}; expected the name of a file in {}, without a path; {}",
                               place_of(setup, fmt::format("behaviour.{}.response", b.name)),
                               models::quoted(b.response),
@@ -337,7 +337,7 @@ std::string place_of(const Setup& setup, std::string_view key) {
 
 namespace {
 
-// Also where --rig names another one: a scene that is wrong is wrong everywhere.
+// Checks also if --rig names another rig: a wrong scene is wrong everywhere.
 void check_made_for(const Setup& setup) {
   const std::string& rig = setup.scene.rig;
   const std::vector<std::string> names = files_in(models_dir(), "rigs");

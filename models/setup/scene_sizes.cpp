@@ -17,7 +17,7 @@
 namespace enc::models {
 namespace {
 
-// The sizes of what a hand holds or touches, m.
+// Ordinary sizes of things that a hand holds or touches, m.
 struct Ordinary {
   double least, most;
   [[nodiscard]] bool has(double length) const { return length >= least && length <= most; }
@@ -25,16 +25,16 @@ struct Ordinary {
     return fmt::format("expected {} to {}", length_text(least), length_text(most));
   }
 };
-constexpr Ordinary kLever{0.020, 1.0};    // from the middle of a tool's markers to its tip
-constexpr Ordinary kSpan{0.020, 0.5};     // the longest way between two markers
-constexpr Ordinary kTip{0.00005, 0.030};  // the radius of a tip that is no point
-constexpr Ordinary kObject{0.005, 2.0};   // the longest side of a mesh and of a face, and a ball's diameter
-// The solid behind a button's face is so thick.
+constexpr Ordinary kLever{0.020, 1.0};    // distance of a tool's tip from the middle of its markers
+constexpr Ordinary kSpan{0.020, 0.5};     // longest distance between two markers
+constexpr Ordinary kTip{0.00005, 0.030};  // radius of a tip that is not a point
+constexpr Ordinary kObject{0.005, 2.0};   // longest side of a mesh and of a face, and a ball's diameter
+// Thickness of the solid behind a button's face.
 constexpr Ordinary kThick{0.001, 1.0};
-constexpr Ordinary kUsual{0.010, 1.0};  // the same, where a unit is guessed
+constexpr Ordinary kUsual{0.010, 1.0};  // size assumed for guessing a unit
 
 struct Factor {
-  double value;  // from this unit to the one that is expected
+  double value;  // factor from this unit to the expected one
   std::string_view unit;
 };
 constexpr auto kMeshUnits =
@@ -52,7 +52,7 @@ double span_of(const ToolSpec& tool) {
 }
 
 // "is 'radius_mm' in m? then write radius_mm = 33; or in cm? then ...": each unit of a key of millimetres
-// that gives an ordinary size; else "correct 'radius_mm'". `then`: what to do, for a factor.
+// that gives an ordinary size; else "correct 'radius_mm'". `then`: the remedy for a factor.
 std::string unit_advice(std::string_view key, const std::function<bool(double)>& ordinary,
                         const std::function<std::string(double)>& then) {
   std::string text;
@@ -63,7 +63,7 @@ std::string unit_advice(std::string_view key, const std::function<bool(double)>&
   return text.empty() ? fmt::format("correct '{}'", key) : text;
 }
 
-// The advice for a key with one length, m; `across`: how many of it make the size that is judged.
+// Advice for a key with one length, m; `across`: multiple of it that is judged as the size.
 std::string length_advice(std::string_view key, const Ordinary& ordinary, double length,
                           double across = 1.0) {
   return unit_advice(
@@ -93,7 +93,7 @@ std::string scale_advice(const ObjectSpec& object, double longest) {
   return text;
 }
 
-// To the micrometre, as a file has it.
+// Rounded to the micrometre, as in a file.
 std::string millimetres(const Vec3& v) {
   const auto rounded = [](double metres) { return std::round(metres * 1e6) / 1e3 + 0.0; };  // no -0
   return fmt::format("[{}, {}, {}]", rounded(v.x()), rounded(v.y()), rounded(v.z()));
@@ -103,7 +103,7 @@ void warn(Setup& setup, const std::string& key, const std::string& what) {
   setup.notes.push_back(fmt::format("{}: warning: {}", place_of(setup, key), what));
 }
 
-// The first unit in which the markers would be of an ordinary size, as a factor: 1 where they are or no unit
+// Factor of the first unit that gives the markers an ordinary size: 1 if they have it already or no unit
 // helps.
 double scale_of_markers(const ToolSpec& tool) {
   const double span = span_of(tool);
@@ -167,9 +167,9 @@ void note_button(Setup& setup, const ObjectSpec& object) {
                        length_advice(side.key, side.ordinary, side.length)));
 }
 
-// An object's origin may be beyond the reach of any machine.
+// An object's origin may be out of reach of every machine.
 void note_place(Setup& setup, const ObjectSpec& object) {
-  // No machine of a laboratory reaches so far, m.
+  // No machine of a laboratory reaches farther, m.
   constexpr double kFarthest = 10.0;
   const double away = object.position.norm();
   if (away <= kFarthest) return;

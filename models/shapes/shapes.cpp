@@ -20,7 +20,7 @@ std::int32_t add(Mesh& mesh, const Vec3& p) {
   return static_cast<std::int32_t>(mesh.vertices.size() - 1);
 }
 
-// Squares (i, j) of a grid that closes on itself in both directions.
+// Squares (i, j) of a grid that is closed in both directions.
 void close_torus(Mesh& mesh, int rows, int columns) {
   const auto at = [&](int i, int j) { return (i % rows) * columns + j % columns; };
   for (int i = 0; i < rows; ++i)
@@ -30,11 +30,11 @@ void close_torus(Mesh& mesh, int rows, int columns) {
     }
 }
 
-// Points on lattices of the faces of a solid, each made once: corners and edges are shared.
+// Points on lattices of the faces of a solid, each made once: faces share corners and edges.
 class Lattice {
  public:
   explicit Lattice(Mesh& mesh) : mesh_(mesh) {}
-  // `key` names the point in whole numbers, the same from each face that has it.
+  // `key` identifies the point by integers, equal for every face that has it.
   std::int32_t at(const std::array<std::int64_t, 3>& key, const Vec3& p) {
     const auto [found, fresh] = known_.try_emplace(key, 0);
     if (fresh) found->second = add(mesh_, p);
@@ -46,7 +46,7 @@ class Lattice {
   std::map<std::array<std::int64_t, 3>, std::int32_t> known_;
 };
 
-// Its edges are 2 long.
+// The edges have length 2.
 std::array<Vec3, 12> corners_of_icosahedron() {
   const double g = std::numbers::phi;
   return {Vec3(-1, g, 0),  Vec3(1, g, 0),  Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g),  Vec3(0, 1, g),
@@ -58,7 +58,7 @@ constexpr std::array<std::array<int, 3>, 20> kFaces{
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-// The triangles of a face that is cut n times each way; its points row by row.
+// Adds the triangles of a face that is cut n times each way; its points are row by row.
 void add_face(Mesh& mesh, const std::vector<std::int32_t>& ids, int n) {
   const auto id = [&](int i, int j) {
     return ids[static_cast<std::size_t>(j * (n + 1) - j * (j - 1) / 2 + i)];
@@ -137,7 +137,7 @@ Mesh box(const std::array<int, 3>& squares, const Vec3& size) {
 }
 
 std::shared_ptr<const Mesh> box_surface(const Vec3& size) {
-  constexpr double kFine = 0.0025, kMost = 40.0;  // m of a square; squares along an edge
+  constexpr double kFine = 0.0025, kMost = 40.0;  // m, side of a square; squares along an edge
   std::array<int, 3> squares{};
   for (std::size_t i = 0; i < 3; ++i)
     squares[i] =
@@ -151,7 +151,7 @@ Mesh turned_part(int sides) {
   struct Ring {
     double height, radius;  // m
   };
-  // Up the outside. Neighbours that differ by um make slivers; the fan at each end does so by itself.
+  // Profile up the outside. Neighbours a few um apart make slivers; so do the fans at both ends.
   constexpr std::array<Ring, 12> kRings{{{-0.020, 0.010},
                                          {-0.020, 0.030},
                                          {-0.012, 0.030},
@@ -188,7 +188,8 @@ Mesh turned_part(int sides) {
 }
 
 Mesh knot(int along, int around) {
-  // Curve and its derivative; the tube's frame leans on the axis of the torus, which the curve never follows.
+  // The curve and its derivative. The tube's frame uses the axis of the torus, which is never parallel to the
+  // curve.
   const double size = 0.011;  // m
   const auto curve = [=](double s) {
     const double r = 2.0 + std::cos(3.0 * s);
@@ -212,8 +213,7 @@ Mesh knot(int along, int around) {
 
 namespace {
 
-// ---- the shape, as a field: negative inside, about the distance outside; mm
-// -----------------------------------------------------------------------------
+// ---- The shape as a field: negative inside, roughly the distance outside; mm.
 
 // Union that rounds the seam over a width k.
 double joined(double a, double b, double k) {
@@ -228,7 +228,7 @@ double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
   return slope > 0.0 ? near * (near - 1.0) / slope : -radii.minCoeff();
 }
 
-// A rod with round ends, of one radius at a and another at b.
+// A rod with round ends, with one radius at a and another at b.
 double rod(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
   const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   return (p - a - t * (b - a)).norm() - (ra + t * (rb - ra));
@@ -248,7 +248,7 @@ double ear(const Vec3& p, const Vec3& root, const Vec3& tip, const Vec3& face, d
 }
 
 double hare(const Vec3& at) {
-  const Vec3 p(at.x(), std::abs(at.y()), at.z());                        // left and right are the same
+  const Vec3 p(at.x(), std::abs(at.y()), at.z());                        // left and right are mirror images
   double d = ellipsoid(p, {-3, 0, 17}, {20, 11.5, 12.5});                // trunk
   d = joined(d, ellipsoid(p, {-14, 0, 16}, {13, 12, 14.5}), 6.0);        // rump
   d = joined(d, ellipsoid(p, {11, 0, 15}, {9.5, 8.5, 10.5}), 6.0);       // chest
@@ -266,8 +266,8 @@ double hare(const Vec3& at) {
   return joined(d, ear(p, {19.5, 2.4, 35}, {12.5, 7.5, 61}, {1, 0.45, 0.2}, 4.6, 2.3), 2.0);
 }
 
-// ---- its surface: one vertex in each cell that the surface crosses, one quad around each crossed edge
-// [Gibson 1998, "Constrained elastic surface nets"] ------------------------------------------------
+// ---- Its surface: one vertex in each cell that the surface crosses, one quad around each crossed edge
+// [Gibson 1998, "Constrained elastic surface nets"].
 
 constexpr double kCell = 0.99;  // mm
 constexpr std::array<int, 3> kCells{73, 34, 65};
@@ -287,7 +287,7 @@ class Net {
         for (int i = 0; i <= kCells[0]; ++i)
           for (std::size_t axis = 0; axis < 3; ++axis) add_quad({i, j, k}, axis);
     for (auto& vertex : mesh_.vertices) {
-      vertex[0] += 12.0;  // so that the origin is under the highest place of the back
+      vertex[0] += 12.0;  // puts the origin under the highest point of the back
       for (double& x : vertex) x *= 1e-3;
     }
     return std::move(mesh_);
@@ -309,7 +309,7 @@ class Net {
         for (int i = 0; i <= kCells[0]; ++i) value_[index({i, j, k})] = hare(place(Vec3(i, j, k)));
   }
 
-  // The mean of where the cell's edges are crossed, moved onto the surface.
+  // The mean of the crossings on the cell's edges, moved onto the surface.
   void add_vertex(const Cell& c) {
     Vec3 sum = Vec3::Zero();
     int crossings = 0;
@@ -332,7 +332,7 @@ class Net {
     mesh_.vertices.push_back({p.x(), p.y(), p.z()});
   }
 
-  // Newton's steps down the gradient, within the cell whose lowest corner is `low`.
+  // Newton steps along the gradient, within the cell whose lowest corner is `low`.
   static Vec3 onto_surface(Vec3 p, const Vec3& low) {
     constexpr double kStep = 1e-4;
     for (int i = 0; i < 4; ++i) {
@@ -365,13 +365,13 @@ class Net {
               Vec3(mesh_.vertices[static_cast<std::size_t>(q[j])].data()))
           .squaredNorm();
     };
-    const std::size_t s = apart(0, 2) <= apart(1, 3) ? 0 : 1;  // along the shorter diagonal
+    const std::size_t s = apart(0, 2) <= apart(1, 3) ? 0 : 1;  // splits along the shorter diagonal
     mesh_.triangles.push_back({q[s], q[s + 1], q[s + 2]});
     mesh_.triangles.push_back({q[s], q[s + 2], q[(s + 3) % 4]});
   }
 
   std::vector<double> value_;
-  std::vector<std::int32_t> vertex_;  // of each cell; -1: none
+  std::vector<std::int32_t> vertex_;  // vertex of each cell; -1: none
   Mesh mesh_;
 };
 

@@ -24,7 +24,7 @@ LengthUnit unit_for(double metres) {
       std::find_if(kLengths.begin(), kLengths.end(), [&](const LengthUnit& u) { return u.in_metres > size; });
   return larger == kLengths.begin() ? *larger : *(larger - 1);
 }
-// Three digits; what is below a thousandth of the largest is 0.
+// Three digits; a value below a thousandth of the largest is 0.
 std::string in_unit(double metres, double largest, const LengthUnit& unit) {
   return std::abs(metres) < 5e-4 * largest ? "0" : fmt::format("{:.3g}", metres / unit.in_metres);
 }
@@ -53,7 +53,7 @@ MeshSize size_of(const Mesh& mesh) {
 }
 
 std::string length_text(double metres) {
-  if (std::abs(metres) < 1e-12) return "0 mm";  // rounding of what is a metre large
+  if (std::abs(metres) < 1e-12) return "0 mm";  // rounding error at a size of a metre
   const LengthUnit unit = unit_for(metres);
   return fmt::format("{:.3g} {}", metres / unit.in_metres, unit.label);
 }

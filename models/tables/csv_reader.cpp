@@ -127,7 +127,7 @@ std::string_view csv_header(std::string_view text) {
 
 std::string csv_text(const std::string& path, const std::string& kind, const std::string& wanted) {
   constexpr std::size_t kLongest = 1U << 30U;         // bytes
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // that some programs put before UTF-8
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // some programs write it before UTF-8
   std::string why, text = read_file(path, kLongest, why);
   if (!why.empty())
     throw Error(

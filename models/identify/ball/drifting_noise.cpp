@@ -10,7 +10,7 @@ namespace enc::models {
 double whiten(std::span<const NoisyMean> means, const DriftingNoise& noise,
               Eigen::Ref<Eigen::MatrixXd> columns) {
   Eigen::RowVectorXd level(columns.cols());
-  double known = 0.0;  // variance of the level, in units of a reading's
+  double known = 0.0;  // variance of the level, in units of a reading's variance
   double logs = 0.0;
   for (std::size_t i = 0; i < means.size(); ++i) {
     auto row = columns.row(static_cast<Eigen::Index>(i));
@@ -39,7 +39,7 @@ DriftingNoise drifting_noise(std::span<const NoisyMean> means, const Eigen::Vect
   const double freedom = static_cast<double>(residuals.size() - pushes - jacobian.cols());
   Eigen::MatrixXd columns(residuals.size(), jacobian.cols() + 1);
   columns << residuals, jacobian;
-  // Minus twice the logarithm of the likelihood, the size of the noise taken as it fits best.
+  // Minus twice the logarithm of the likelihood, at the best-fitting size of the noise.
   const auto unlikely = [&](double log_walk) {
     Eigen::MatrixXd white = columns;
     const double logs = whiten(means, {std::exp(log_walk)}, white);
@@ -50,7 +50,7 @@ DriftingNoise drifting_noise(std::span<const NoisyMean> means, const Eigen::Vect
     return freedom * std::log(std::max(squares, 1e-300)) + logs +
            gram.vectorD().cwiseMax(1e-300).array().log().sum();
   };
-  // The golden section; between nothing that a minute shows and a zero that is never where it was.
+  // Golden-section search, from a walk that no minute shows to a zero that never returns.
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   double low = std::log(1e-5);
   double high = std::log(1e5);

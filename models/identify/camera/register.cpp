@@ -21,7 +21,7 @@ namespace {
 
 using Mat4 = Eigen::Matrix4d;
 
-constexpr double kSmallest = 1e-6;  // m rms: no device separates nearer places
+constexpr double kSmallest = 1e-6;  // m rms: no device resolves smaller distances
 
 struct Cloud {
   Vec3 middle{0, 0, 0};
@@ -29,8 +29,8 @@ struct Cloud {
   double condition = kUnset;
 };
 
-// Turning about an axis moves the points by their distances from it, so their mean squares are what is known
-// of that turn: the trace less the spread along the axis.
+// A rotation about an axis moves the points in proportion to their distance from it. So the mean square of
+// these distances determines the accuracy of that rotation: the trace less the spread along the axis.
 double condition_of(const Mat3& scatter) {
   const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
   const double least = std::max(0.0, along(0) + along(1));
@@ -120,11 +120,11 @@ Registration register_points(std::span<const PointPair> pairs, std::size_t fewes
 
 namespace {
 
-constexpr double kFarthest = 10.0;      // m: nothing of this kind is larger; what is, is in mm
-constexpr double kStandstill = 0.5e-3;  // m: between frames of one place the device moves less
-constexpr double kMostScale = 2.0;    // rigid frames are of one size; what differs so much is in another unit
-constexpr double kMirror = 0.1;       // a mirror image that leaves a tenth of the error is what was measured
-constexpr double kSmallError = 1e-4;  // m rms: where even the rotation leaves less, nothing is reversed
+constexpr double kFarthest = 10.0;      // m: larger positions are in mm
+constexpr double kStandstill = 0.5e-3;  // m: largest motion of the device between frames of one position
+constexpr double kMostScale = 2.0;      // rigid frames have equal scale; such a ratio means another unit
+constexpr double kMirror = 0.1;         // share of the error: a mirror image below it is the right reading
+constexpr double kSmallError = 1e-4;    // m rms: if the plain rotation leaves less, no axis is reversed
 
 enum : std::size_t { kCamera, kDevice = kCamera + 3, kPair = kDevice + 3 };
 constexpr std::array<std::string_view, 6> kColumns{"camera_x_m", "camera_y_m", "camera_z_m",
@@ -207,7 +207,7 @@ class PointReader {
 
   CsvReader row_;
   PointSet places_;
-  std::map<std::int64_t, std::size_t> by_number_;  // place of a number among these
+  std::map<std::int64_t, std::size_t> by_number_;  // index of a number in places_
   std::size_t header_ = 1;
 };
 
@@ -235,7 +235,7 @@ std::vector<PointPair> averages(const PointSet& places, std::size_t frames) {
 bool is_point_set(const std::string& text) {
   const std::string_view header = csv_header(text);
   const auto has = [&](std::string_view part) { return header.find(part) != std::string_view::npos; };
-  return has("camera_") || has("device_");  // one of them misspelt is still meant to be one
+  return has("camera_") || has("device_");  // even with a misspelt column it counts as such a file
 }
 
 PointSet parse_points(const std::string& text, const std::string& name) {

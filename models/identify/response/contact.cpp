@@ -15,7 +15,7 @@
 namespace enc::models {
 namespace {
 
-// Rows of one number, others between them only where they have none.
+// Rows with one repeat number, including rows without a number between them.
 std::vector<PressRows> marked(std::span<const LoopRow> rows) {
   std::vector<PressRows> presses;
   std::int64_t repeat = 0;
@@ -34,10 +34,10 @@ struct Extent {
   [[nodiscard]] double at(double share) const { return low + share * (high - low); }
 };
 
-// Cuts a press where it was released in between: at the deflection that lies farthest out there.
+// Cuts a press that was released in between, at the outermost deflection there.
 void add_pieces(std::span<const LoopRow> rows, const PressRows& press, std::vector<PressRows>& pieces) {
   constexpr double kReleased = 0.05, kPressed = 0.5;  // of the force
-  constexpr int kFew = 3;                             // readings: fewer are noise
+  constexpr int kFew = 3;                             // readings: fewer of them are noise
   Extent force, depth;
   for (std::size_t i = press.first; i <= press.last; ++i) {
     if (!std::isnan(rows[i].force)) force.take(rows[i].force);
@@ -66,7 +66,7 @@ void add_pieces(std::span<const LoopRow> rows, const PressRows& press, std::vect
   pieces.push_back(piece);
 }
 
-// How far the rows belong to the way in or out: until the motion turns, seen from the deepest reading.
+// End of the way in or out: the reading at which the motion turns, seen from the deepest reading.
 std::size_t way_end(const std::vector<double>& positions, std::size_t deepest, std::size_t stop,
                     double depth) {
   constexpr double kTurns = 0.2;  // of the depth
@@ -93,7 +93,7 @@ std::vector<double> without_spikes(std::vector<double> values) {
 }
 
 double position_noise(std::span<const double> positions) {
-  constexpr double kShare = 0.9, kQuantile = 1.6449;  // of a normal number's size
+  constexpr double kShare = 0.9, kQuantile = 1.6449;  // quantile of the absolute value of a normal number
   std::vector<double> second;
   for (std::size_t i = 2; i < positions.size(); ++i)
     second.push_back(std::abs(positions[i] - 2.0 * positions[i - 1] + positions[i - 2]));
@@ -127,9 +127,9 @@ std::vector<PressRows> presses_in(std::span<const LoopRow> rows) {
 
 namespace {
 
-constexpr std::size_t kBins = 300;  // of deflection, in a window
+constexpr std::size_t kBins = 300;  // bins of deflection in a window
 
-// Means of readings of like deflection.
+// Means of readings with similar deflection.
 struct Bin {
   double weight = 0.0, deflection = 0.0, force = 0.0;
 };
@@ -140,7 +140,7 @@ double mean_of(const std::vector<double>& x, std::size_t from, std::size_t to) {
   return std::accumulate(at(from), at(to), 0.0) / static_cast<double>(to - from);
 }
 
-// Readings of an approach: those before contact, and in contact up to this share of the force.
+// Range of readings of an approach: before contact, and in contact up to this share of the force.
 std::pair<std::size_t, std::size_t> window_of(const Approach& a, double share) {
   const std::size_t n = a.force.size(), few = std::max<std::size_t>(1, n / 400);
   const double zero = mean_of(a.force, 0, std::max<std::size_t>(few, std::min<std::size_t>(n, 5)));
@@ -148,7 +148,7 @@ std::pair<std::size_t, std::size_t> window_of(const Approach& a, double share) {
   std::size_t to = n;
   while (to > few && std::abs(mean_of(a.force, to - few, to) - zero) > share * std::abs(top - zero))
     to -= few;
-  // As far out as it is to the deepest reading: more only makes the bins coarse.
+  // The window extends as far out as to the deepest reading; more would only make the bins coarse.
   const double end = a.deflection[to - 1];
   const double span = *std::max_element(a.deflection.begin(), a.deflection.end()) - end;
   std::size_t from = to;
@@ -176,7 +176,7 @@ Bins bins_of(const Approach& a, double share) {
   return bins;
 }
 
-// Sum of the squares that are left over if contact begins there, N^2.
+// Sum of squared residuals, N^2, if contact begins at `onset`.
 double left_over(std::span<const Bins> all, double onset) {
   Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -206,10 +206,11 @@ double left_over(std::span<const Bins> all, double onset) {
 
 struct Candidate {
   double at = kUnset, error = kUnset;  // m
-  double reach = kUnset;               // m, from there to the deepest reading of the window
+  double reach = kUnset;               // m, from `at` to the deepest reading of the window
 };
 
-// The least of the sums, first on a coarse grid and then on two fine ones; its curvature gives the error.
+// The onset with the least sum, first on a coarse grid and then on two fine ones. The curvature of the sum
+// gives the error.
 Candidate candidate_of(std::span<const Approach> approaches, double share) {
   std::vector<Bins> all;
   double low = INFINITY, high = -INFINITY, count = 0.0;
@@ -230,11 +231,11 @@ Candidate candidate_of(std::span<const Approach> approaches, double share) {
       const double here = from + i * step, sum = left_over(all, here);
       if (sum < least) least = sum, best = here;
     }
-    if (zoom == 0 && (best <= low + 0.03 * (high - low))) return {};  // it begins in contact
+    if (zoom == 0 && (best <= low + 0.03 * (high - low))) return {};  // the approaches begin in contact
     from = best - 2.0 * step, to = best + 2.0 * step;
   }
   const double variance = least / std::max(1.0, count - static_cast<double>(all.size()) - 3.0);
-  const double wide = 1e-3 * (high - low);  // over some bins: a sum of bins has kinks
+  const double wide = 1e-3 * (high - low);  // over several bins, because a sum over bins has kinks
   const double bend =
       (left_over(all, best - wide) + left_over(all, best + wide) - 2.0 * least) / (wide * wide);
   return {best, bend > 0.0 ? std::sqrt(2.0 * variance / bend) : variance > 0.0 ? kUnset : 0.0, high - best};
@@ -245,11 +246,12 @@ Candidate candidate_of(std::span<const Approach> approaches, double share) {
 Onset find_onset(std::span<const Approach> approaches) {
   constexpr std::array<double, 3> kShares{0.30, 0.15, 0.07};
   constexpr double kAgree = 2.5;         // standard deviations
-  constexpr double kLeastBefore = 0.04;  // of the depth: so much has to lie before contact
-  constexpr double kChance = 0.5;        // of the windows' range, where they differ by chance alone
-  constexpr double kUnsure = 0.01;       // of the depth, of a curve that one window alone shows
-  // Share of the smallest window that is added if the curve begins softly. The nominal ball (felt, friction)
-  // is found 0.30 mm too late at 20 mm/s, 0.45 of that window: 1.8 standard deviations of this error.
+  constexpr double kLeastBefore = 0.04;  // least share of the depth before contact
+  constexpr double kChance = 0.5;        // share of the windows' range, if they differ by chance alone
+  constexpr double kUnsure = 0.01;       // share of the depth, for a curve that only one window shows
+  // Share of the smallest window that is added to the error if the curve begins softly. The nominal ball
+  // (felt, friction) is found 0.30 mm too late at 20 mm/s, 0.45 of that window: 1.8 standard deviations of
+  // this error.
   constexpr double kSoft = 0.25;
   std::array<Candidate, kShares.size()> found;
   for (std::size_t i = 0; i < kShares.size(); ++i) found[i] = candidate_of(approaches, kShares[i]);
@@ -268,7 +270,7 @@ Onset find_onset(std::span<const Approach> approaches) {
   if (agree(0, 1) && agree(0, 2))
     onset = {found[0].at, std::hypot(found[0].error, kChance * (high - low))};
   else if (known(1) && known(2)) {
-    // Each smaller window begins earlier: what a still smaller one would find is open.
+    // Each smaller window finds an earlier onset, so a still smaller one may find an even earlier one.
     const bool soft = known(0) && found[0].at > found[1].at && found[1].at > found[2].at;
     onset = {found[2].at,
              std::hypot(found[2].error, std::max(high - low, soft ? kSoft * found[2].reach : 0.0))};
@@ -280,8 +282,8 @@ Onset find_onset(std::span<const Approach> approaches) {
 
 namespace {
 
-constexpr double kLeast = 1e-3;  // of the force's rise, of the depth: less is not worth a correction
-// A zero that differs by more than this share of the rise bends the curve.
+constexpr double kLeast = 1e-3;  // share of the force's rise, of the depth: least correction
+// A zero that changes by more than this share of the rise bends the curve.
 constexpr double kOtherForce = 0.05;
 
 class ContactFinder {
@@ -324,8 +326,8 @@ class ContactFinder {
   double begin() const { return contact_.onset.known() ? contact_.onset.at : 0.0; }
   double depth(const PressRows& press) const { return rows_[press.deepest].deflection - begin(); }
 
-  // Rows of a way on which nothing touches, without those where it rests farthest out if enough remain: there
-  // a rig may take its zero anew.
+  // Zero from the rows of a way without contact. It leaves out the rows at rest farthest out if enough others
+  // remain, because a rig may tare again there.
   ForceZero zero_of(const PressRows& press, std::size_t from, std::size_t to) const {
     constexpr double kOutside = 0.02;  // of the depth
     constexpr std::size_t kEnough = 20;
@@ -378,8 +380,8 @@ class ContactFinder {
     find_drift();
   }
 
-  // The zero after a press is one where it is like that before, or where a drift leads from the one to the
-  // other. Else it is another force, such as adhesion.
+  // The force after a press is a zero if it equals the one before, or if a drift connects both. Otherwise it
+  // is another force, such as adhesion.
   void find_drift() {
     contact_.drift = 0.0, contact_.other_press = 0, contact_.untold_drift = false;
     const std::vector<PressZero> found = contact_.zeros;
@@ -403,12 +405,12 @@ class ContactFinder {
       contact_.zeros[k].after = {};
       if (contact_.other_press == 0) contact_.other_press = k + 1, contact_.other_force = moved;
     }
-    // A drift that was found goes on in presses without rows after them, where nothing subtracts it.
+    // A detected drift continues in presses without rows after them, and no correction removes it there.
     const auto open = [](const PressZero& zero) { return zero.before.known() && !zero.after.known(); };
     if (contact_.drift != 0.0 && std::any_of(found.begin(), found.end(), open)) contact_.untold_drift = true;
   }
 
-  // The zero moves before the press so fast that it is another one at its deepest reading.
+  // True if the zero moves so fast before the press that it differs at the deepest reading.
   [[nodiscard]] bool leads_away(const ForceZero& before, std::size_t k, double most) const {
     constexpr double kSure = 0.25;  // of the change
     const double lasts = rows_[presses_[k].deepest].time - before.time;
@@ -418,7 +420,7 @@ class ContactFinder {
 
   // The zero's change on the way to the press, and from one press to the next, reveals a drift.
   static bool drifts(std::span<const PressZero> zeros, std::size_t k) {
-    // A rate has to be known to the first share of the change, and to be like it within the second.
+    // The rate must be known to the first share of the change, and must agree with it within the second.
     constexpr double kSure = 0.25, kLike = 0.5;
     const ForceZero &before = zeros[k].before, &after = zeros[k].after;
     const double lasts = after.time - before.time, moved = after.force - before.force;
@@ -450,7 +452,7 @@ class ContactFinder {
     }
   }
 
-  // A press that has no zero of its own has that of the nearest one in time.
+  // A press without a zero of its own takes that of the nearest press in time.
   void fill() {
     const std::vector<PressZero> own = contact_.zeros;
     for (std::size_t k = 0; k < own.size(); ++k) {

@@ -28,7 +28,7 @@ struct Plateau {
   double from = kUnset, time = kUnset;
 };
 
-// The grain of a force, N: its noise from reading to reading, or its steps where these are larger.
+// The grain of a force, N: its noise between readings, or its steps if these are larger.
 double grain_of(std::span<const LoopPoint> moving) {
   std::vector<double> forces;
   forces.reserve(moving.size());
@@ -54,8 +54,8 @@ double rise_between(std::span<const LoopPoint> moving, double from, double to) {
 Plateau plateau_of(std::span<const LoopPoint> moving) {
   // A plateau begins so many grains below the largest force.
   constexpr double kNear = 4.0;
-  // The force rises over it by less grains than this, and by less than this share of the rise over as long a
-  // way before it.
+  // The force rises over the plateau by fewer grains than this. It also rises by less than this share of the
+  // rise over an equal distance before.
   constexpr double kFlat = 2.0, kShare = 0.25;
   // It is longer than this share of the depth.
   constexpr double kShortest = 0.02;
@@ -77,24 +77,24 @@ Plateau plateau_of(std::span<const LoopPoint> moving) {
                                                                                                   : Plateau{};
 }
 
-// ---- the branches of a press: pressing and releasing, at any ratio of their speeds and with any hold
-// between
+// ---- The branches of a press: pressing and releasing, at any ratio of their speeds and with any hold
+// between.
 
-constexpr double kOfUsual = 0.25;     // of the usual travel: with less the probe is at standstill or turns
-constexpr double kTurnNoise = 8.0;    // standard deviations: so near to the deepest reading both branches mix
-constexpr double kSameGround = 0.01;  // of the depth: ground that lies farther out was covered before
-constexpr int kLevels = 16;           // of depth, between which speed is measured
+constexpr double kOfUsual = 0.25;     // share of the usual travel: with less, the probe stands still or turns
+constexpr double kTurnNoise = 8.0;    // standard deviations: closer to the deepest reading, branches mix
+constexpr double kSameGround = 0.01;  // share of the depth: a reading farther out repeats a range
+constexpr int kLevels = 16;           // levels of depth for measuring the speed
 
 struct Branch {
-  std::size_t from = 0, to = 0;  // of the press, `to` not included
+  std::size_t from = 0, to = 0;  // readings of the press; `to` is excluded
   double sign = 1.0;             // of the travel
 
-  // The k-th reading from the outside in.
+  // The k-th reading, counted from the outside inwards.
   [[nodiscard]] std::size_t inwards(std::size_t k) const { return sign > 0.0 ? from + k : to - 1 - k; }
 };
 
-// Travel from one reading to the next, m: the middle one of those between levels of depth, which neither a
-// hold nor a slow end rules.
+// Usual travel between two readings, m: the median over levels of depth, so that neither a hold nor a slow
+// end dominates it.
 double usual_step(std::span<const double> depth, const Branch& branch, double deepest) {
   std::vector<double> crossed, readings;
   int level = 1;
@@ -117,10 +117,10 @@ struct Window {
   double step = 0.0;        // m, of the branch, from one reading to the next
 };
 
-// As long as noise demands, so that a hold is not taken for motion.
+// The window is as long as noise requires, so that a hold does not count as motion.
 Window window_of(std::span<const double> depth, const Branch& branch, double deepest, double noise) {
   constexpr double kShare = 1.0 / 50.0;  // of a branch
-  constexpr double kOver = 14.0;         // standard deviations of travel at usual speed: 5 of the threshold
+  constexpr double kOver = 14.0;         // standard deviations of travel at usual speed; the threshold has 5
   const double step = usual_step(depth, branch, deepest);
   const double moving = deepest / step;  // readings
   double half = std::clamp(moving * kShare, 1.0, 20.0);
@@ -132,7 +132,8 @@ Window window_of(std::span<const double> depth, const Branch& branch, double dee
   return window;
 }
 
-// Runs of readings at standstill that outlast the window, and what the window reaches on either side of them.
+// Marks runs of readings at standstill that are longer than the window, and the readings within reach of it
+// on either side.
 std::vector<bool> holds_in(const std::vector<bool>& still, std::ptrdiff_t half) {
   std::vector<bool> held(still.size(), false);
   const auto n = static_cast<std::ptrdiff_t>(still.size());
@@ -165,7 +166,7 @@ Motion motion_in(std::span<const double> depth, const Branch& branch, const Wind
   return motion;
 }
 
-// The readings at which the way turns by more than `least`, and the first and the last.
+// The readings at which the motion reverses by more than `least`, and the first and the last reading.
 std::vector<std::size_t> turns_in(std::span<const double> depth, double least) {
   std::vector<std::size_t> turns{0};
   std::size_t low = 0, high = 0;
@@ -185,15 +186,15 @@ std::vector<std::size_t> turns_in(std::span<const double> depth, double least) {
   return turns;
 }
 
-// A hand that holds a depth trembles about it: its strokes are too short for a press.
+// Marks the tremor of a hand that holds a depth: its strokes are too short for a press.
 std::vector<bool> tremor_in(std::span<const double> depth, double least, double deepest) {
-  // A stroke of a tremor is no longer than this, m, and than this share of the depth.
+  // A tremor's stroke is no longer than this, m, and than this share of the depth.
   constexpr double kLongest = 0.8e-3, kShare = 0.25;
   const double most = std::min(kLongest, kShare * deepest);
   std::vector<bool> trembles(depth.size(), false);
   const std::vector<std::size_t> turns = turns_in(depth, least);
   for (std::size_t k = 1; k < turns.size(); ++k) {
-    // The first and the last stroke are of a press.
+    // The first and the last stroke belong to a press.
     const bool inner = k > 1 && k + 1 < turns.size();
     if (!inner || std::abs(depth[turns[k]] - depth[turns[k - 1]]) > most) continue;
     for (std::size_t i = turns[k - 1]; i <= turns[k]; ++i) trembles[i] = true;
@@ -201,7 +202,7 @@ std::vector<bool> tremor_in(std::span<const double> depth, double least, double 
   return trembles;
 }
 
-// Leaves out readings over ground that the branch has covered before.
+// Leaves out readings over a range that the branch has covered before.
 void leave_minor_loops(std::span<const double> depth, const Branch& branch, double margin,
                        const std::vector<bool>& trembles, std::vector<bool>& moves) {
   double covered = -INFINITY;
@@ -217,8 +218,8 @@ void leave_minor_loops(std::span<const double> depth, const Branch& branch, doub
 struct Turn {
   std::size_t at = 0, first = 0, last = 0;
 
-  // A turn without a hold, at like speeds: the windows that span it show no travel, so the readings near
-  // to it are left out already.
+  // A turn without a hold, at similar speeds: windows across it show no travel, so the readings near it are
+  // already left out.
   [[nodiscard]] bool sharp(const Window& in, const Window& out, double margin) const {
     constexpr double kAlike = 1.25, kSpare = 2.0;
     const double readings = margin / in.step + margin / out.step;
@@ -283,7 +284,7 @@ std::int64_t repeat_of(const CsvReader& row) {
   return static_cast<std::int64_t>(which);
 }
 
-// Times go forwards. A clock that each repeat starts anew is the usual reason where they do not.
+// Time must increase. The usual cause if it does not: the clock restarts with each repeat.
 class Clock {
  public:
   double next(const CsvReader& row, std::int64_t repeat) {
@@ -297,7 +298,7 @@ class Clock {
 
  private:
   [[noreturn]] void fail(const CsvReader& row, double time, std::int64_t repeat) const {
-    constexpr double kNearFirst = 0.1;  // of the time so far
+    constexpr double kNearFirst = 0.1;  // share of the time so far
     const bool changes = repeat != last_repeat_ && time - first_ <= kNearFirst * (before_ - first_);
     if (count_ > 2 && (changes || time <= first_))
       row.fail(kTime,
@@ -327,7 +328,7 @@ std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
   while (row.next()) {
     const std::int64_t which = repeat_of(row);
     LoopRow reading{clock.next(row, which), 0.0, kUnset, which, row.line()};
-    // A rig that has not found its zero yet measures no force; outside of a press nothing is lost by that.
+    // A rig without a zero yet reports no force; outside of a press that does no harm.
     const auto given = [&](std::size_t column) { return which != 0 || !row.text(column).empty(); };
     if (given(kForce)) reading.force = row.number(kForce);
     if (!given(kDeflection)) continue;
@@ -341,11 +342,11 @@ std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
   return rows;
 }
 
-// Readings in contact, with the zero of the force and the begin of contact put right.
+// Readings in contact, with corrected force zero and begin of contact.
 std::vector<LoopPoint> in_contact(std::span<const LoopRow> rows, const PressRows& press, std::size_t which,
                                   const Contact& contact) {
   std::vector<LoopPoint> points;
-  // If contact begins elsewhere than at 0, the file's marks may be wrong about the rows in contact.
+  // If contact does not begin at 0, the file's marks may be wrong about the rows in contact.
   const std::size_t from = contact.shift ? press.from : press.first;
   const std::size_t to = contact.shift ? press.to : press.last;
   for (std::size_t i = from; i <= to; ++i) {
@@ -358,8 +359,8 @@ std::vector<LoopPoint> in_contact(std::span<const LoopRow> rows, const PressRows
   return points;
 }
 
-// A line through force over deflection of what is pressed: how far the force rises along it up to the limit,
-// and what scatters about it.
+// A line through force over deflection of the pressing branch: its rise up to the limit, and the scatter
+// about it.
 struct Rise {
   double force = 0.0, scatter = 0.0;  // N
 };
@@ -375,7 +376,7 @@ Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
   return {slope * limit, std::sqrt(std::max(0.0, ff - f * f / n - slope * slope * spread) / n)};
 }
 
-// The force at 0 mm, by the outermost readings of one branch of the presses.
+// The force at 0 mm, from the outermost readings of one branch of the presses.
 struct Start {
   double force = 0.0, error = kUnset;  // N
   double slope = 0.0;                  // N/m
@@ -407,8 +408,8 @@ Start start_of(const LoopData& loop, double limit, bool pressing) {
   return {x[0], std::sqrt(variance * inverse(0, 0)), (x[1] + 2.0 * x[2] * least / limit) / limit};
 }
 
-// A file that begins in contact has no zero of its own: its force has to begin at 0 N and 0 mm. Returns a
-// note where it begins near to that, but not by chance.
+// A file that begins in contact has no zero of its own, so its force must begin at 0 N and 0 mm. Returns a
+// note if it begins near that, but not by chance.
 std::string check_start(const CsvReader& where, const LoopData& loop, double limit, double rise) {
   constexpr double kMost = 0.04;         // of the rise
   constexpr double kWorthANote = 0.002;  // of the rise
@@ -431,14 +432,14 @@ std::string check_start(const CsvReader& where, const LoopData& loop, double lim
       start.force));
 }
 
-// Nor has such a file a zero after contact: a release that ends with another force than the press began with
-// has drifted, or clings. Returns a note.
+// Such a file has no zero after contact either. A release that ends with another force than the press began
+// with has drifted, or the object clings. Returns a note.
 std::string check_end(const LoopData& loop, double limit, double rise) {
-  // The ends may differ by this share of the rise, or by so many standard deviations.
+  // The ends may differ by this share of the rise, or by this many standard deviations.
   constexpr double kMost = 0.04, kBeyondChance = 6.0;
   const Start start = start_of(loop, limit, true), end = start_of(loop, limit, false);
   const double apart = end.force - start.force;
-  // A force that is almost nothing has no sign.
+  // Adding 0.0 removes the sign of a rounded -0.
   const auto rounded = [](double force) { return std::round(force * 1e2) / 1e2 + 0.0; };
   if (!(std::abs(apart) > std::max(kMost * rise, kBeyondChance * std::hypot(start.error, end.error))))
     return "";
@@ -477,9 +478,9 @@ void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
                     deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
 }
 
-// A force that no hand presses is in another unit than newtons.
+// A force beyond any hand is in another unit than newtons.
 void check_force(const CsvReader& where, const LoopData& loop, double limit) {
-  // No hand and no machine of a table presses with more, N.
+  // Neither a hand nor a table-top machine presses with more, N.
   constexpr double kMost = 300.0;
   struct Unit {
     double in_newtons;
@@ -502,10 +503,10 @@ void check_force(const CsvReader& where, const LoopData& loop, double limit) {
                   most, limit * 1e3, kMost, advice.empty() ? "see to the unit of force_N" : advice));
 }
 
-// Conditions on the whole file; `where` is its end.
+// Checks the whole file; `where` is its end.
 void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known) {
   constexpr std::ptrdiff_t kFewest = 20;
-  constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
+  constexpr double kLeastForce = 1e-3;  // N: a smaller force is no reading of a force sensor
   std::ptrdiff_t pressing = 0;
   std::ptrdiff_t releasing = 0;
   for (const auto& press : loop.moving)
@@ -536,7 +537,7 @@ void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known
   loop.doubted = true;
 }
 
-// A sensor at its limit says no more than that the force is larger.
+// A sensor at its limit only shows that the force is larger.
 [[noreturn]] void fail_at_limit(const CsvReader& where, std::span<const LoopRow> rows, const Plateau& flat) {
   const auto row = std::lower_bound(rows.begin(), rows.end(), flat.time,
                                     [](const LoopRow& one, double time) { return one.time < time; });

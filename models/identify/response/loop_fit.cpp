@@ -83,8 +83,7 @@ double CurveErrors::slope(double deflection) const {
   return (force(to) - force(from)) / (to - from);
 }
 
-// The most that readings around a deflection leave over in the mean: over a width in which there are enough
-// of them, here and to either side.
+// The largest mean residual around a deflection, there and on either side, over a width with enough readings.
 double CurveErrors::misfit(double deflection) const {
   constexpr double kShare = 1.0 / 50.0, kGrows = 1.25;
   const double least = response_.limit() / 200.0, most = response_.limit() / 4.0;
@@ -106,7 +105,8 @@ double CurveErrors::misfit(double deflection) const {
   return worst;
 }
 
-// The size of a straight line through the residuals around a deflection, there, and its standard deviation.
+// The magnitude of a straight line through the residuals around a deflection, evaluated there, and its
+// standard deviation.
 double CurveErrors::misfit_within(double deflection, double width) const {
   double n = 0.0, x = 0.0, xx = 0.0, y = 0.0, xy = 0.0;
   for (const Residual& r : residuals_) {
@@ -119,11 +119,11 @@ double CurveErrors::misfit_within(double deflection, double width) const {
   return std::abs(xx * y - x * xy) / spread + scatter_ * std::sqrt(xx / spread);
 }
 
-// Neighbouring residuals are alike (they are mostly what a polynomial cannot follow), so intervals come from
-// a block bootstrap: each branch of each press in blocks, drawn with replacement. The seed is fixed, and the
-// engine's numbers are used as they come: the same file gives the same intervals everywhere.
+// Neighbouring residuals are similar, because they mostly show the polynomial's misfit. So intervals come
+// from a block bootstrap: each branch of each press in blocks, drawn with replacement. The seed is fixed and
+// the engine's numbers are used directly, so one file gives equal intervals everywhere.
 constexpr std::size_t kBlocks = 12;
-constexpr std::size_t kFewest = 4;  // readings of a block
+constexpr std::size_t kFewest = 4;  // fewest readings of a block
 constexpr int kDraws = 400;
 
 std::vector<Quadratic> blocks_of(const LoopData& loop, double limit) {
@@ -155,7 +155,7 @@ Eigen::MatrixXd bootstrap(const LoopData& loop, double limit, const Constraints&
       q.gram += block.gram;
       q.moment += block.moment;
     }
-    // A draw that happens to leave most of a branch out does not determine it.
+    // A draw that happens to leave out most of a branch does not determine it.
     if (Eigen::LLT<Eigen::MatrixXd>(q.gram).info() != Eigen::Success) continue;
     drawn.push_back(constrained_minimum(q, all, tolerance));
   }
@@ -207,8 +207,8 @@ BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::a
   return k;
 }
 
-// Mean force of a press near a deflection, from the fitted curve; NaN without readings. Where a fast branch
-// has few, it is taken from farther around.
+// Mean force of a press near a deflection, relative to the fitted curve; NaN without readings. A fast branch
+// has few readings, so they are taken from a larger range.
 double force_near(const std::vector<LoopPoint>& press, double d, bool pressing, const Response& response) {
   constexpr double kNear = 0.05e-3;         // m
   constexpr double kFarthest = 1.0 / 10.0;  // of the limit
@@ -228,8 +228,8 @@ double force_near(const std::vector<LoopPoint>& press, double d, bool pressing, 
   return count > 0 ? sum / count : kUnset;
 }
 
-// Between repeats alone, whatever the curve's shape cannot follow: Student's interval of their mean at 1, 2,
-// ... mm.
+// Uncertainty between repeats alone, independent of the curve's shape: Student's interval of their mean at 1,
+// 2, ... mm.
 std::vector<double> known_by_repeats(const LoopData& loop, const Response& response, bool pressing) {
   std::vector<double> halves;
   for (int i = 1; i * 1e-3 <= response.limit() * (1.0 + 1e-9); ++i) {
@@ -294,7 +294,7 @@ LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options) {
   fit.response = fit.curves.spec;
   fit.response.stops = fit.stops.spec;
   fit.response = rounded(fit.response);
-  // Both models are what prepare() would accept: it throws if not.
+  // Both models must satisfy prepare(), whose check throws otherwise.
   const Response response(fit.response, options.floor);
   static_cast<void>(Response(fit.response, options.floor, Reversal::prandtl_ishlinskii));
   const Quadratic q = normal_equations(all, options.limit);

@@ -17,8 +17,8 @@
 namespace enc::models {
 namespace {
 
-// Unknowns: press then release coefficients of u^1..u^4, u = deflection / limit. They are in N and of like
-// size.
+// Unknowns: press, then release coefficients of u^1..u^4, u = deflection / limit. They are in N and of
+// similar size.
 constexpr int kTerms = 4;
 constexpr int kUnknowns = 2 * kTerms;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
@@ -30,7 +30,7 @@ bool used(const LoopPoint& point, double limit) {
   return point.deflection >= 0.0 && point.deflection <= limit;
 }
 
-// Four deflections on either curve, well apart: else the matrix of the least squares is singular.
+// Each curve needs four well-separated deflections; otherwise the matrix of the least squares is singular.
 void must_determine(const Quadratic& q) {
   for (const bool pressing : {true, false}) {
     const int at = offset(pressing);
@@ -78,7 +78,8 @@ double parsed(const std::string& text) {
   return value;
 }
 
-// A number of the file's unit with so many decimals, as SI; by way of text, because the file is text.
+// Rounds a number to so many decimals in the file's unit, and returns it in SI. It goes by way of text,
+// because the file is text.
 double decimal(const Unit& unit, double si, int k, int decimals) {
   const double in_file = si / to_si(unit, 1.0, k);
   return to_si(unit,
@@ -101,9 +102,9 @@ Quadratic normal_equations(std::span<const LoopPoint> loop, double limit) {
   return q;
 }
 
-// Conditions that make the curves renderable, at 1001 deflections. Each with a margin (N, 1e-5 of the force)
-// that covers what the polynomials do between two of them: a curvature c over u dips by c / (8 x 1000^2) at
-// most, so up to 80 x the force is covered (the ball has 21 x).
+// Conditions that make the curves renderable, at 1001 deflections. Each has a margin (N, 1e-5 of the force)
+// for the polynomials between two of them. A curvature c over u dips by at most c / (8 x 1000^2), so up to 80
+// x the force is covered (the ball has 21 x).
 Constraints renderable(double lowest_slope, double limit, double margin) {
   constexpr int kSteps = 1000;
   Constraints all{Eigen::MatrixXd::Zero(3 * (kSteps + 1), kUnknowns), Eigen::VectorXd(3 * (kSteps + 1))};
@@ -113,7 +114,7 @@ Constraints renderable(double lowest_slope, double limit, double margin) {
     all.normals.row(3 * i).head<kTerms>() = slope;
     all.normals.row(3 * i + 1).tail<kTerms>() = slope;
     all.bounds[3 * i] = all.bounds[3 * i + 1] = lowest_slope * limit + margin;
-    // (press - release) / u: the same sign as the gap, and it says something at u = 0 too
+    // (press - release) / u: it has the sign of the gap, and is also a condition at u = 0
     const Terms gap(1.0, u, u * u, u * u * u);
     all.normals.row(3 * i + 2) << gap.transpose(), -gap.transpose();
     all.bounds[3 * i + 2] = margin;
@@ -146,14 +147,14 @@ ResponseFit fit_response(std::span<const LoopPoint> loop, double limit, double l
   fit.rmse_press_free = rmse(loop, limit, free, true);
   fit.rmse_release_free = rmse(loop, limit, free, false);
   find_moved(free, x, limit, fit);
-  static_cast<void>(Response(fit.spec, lowest_slope));  // throws if, against the above, it would be refused
+  static_cast<void>(Response(fit.spec, lowest_slope));  // throws if core would refuse it nevertheless
   return fit;
 }
 
 double fit_floor(const LoopModel& loop) {
   // Two figures for the softest object that the loop renders stably: the linear theory, and 0.17 of the
-  // hand's stiffness (sources/ball 5: what simulated presses gave for a softer hand). The larger, and 5 % so
-  // that a file is not refused for its last digit.
+  // hand's stiffness (sources/ball 5: result of simulated presses with a softer hand). Takes the larger one
+  // plus 5 %, so that a file is not refused for its last digit.
   constexpr double kShare = 0.17;
   constexpr double kMargin = 1.05;
   return kMargin * std::max(lowest_stable_stiffness(loop), kShare * loop.hand_stiffness);
@@ -174,11 +175,11 @@ ResponseSpec rounded(const ResponseSpec& spec) {
   return r;
 }
 
-// ---- the Prandtl-Ishlinskii model of a measured loop, by non-negative least squares.
+// ---- The Prandtl-Ishlinskii model of a measured loop, by non-negative least squares.
 
 namespace {
 
-// Radii in equal ratios from 1/30 to 1/3 of the limit. Smaller ones only add stiffness for tremor; larger
+// Radii in equal ratios from 1/30 to 1/3 of the limit. Smaller ones only add stiffness for tremor. Larger
 // ones never reverse fully within the limit, and one loop cannot separate them from the curve.
 constexpr int kStops = 12;
 constexpr int kCurve = static_cast<int>(kMaxCurve);
@@ -187,7 +188,7 @@ constexpr int kStopUnknowns = kCurve + kStops;
 std::vector<double> radii_for(double limit) {
   std::vector<double> radii;
   for (int i = 0; i < kStops; ++i) {
-    // In tenths of a micrometre, as the file shows them.
+    // Rounded to tenths of a micrometre, as in the file.
     const double radius = limit / 30.0 * std::pow(10.0, static_cast<double>(i) / (kStops - 1));
     radii.push_back(std::round(radius * 1e7) / 1e7);
   }
@@ -225,8 +226,8 @@ Constraints weights_only() {
   return all;
 }
 
-// And at 501 deflections the force rises at least with the lowest slope, whatever came before, and at most
-// with the stiffest.
+// Also requires at 501 deflections that the force rises at least with the lowest slope, whatever the history,
+// and at most with the stiffest.
 Constraints with_slopes(const std::vector<double>& radii, double limit, double lowest, double stiffest,
                         double margin) {
   constexpr int kSteps = 500;
@@ -278,14 +279,14 @@ StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit
       largest = std::max(largest, std::abs(point.force));
     });
   if (!(q.gram.diagonal().minCoeff() > 0.0)) throw Error("the loop has no readings within the limit", "loop");
-  // Neighbouring stops are nearly alike: a part in 1e9 on the diagonal keeps the matrix definite.
+  // Neighbouring stops are nearly collinear: 1e-9 on the diagonal keeps the matrix definite.
   q.gram.diagonal() *= 1.0 + 1e-9;
   const double margin = 1e-4 * largest;
   const Eigen::VectorXd free = constrained_minimum(q, weights_only(), 1e-9 * largest / limit);
   Eigen::VectorXd x =
       constrained_minimum(q, with_slopes(radii, limit, lowest_slope, stiffest, margin), 0.01 * margin);
   for (Eigen::Index i = kCurve; i < kStopUnknowns; ++i)
-    if (x[i] < 1e-6 * largest / limit) x[i] = 0.0;  // what the tolerance leaves of a weight of zero
+    if (x[i] < 1e-6 * largest / limit) x[i] = 0.0;  // remainder of a zero weight within the tolerance
   StopsFit fit;
   fit.spec = {{x.data(), x.data() + kCurve}, radii, {x.data() + kCurve, x.data() + kStopUnknowns}};
   fit.rmse = rmse(presses, radii, limit, x);
@@ -294,8 +295,8 @@ StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit
 }
 
 double fit_ceiling(const ResponseSpec& curves) {
-  // A tremor of +-30 um at rest is felt as 60 um times the stiffness (sources/ball 6). The faster the force
-  // may turn from pressing to releasing, the closer are the minor loops, and the stiffer is a tremor: a
+  // A tremor of +-30 um at rest feels like 60 um times the stiffness (sources/ball 6). The faster the force
+  // may turn from pressing to releasing, the narrower are the minor loops, and the stiffer a tremor feels: a
   // passive force turns fastest at once. This share of the steepest press is the least at which the tennis
   // ball's minor loops stay within 0.08 N (tests/property/response_property_test.cpp).
   constexpr double kTremor = 1.65;

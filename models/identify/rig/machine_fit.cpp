@@ -22,12 +22,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-constexpr std::size_t kFewestSeen = 12;     // stands: with fewer, intervals were found too narrow
-constexpr Eigen::Index kPoseUnknowns = 12;  // place and turn of both poses
-constexpr double kLeastSecondTurn = 0.035;  // rad rms about each axis but the best two: 2 degrees
+constexpr std::size_t kFewestSeen = 12;     // stands: with fewer, the intervals were too narrow
+constexpr Eigen::Index kPoseUnknowns = 12;  // position and rotation of both poses
+constexpr double kLeastSecondTurn = 0.035;  // rad rms about each axis except the best two: 2 degrees
 constexpr double kMostLeftPlace = 2e-3;     // m rms
 constexpr double kMostLeftTurn = 0.03;      // rad rms
-constexpr double kScaleOff = 0.005;         // of a tracker's lengths: a good one is ten times better
+constexpr double kScaleOff = 0.005;         // share of a tracker's lengths: a good one has a tenth
 constexpr double kScaleSure = 4.0;          // standard deviations
 constexpr double kExactPlace = 1e-8, kExactTurn = 1e-9;  // m, rad: no device is better
 
@@ -36,7 +36,7 @@ struct Both {
   Pose<'H', 'T'> X_HT;
 };
 
-// Turns about one axis leave the tool's place along it free: two are needed.
+// Rotations about a single axis leave the tool's position along it undetermined; two axes are needed.
 void check_turns(std::span<const EyeStand> stands) {
   Mat3 scatter = Mat3::Zero();
   const Quat first = stands.front().X_WH.q();
@@ -82,7 +82,7 @@ Both first_guess(std::span<const EyeStand> stands) {
   return {{Quat(R_WC), Vec3(places.tail<3>())}, {Quat(R_HT), Vec3(places.head<3>())}};
 }
 
-// Unknowns: turn and place of C in W about and along W's axes, then those of T in H along H's axes.
+// Unknowns: rotation and position of C in W about and along W's axes, then those of T in H along H's axes.
 Both moved(const Both& at, const VectorXd& by) {
   const Pose<'W', 'C'>& c = at.X_WC;
   const Pose<'H', 'T'>& t = at.X_HT;
@@ -90,7 +90,7 @@ Both moved(const Both& at, const VectorXd& by) {
           {(turn_by(by.segment<3>(6)) * t.q()).normalized(), Vec3(t.p() + by.segment<3>(9))}};
 }
 
-// Place of the tool in C, then its turn, stand by stand: measured less expected.
+// Residuals, measured minus expected: position of the tool in C, then its rotation, stand by stand.
 VectorXd left_over(std::span<const EyeStand> stands, const Both& at) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   VectorXd left(6 * n);
@@ -111,16 +111,16 @@ MatrixXd slopes(std::span<const EyeStand> stands, const Both& at) {
     VectorXd step = VectorXd::Zero(kPoseUnknowns);
     step(k) = kStep;
     const VectorXd ahead = left_over(stands, moved(at, step)), behind = left_over(stands, moved(at, -step));
-    by.col(k) = (behind - ahead) / (2.0 * kStep);  // of what is expected
+    by.col(k) = (behind - ahead) / (2.0 * kStep);  // derivative of the expected value
   }
   return by;
 }
 
-// m and rad, along and about each axis of C: a tracker sees worse along its view.
+// m and rad, along and about each axis of C: a tracker measures less accurately along its view.
 struct Scatter {
   Vec3 place, turn;
 };
-// Places determine up to nine of the twelve unknowns: three for each of their axes.
+// Positions determine up to nine of the twelve unknowns: three for each of their axes.
 double freedom_of(Eigen::Index stands) { return static_cast<double>(stands) - 3.0; }
 Scatter scatter_of(const VectorXd& left) {
   const Eigen::Index n = left.size() / 6;
@@ -145,8 +145,8 @@ bool settled(const Scatter& now, const Scatter& before) {
          ((now.turn - before.turn).array().abs() <= kShare * before.turn.array()).all();
 }
 
-// A tracker's scale hides in both places, and is seen only in what they leave over; how much that scatters is
-// seen when the scale is taken out of it.
+// Both positions absorb a tracker's scale error, so only their residuals show it. Their scatter is known once
+// the scale is removed.
 void check_scale(std::span<const EyeStand> stands, const Both& at, const VectorXd& left) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   MatrixXd by(6 * n, kPoseUnknowns + 1);
@@ -206,13 +206,13 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
   const VectorXd half = reach * inverse.diagonal().cwiseSqrt();
   fit.turn_half = half.segment<3>(0);
   fit.place_half = half.segment<3>(3);
-  // What is seen at W's origin is at R_WC p + p_WC: it moves by -p_WC x turn, which is what C's place does
-  // the other way round.
+  // A point at W's origin maps to R_WC p + p_WC. A rotation moves it by -p_WC x turn, and a shift of C's
+  // position compensates that.
   Eigen::Matrix<double, 3, 6> to_origin;
   to_origin << cross_matrix(Vec3(at.X_WC.p())), Mat3::Identity();
   const Mat3 origin = to_origin * inverse.topLeftCorner<6, 6>() * to_origin.transpose();
   fit.origin_half = reach * origin.diagonal().cwiseSqrt();
-  // Tip in T: R_TH (-p_HT); a turn of T about H's axes moves it by R_TH (turn x p).
+  // Tip in T: R_TH (-p_HT); a rotation of T about H's axes moves it by R_TH (turn x p).
   const Mat3 R_TH = at.X_HT.q().conjugate().toRotationMatrix();
   fit.tip.value = at.X_HT.inverse().p();
   Eigen::Matrix<double, 3, 6> to_tip;
@@ -242,9 +242,9 @@ using Eigen::VectorXd;
 
 constexpr Eigen::Index kWeightUnknowns = 7;  // turn, mass, zero
 constexpr std::size_t kFewestWeighed = 6;    // stands
-constexpr double kAxisOff = 0.2;             // of a sensor's axis that reads as it should, with sign and unit
+constexpr double kAxisOff = 0.2;             // accepted error of a sensor axis with right sign and unit
 constexpr double kSure = 4.0;                // standard deviations
-constexpr double kMostLeftForce = 0.2;       // N rms: drift and noise of a sensor are far less
+constexpr double kMostLeftForce = 0.2;       // N rms: drift and noise of a sensor are far smaller
 
 // The direction of weight in H, times g.
 Vec3 weight_per_kg(const WeightStand& stand) {
@@ -257,8 +257,9 @@ struct Estimate {
   Vec3 zero{0, 0, 0};
 };
 
-// The sides of the weight's direction swing about nought and the third hardly changes: force against both is
-// the first two columns of m R_FH, and the third is at right angles to them.
+// The side components of the weight's direction vary about zero and the third hardly changes. So the slopes
+// of the force over both sides are the first two columns of m R_FH; the third column is at right angles to
+// them.
 Estimate first_guess(std::span<const WeightStand> stands) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   MatrixXd sides(n, 3), force(n, 3);
@@ -302,14 +303,14 @@ Vec3 left_over(const WeightStand& stand, const Estimate& at) {
   return stand.wrench.force.e() - at.mass * at.R_FH * weight_per_kg(stand) - at.zero;
 }
 
-// Inputs of the fit: stands, and the time at which the zero is wanted.
+// Inputs of the fit: stands, and the time at which the zero is requested.
 struct Log {
   std::span<const WeightStand> stands;
   double end;
 };
 
-// One axis of all stands: independent errors and a walk of the zero, which is nought at the end. ratio:
-// variance of the walk a second, over that of a stand's mean.
+// Covariance of one axis over all stands: independent errors and a random walk of the zero, which is 0 at the
+// end. ratio: variance of the walk per s over that of a stand's mean.
 MatrixXd covariance(const Log& log, double ratio) {
   const auto& [stands, last] = log;
   const auto n = static_cast<Eigen::Index>(stands.size());
@@ -323,13 +324,13 @@ MatrixXd covariance(const Log& log, double ratio) {
 
 struct Solved {
   Estimate at;
-  MatrixXd inverse;                                              // of the normal matrix
-  double variance = kUnset;                                      // of a stand's mean
+  MatrixXd inverse;                                              // inverse of the normal matrix
+  double variance = kUnset;                                      // variance of a stand's mean
   double likelihood = -std::numeric_limits<double>::infinity();  // restricted, logarithm
   double ratio = 0.0;
 };
 
-// Rows of one axis together, so that each axis is whitened by the same triangle.
+// The rows of each axis are together, so that one triangular matrix whitens every axis.
 struct Whitened {
   MatrixXd by;
   VectorXd left;
@@ -372,7 +373,7 @@ Solved solved(const Log& log, Estimate at, double ratio) {
   }
   const MatrixXd normal = w.by.transpose() * w.by;
   const double freedom = 3.0 * static_cast<double>(stands.size()) - static_cast<double>(kWeightUnknowns);
-  constexpr double kExact = 1e-18;  // N^2: a sensor without any error
+  constexpr double kExact = 1e-18;  // N^2: residual of an error-free sensor
   result.at = at;
   result.inverse = normal.inverse();
   result.variance = std::max(kExact, w.left.squaredNorm() / freedom);
@@ -391,8 +392,8 @@ Solved best_of(const Log& log, const Estimate& guess) {
   return best;
 }
 
-// Each axis of the sensor against what it should read: 1 where its sign and its unit are right. A turn and a
-// zero make up for a wrong axis but for how the weight along it changes, which reveals it.
+// Slope of each sensor axis over its expected reading: 1 if sign and unit are right. A rotation and a zero
+// can compensate a wrong axis, except for its change with the weight along it.
 struct AxisSlope {
   double value = kUnset, deviation = kUnset;
 };
@@ -432,7 +433,7 @@ void check_axes(const Log& log, const Solved& found) {
   }
 }
 
-// torque(i) = middle x weight(i) + its zero: all linear.
+// torque(i) = middle x weight(i) + its zero: a linear problem.
 Vec<'F'> middle_of(std::span<const WeightStand> stands, const Estimate& at) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   MatrixXd by(3 * n, 6);

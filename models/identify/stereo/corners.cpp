@@ -22,8 +22,8 @@ struct Grid {
   [[nodiscard]] cv::Size size() const { return {columns, rows}; }
 };
 
-// Beyond a side, the board goes on if the squares alternate there; it ends if margin or background begins;
-// the answer is open if the image ends before.
+// The area beyond a side: the board goes on if the squares alternate there, and ends if a margin or
+// background begins. The answer is open if the image ends before.
 enum class Beyond : std::uint8_t { ends, goes_on, open };
 
 // Half of the window in which a corner is refined. Its diagonal must not reach the board's edge, which may be
@@ -50,7 +50,7 @@ bool inside(const cv::Mat& grey, const cv::Point2f& p) {
          p.y < static_cast<float>(grey.rows) - 2.5F;
 }
 
-// The place of a row's next corner, by the last three.
+// Predicts a row's next corner from the last three.
 cv::Point2f next_of(const Grid& grid, int row) {
   const int c = grid.columns - 1;
   return 3.0F * grid.at(row, c) - 3.0F * grid.at(row, c - 1) + grid.at(row, c - 2);
@@ -72,7 +72,7 @@ void refine(const cv::Mat& grey, Grid& grid) {
 
 // True if the squares between the corners alternate between black and white.
 bool alternates(const cv::Mat& grey, const Grid& grid) {
-  constexpr double kLeast = 6.0;  // of 255, between neighbours
+  constexpr double kLeast = 6.0;  // out of 255, between neighbours
   constexpr double kMost = 0.9;   // share of neighbours: a finger may hide a few
   const auto middle = [&](int r, int c) {
     return 0.25F * (grid.at(r, c) + grid.at(r, c + 1) + grid.at(r + 1, c) + grid.at(r + 1, c + 1));
@@ -90,10 +90,10 @@ bool alternates(const cv::Mat& grey, const Grid& grid) {
   return std::max(brighter, darker) >= kMost * all;
 }
 
-// Beyond the last column. The grid must have at least three columns and rows.
+// Examines the area beyond the last column. The grid must have at least three columns and rows.
 Beyond beyond(const cv::Mat& grey, const Grid& grid) {
-  constexpr float kInto = 0.3F;       // of a square, from a corner into the four around it
-  constexpr double kAlike = -0.5;     // of the contrast before the corner, against that behind it
+  constexpr float kInto = 0.3F;       // share of a square, from a corner into the four squares around it
+  constexpr double kAlike = -0.5;     // share of the contrast before the corner, for the contrast behind it
   constexpr double kContrast = 12.0;  // of 255
   int seen = 0, alternate = 0;
   for (int r = 0; r < grid.rows; ++r) {
@@ -122,12 +122,12 @@ Grid turned(const Grid& grid) {
   return out;
 }
 
-constexpr int kSmallest = 16;        // px: OpenCV's finders want some room
-constexpr int kMostToDouble = 1600;  // px: what is larger has squares of more than a few
+constexpr int kSmallest = 16;        // px: OpenCV's finders need some margin
+constexpr int kMostToDouble = 1600;  // px: larger images have squares of more than a few px
 constexpr int kSectors = cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE;
 
 cv::Mat grey_of(const ImageView& image) {
-  // OpenCV knows no read-only matrix; nothing is written.
+  // OpenCV has no read-only matrix; the image is not written to.
   const cv::Mat colour(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb));
   cv::Mat grey;
   cv::cvtColor(colour, grey, cv::COLOR_RGB2GRAY);
@@ -136,12 +136,12 @@ cv::Mat grey_of(const ImageView& image) {
 
 using Finder = bool (*)(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& points);
 
-// By sectors around a corner [Duda and Frese 2018], which finds blurred and small boards, and sees within a
-// tenth of a second that there is none.
+// Search by sectors around a corner [Duda and Frese 2018]. It finds blurred and small boards, and takes only
+// a tenth of a second for an image without one.
 bool find_by_sectors(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& points) {
   return cv::findChessboardCornersSB(grey, size, points, kSectors);
 }
-// Squares of a few pixels are found in an image of twice the size.
+// Doubling the image finds squares of a few pixels.
 bool find_in_double(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& points) {
   if (std::max(grey.cols, grey.rows) > kMostToDouble) return false;
   cv::Mat large;
@@ -150,7 +150,7 @@ bool find_in_double(const cv::Mat& grey, const cv::Size& size, std::vector<cv::P
   for (cv::Point2f& p : points) p = (p - cv::Point2f(0.5F, 0.5F)) * 0.5F;
   return true;
 }
-// By the outlines of black squares. If noise makes outlines by the thousand, the search takes minutes; in a
+// Search by the outlines of black squares. If noise makes thousands of outlines, it takes minutes; in a
 // slightly blurred image, a second.
 bool find_by_outlines(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>& points) {
   cv::Mat smooth;
@@ -177,12 +177,12 @@ std::optional<Corners> corners_by(const Finder& find, const cv::Mat& grey, const
   return corners;
 }
 
-// Sizes that a board may have if it is not of the size `near`. First what is seen at a glance, and one less
-// or more of each, as a person says who counts squares; then the sizes around. Of both the largest first:
-// part of a board may pass for a smaller one.
+// Candidate sizes for a board that is not of size `near`. First the clearly visible size and `near`, each
+// plus and minus one, because people count squares; then the sizes around them. The largest come first,
+// because part of a board may pass for a smaller one.
 std::vector<cv::Size> sizes_around(const cv::Mat& grey, const cv::Size& near) {
   constexpr int kFewest = 3, kMost = 2,
-                kPlain = 5;  // corners a side; more or fewer; a side of what is plainly seen
+                kPlain = 5;  // corners a side; more or fewer; side of a clearly visible board
   std::vector<cv::Size> sizes{near - cv::Size(1, 1), near + cv::Size(1, 1)};
   std::vector<cv::Point2f> points;
   cv::Mat seen;

@@ -65,7 +65,7 @@ Pose<'C', 'D'> pose_of(const Extrinsics& extrinsics) {
 
 namespace {
 
-// Whether a pixel in each corner of the image has a ray.
+// True if a pixel in each corner of the image has a ray.
 bool spreads(const Camera& camera, const cv::Size& size) {
   const Lens lens = lens_of(camera.matrix, camera.distortion);
   const double right = size.width - 1, low = size.height - 1;
@@ -80,7 +80,7 @@ class LensSolver {
   LensSolver(const Views& views, const Board& board, const cv::Size& size)
       : views_(views), boards_(views.size(), board_points(board)), size_(size) {}
 
-  // From what `camera` is.
+  // Starts from the values in `camera`.
   void solve(Camera& camera, int model) {
     cv::Mat deviation, none, errors;
     camera.fit.rms = cv::calibrateCamera(boards_, views_, size_, camera.matrix, camera.distortion, turns_,
@@ -91,7 +91,7 @@ class LensSolver {
     camera.k3_in_deviations = k3 > 0.0 ? std::abs(camera.distortion.at<double>(4)) / k3 : 0.0;
   }
 
-  // Judges the last solution.
+  // Evaluates the last solution.
   void judge(Camera& camera) const {
     constexpr std::size_t kRings = 8;
     const cv::Point2d axis(camera.matrix.at<double>(0, 2), camera.matrix.at<double>(1, 2));
@@ -116,7 +116,7 @@ class LensSolver {
   }
 
  private:
-  // A corner: px from the axis, and how much farther it lies than the lens has it.
+  // Each corner's distance from the axis, px, and the extra distance beyond the lens model.
   [[nodiscard]] std::vector<std::pair<double, double>> off_axis(const Camera& camera,
                                                                 const cv::Point2d& axis) const {
     std::vector<std::pair<double, double>> out;
@@ -158,7 +158,8 @@ std::vector<cv::Point3f> board_points(const Board& board) {
   return points;
 }
 
-// By steps, each from where the last one ended: all at once, the search may end where nothing fits.
+// Solves in steps, each starting from the last result: a search for everything at once may end far from the
+// solution.
 Cameras each_camera(const Views& left, const Views& right, const Board& board, const cv::Size& size) {
   constexpr double kTold = 3.0;
   constexpr int kPinhole =

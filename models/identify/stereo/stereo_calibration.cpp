@@ -37,7 +37,8 @@ std::pair<Views, Views> views_of(const std::vector<PairCorners>& pairs) {
   return views;
 }
 
-// All numbers of both together, from those of each, so that they agree on where the boards were.
+// Solves all numbers of both cameras together, starting from each camera alone, so that they agree on the
+// boards' poses.
 Head solve(const std::vector<PairCorners>& pairs, const Board& board, const cv::Size& size,
            const Cameras& cameras, int steps) {
   const auto [left, right] = views_of(pairs);
@@ -61,7 +62,7 @@ StereoRig rig_of(const Head& head, const cv::Size& size) {
   return rig;
 }
 
-// The normal of the board's plane in the camera, from one image: from the line at which its horizon is seen.
+// The normal of the board's plane in the camera, from one image: from the line of its horizon.
 Vec3 normal_of(const Corners& corners, const Board& board, const Lens& lens) {
   std::vector<cv::Point2f> plane;
   for (const cv::Point3f& p : board_points(board)) plane.emplace_back(p.x, p.y);
@@ -84,7 +85,7 @@ double largest_tilt(const std::vector<PairCorners>& pairs, const Board& board, c
 
 void refuse_parallel(const std::vector<PairCorners>& pairs, const Board& board, const cv::Size& size) {
   constexpr double kLeast = 5.0 * kDegree;
-  const double focal = std::max(size.width, size.height);  // near enough for an angle
+  const double focal = std::max(size.width, size.height);  // accurate enough for an angle
   const Lens any{focal, focal, 0.5 * (size.width - 1), 0.5 * (size.height - 1), {}};
   if (largest_tilt(pairs, board, any) < kLeast)
     throw Error(
@@ -92,7 +93,7 @@ void refuse_parallel(const std::vector<PairCorners>& pairs, const Board& board, 
         "by 20 to 45 degrees to all sides; take more pairs");
 }
 
-// Refuses a result that no optimum of a stereo head looks like.
+// Refuses a result that cannot belong to the optics of a stereo head.
 void check_head(const StereoCalibration& found) {
   const auto refuse = [](const std::string& what) {
     throw Error(what +
@@ -108,8 +109,8 @@ void check_head(const StereoCalibration& found) {
     refuse("the second camera does not stand to the right of the first (are left and right exchanged?)");
 }
 
-// By the board of the same shape that fits best [Umeyama 1991]: a mean over distances of neighbours grows
-// with noise.
+// Square size of the best-fitting board of that shape [Umeyama 1991]; a mean over distances of neighbours
+// would grow with noise.
 double square_of(const StereoRig& rig, const PairCorners& pair, const Board& board) {
   const std::vector<Point<'C'>> places = triangulated(rig, pair);
   Vec3 middle = Vec3::Zero(), board_middle(board.columns - 1, board.rows - 1, 0);
@@ -126,7 +127,7 @@ double square_of(const StereoRig& rig, const PairCorners& pair, const Board& boa
   if (!products.allFinite()) return kUnset;
   cv::Mat singular;
   cv::SVD::compute(cv::Mat(3, 3, CV_64F, products.data()), singular, cv::SVD::NO_UV);
-  return (singular.at<double>(0) + singular.at<double>(1)) / squares;  // the board is flat: the third is 0
+  return (singular.at<double>(0) + singular.at<double>(1)) / squares;  // the board is flat, so the third is 0
 }
 
 double rms_over(const std::vector<PairResidual>& pairs, double PairResidual::*what) {
@@ -161,7 +162,7 @@ StereoCalibration calibrate_stereo(const std::vector<PairCorners>& pairs, const 
   found.focal_deviation = std::max(head.left.focal_deviation, head.right.focal_deviation);
   found.tilt = largest_tilt(pairs, board, found.rig.left);
   if (found.rms <= kLargestRms && !found.left.unlike() && !found.right.unlike()) check_head(found);
-  constexpr int kSteps = 30;  // from a solution to that of one pair less: where lenses fit, a few are enough
+  constexpr int kSteps = 30;  // steps from the full solution to one without a pair
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     std::vector<PairCorners> others = pairs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
@@ -186,8 +187,8 @@ struct Rectification {
   std::array<cv::Mat, 2> turn, projection;
 };
 
-// Rectification as for cameras without distortion: the bend of a lens must not change the size in which rows
-// are compared.
+// Rectification as for cameras without distortion: a lens's distortion must not change the scale at which
+// rows are compared.
 Rectification rectification_of(const StereoRig& rig) {
   constexpr double kAsLarge = -1.0;
   const calibration::Extrinsics pose = calibration::extrinsics_of(rig);
@@ -205,8 +206,8 @@ const Corners& corners_of(const PairCorners& pair, std::size_t side) {
   return side == 0 ? pair.left : pair.right;
 }
 
-// Rays of corners, by where they meet z = 1 of the camera. OpenCV's own search runs away from a lens that
-// bends much.
+// Rays of corners, as intersections with z = 1 of the camera. OpenCV's own search diverges for strong
+// distortion.
 std::vector<Vec3> rays_of(const Lens& lens, const Corners& corners) {
   std::vector<Vec3> rays;
   rays.reserve(corners.size());
@@ -216,7 +217,7 @@ std::vector<Vec3> rays_of(const Lens& lens, const Corners& corners) {
   }
   return rays;
 }
-// Their places in the rectified image, px.
+// Their positions in the rectified image, px.
 std::vector<cv::Point2d> rectified(const StereoRig& rig, const PairCorners& pair, std::size_t side,
                                    const Rectification& by) {
   std::vector<cv::Point2d> points;
@@ -270,7 +271,7 @@ std::vector<Point<'C'>> triangulated(const StereoRig& rig, const PairCorners& pa
   std::vector<Point<'C'>> places;
   places.reserve(in_left.size());
   for (std::size_t i = 0; i < in_left.size(); ++i) {
-    // Nearest points of s u and base + r v.
+    // Closest points of s u and base + r v.
     const Vec3 u = in_left[i], v = rig.X_CD.q() * in_right[i];
     const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
     const double apart = uu * vv - uv * uv;
@@ -282,7 +283,7 @@ std::vector<Point<'C'>> triangulated(const StereoRig& rig, const PairCorners& pa
 }
 
 Image rectified_picture(const StereoRig& rig, const std::vector<ShownPair>& pairs) {
-  constexpr int kLines = 12, kHead = 22;  // px of words over a pair
+  constexpr int kLines = 12, kHead = 22;  // px of text above a pair
   const int width = static_cast<int>(rig.width), height = static_cast<int>(rig.height);
   const Rectification by = rectification_of(rig);
   Image picture(2 * width, static_cast<int>(pairs.size()) * (height + kHead));

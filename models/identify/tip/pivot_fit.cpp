@@ -22,26 +22,27 @@
 namespace enc::models {
 namespace {
 
-constexpr double kShort = 0.25;                                   // s
-constexpr std::array<double, 4> kLengths{kShort, 0.5, 1.0, 2.0};  // s, of blocks: the widest interval counts
-constexpr double kFewestBlocks = 2.0;    // of a length that counts: freedom of Student's t
-constexpr double kGap = 0.5;             // s, and 4 usual steps: with more between them, poses have a gap
-constexpr double kSame = 2.0 * kDegree;  // the tool rests while it stays so near to how it stood at first,
-constexpr double kLongStand = 1.0;       // s, for so long
-constexpr double kApart = 0.05;          // s: neighbours so far apart have errors of their own
-constexpr double kStrong = 0.5;          // neighbours have to turn by so much of what the poses do
-constexpr double kMedianLength = 1.538;  // of three normal numbers, over their standard deviation
+constexpr double kShort = 0.25;  // s
+// s, lengths of blocks: the widest interval counts
+constexpr std::array<double, 4> kLengths{kShort, 0.5, 1.0, 2.0};
+constexpr double kFewestBlocks = 2.0;    // fewest blocks of a length that counts: freedom of Student's t
+constexpr double kGap = 0.5;             // s, and 4 usual steps: more than both is a gap
+constexpr double kSame = 2.0 * kDegree;  // the tool rests while it stays this close to its first pose
+constexpr double kLongStand = 1.0;       // s, least duration of a rest
+constexpr double kApart = 0.05;          // s: neighbours this far apart have independent errors
+constexpr double kStrong = 0.5;          // least rotation of neighbours as a share of the poses' own
+constexpr double kMedianLength = 1.538;  // median length of a normal 3-vector, in sigmas
 constexpr double kFarthest = 6.0;        // standard deviations
-constexpr double kSettled = 1e-6;        // m: good enough to begin with
-constexpr double kNearest = 1e-9;        // m: what is nearer to the dimple is at it
+constexpr double kSettled = 1e-6;        // m: accurate enough to start from
+constexpr double kNearest = 1e-9;        // m: a tip this close to the dimple is at it
 
-// Sums over poses that are weighed with rotations (`by`): the poses' own, or their neighbours'.
+// Sums over poses, weighted with rotations (`by`): the poses' own, or their neighbours'.
 struct Sums {
   double weight = 0.0;
   Mat3 by = Mat3::Zero(), turn = Mat3::Zero();  // means
   Vec3 place = Vec3::Zero();                    // mean
-  Mat3 moment = Mat3::Zero();                   // of `by` with the turns, about their means
-  Vec3 right = Vec3::Zero();                    // sums of `by` with the places
+  Mat3 moment = Mat3::Zero();                   // `by` with the rotations, about their means
+  Vec3 right = Vec3::Zero();                    // sums of `by` with the positions
 };
 
 class PivotSolver {
@@ -61,7 +62,7 @@ class PivotSolver {
     check_motion(0.0);
     leave_out();
     check_stay();
-    check_swing();  // of what is left: it may have turned about one axis alone
+    check_swing();  // the remaining poses may rotate about one axis only
     take_neighbours();
     check_swing();
     solve();
@@ -91,7 +92,7 @@ class PivotSolver {
     return s;
   }
 
-  // The dimple drops out with the means. A badly conditioned log was refused, so moments suffice.
+  // Subtracting the means removes the dimple. A badly conditioned log was refused before, so moments suffice.
   Sums solve() {
     const Sums s = sums(by_, weights_);
     tip_ = s.moment.fullPivLu().solve(-s.right);
@@ -125,8 +126,7 @@ class PivotSolver {
     }
   }
 
-  // Neither a gap nor a rest says anything about the tip, however long it is. A rest is worth one short
-  // block.
+  // A gap or a rest gives no information about the tip, however long it is. A rest counts as one short block.
   void check_time() {
     if (const std::string doubt = doubt_of_time(poses_); !doubt.empty())
       throw Error(
@@ -149,10 +149,10 @@ class PivotSolver {
       throw Error(
           fmt::format("the poses of the tool are of {:.3g} s; expected at least {:g} s; record longer", all,
                       kLeastPivotTime));
-    check_motion(kLongStand);  // what never turned is not told here, but by its swing
+    check_motion(kLongStand);  // check_swing() reports a tool that never rotated
   }
 
-  // Checks logs in which the tool turned for at least so long.
+  // Checks logs in which the tool rotated for at least this time.
   void check_motion(double least) const {
     if (fit_.turned < least || fit_.turned + static_cast<double>(stands_) * kShort >= kLeastPivotTime) return;
     throw Error(
@@ -167,7 +167,8 @@ class PivotSolver {
     return median(steps);
   }
 
-  // A direction v of T turns by the root of v' moment v: for a rotation about one axis, this axis does not.
+  // A direction v of T rotates by the root of v' moment v: a rotation about one axis leaves that axis in
+  // place.
   void check_swing() {
     const Eigen::JacobiSVD<Mat3> along(sums(turns_, weights_).moment, Eigen::ComputeFullV);
     for (std::size_t k = 0; k < 3; ++k)
@@ -206,7 +207,7 @@ class PivotSolver {
     return all;
   }
 
-  // By what the tip of poses that turn lies apart: a tool at rest may be much quieter than one that is swung.
+  // Scatter of the tip over rotating poses: a tool at rest may have much less noise than a swung one.
   double scale() const {
     std::vector<double> all = distances(), turn;
     for (std::size_t i = 0; i < size(); ++i)
@@ -214,7 +215,8 @@ class PivotSolver {
     return median(turn.size() < kFewestPoses ? all : turn) / kMedianLength;
   }
 
-  // First the least sum of distances, which a slip does not rule; then least squares of what is near.
+  // First minimises the sum of distances, which a slip does not dominate; then least squares over the near
+  // poses.
   void leave_out() {
     solve();
     double moved = kUnset;
@@ -270,7 +272,7 @@ class PivotSolver {
       apart += weights_[i] > 0.0 ? 0.0 : 1.0;
     }
     const double share = std::fmax(static_cast<double>(fit_.outliers) / static_cast<double>(size()),
-                                   turning > 0.0 ? apart / turning : 0.0);  // rests do not hide a slip
+                                   turning > 0.0 ? apart / turning : 0.0);  // rests must not hide a slip
     if (fit_.rms <= kMostPivotRms && share <= kMostPivotOutliers) return;
     throw Error(fmt::format(
         "the tip did not stay: it wandered by up to {:.3g} mm, poses differ by {:.3g} mm rms, and {:.0f} % "
@@ -279,7 +281,7 @@ class PivotSolver {
         fit_.wander * 1e3, fit_.rms * 1e3, 100.0 * share, kMostPivotRms * 1e3, 100.0 * kMostPivotOutliers));
   }
 
-  // Poses from `first` to before `second`, of so much time each.
+  // Ranges of poses, from `first` to before `second`, each of this duration.
   std::vector<std::pair<std::size_t, std::size_t>> blocks(double length) const {
     std::vector<std::pair<std::size_t, std::size_t>> all;
     double begin = -std::numeric_limits<double>::infinity();
@@ -293,7 +295,7 @@ class PivotSolver {
     return all;
   }
 
-  // The mean of a pose a little before and of one a little after; a pose that has neither does not count.
+  // Mean of a pose a little before and one a little after. A pose without either does not count.
   void take_neighbours() {
     const double wanted = std::ceil(kApart / std::max(usual_step(), 1e-6));
     const std::size_t most = size() / 4;
@@ -315,13 +317,14 @@ class PivotSolver {
     fit_.neighbours = true;
   }
 
-  // The influence of each block of time on the tip: the tip of all blocks against that of all others
-  // (jackknife). If blocks are few, the residual of a block in a fit that includes it is less than its error.
+  // The influence of each block of time on the tip: the difference between the tip of all blocks and that of
+  // all others (jackknife). With few blocks, the residual of a block in a fit that includes it is smaller
+  // than its error.
   std::array<Blocks, 3> influences(const Sums& s, double length) const {
     const Mat3 all = s.weight * s.moment, inverse = all.inverse();
     std::array<Blocks, 3> sides;
     for (const auto& [from, to] : blocks(length)) {
-      Sums own;  // of the block, not divided by its weight, about the means of all
+      Sums own;  // sums of the block, not divided by its weight, about the means of all
       Vec3 left = Vec3::Zero(), knows = Vec3::Zero();
       for (std::size_t i = from; i < to; ++i) {
         const Mat3 off = by_[i] - s.by, arm = weights_[i] * off.transpose();
@@ -378,7 +381,7 @@ PivotFit fit_pivot(std::span<const PivotPose> poses) { return PivotSolver(poses)
 
 namespace {
 
-// The unit that a time not in seconds would have, if rows came at a tracker's rate.
+// The unit of a time column that is not in seconds, if rows came at a tracker's rate.
 struct TimeUnit {
   std::string_view name;
   double seconds;
@@ -386,9 +389,9 @@ struct TimeUnit {
 constexpr std::array<TimeUnit, 3> kUnits{
     {{"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}}};
 
-// Sums over poses in a row, for R p + t = c.
+// Sums over consecutive poses, for R p + t = c.
 struct PivotSums {
-  // The sum of the squares of t is `squares`, that of R' t is `right`.
+  // Sums of the squares of t (`squares`) and of R' t (`right`).
   double count = 0.0, squares = 0.0;
   Mat3 turn = Mat3::Zero();
   Vec3 place = Vec3::Zero(), right = Vec3::Zero();
@@ -408,8 +411,8 @@ struct PivotSums {
   [[nodiscard]] Vec3 dimple(const Vec3& tip) const { return (turn * tip + place) / count; }
 };
 
-// A tip with one dimple before a pose and another from there on leaves this rms, m, with the dimples so far
-// apart, m.
+// Residual of a tip with one dimple before a pose and another from there on, m rms, and the distance of the
+// dimples, m.
 struct TwoDimples {
   double rms = kUnset, apart = kUnset;
 };
@@ -423,7 +426,7 @@ TwoDimples two_dimples(const PivotSums& before, const PivotSums& after) {
 
 // "; from 4.00 s on it stays within 0.05 mm rms again, 30.0 mm from where it stayed before ..."
 std::string moved_once(std::span<const PivotPose> poses) {
-  // Either part has so many poses.
+  // Each part has at least this many poses.
   constexpr std::size_t kFewest = 10;
   if (poses.size() < 2 * kFewest) return "";
   const Vec3 origin = poses.front().X_CT.p();
@@ -445,10 +448,10 @@ std::string moved_once(std::span<const PivotPose> poses) {
       poses[from].time, best.rms * 1e3, best.apart * 1e3);
 }
 
-// The places may be of other rows than the rotations: "; with each place taken from 2 rows later it stays
-// ..."
+// The positions may belong to other rows than the rotations: "; with each place taken from 2 rows later it
+// stays ..."
 std::string rows_apart(std::span<const PivotPose> poses) {
-  // Rows are looked for so far away.
+  // Largest offset of rows that is tried.
   constexpr std::ptrdiff_t kMost = 10;
   const auto count = static_cast<std::ptrdiff_t>(poses.size());
   double least = 0.5 * kMostPivotRms;
@@ -462,7 +465,7 @@ std::string rows_apart(std::span<const PivotPose> poses) {
     try {
       if (const PivotFit fit = fit_pivot(read); fit.rms < least) least = fit.rms, rows = by;
     } catch (const Error&) {
-      continue;  // no better than as it is
+      continue;  // no better than the plain reading
     }
   }
   if (rows == 0) return "";
@@ -475,11 +478,11 @@ std::string rows_apart(std::span<const PivotPose> poses) {
 }  // namespace
 
 std::string doubt_of_time(std::span<const PivotPose> poses) {
-  constexpr double kSeldom = 0.2;                // s from row to row: a tracker sends more often
-  constexpr double kSeldomest = 60.0;            // s: nor does anybody take poses singly so slowly
-  constexpr double kFastest = 1.0;               // s from row to row, of what a tracker sends
-  constexpr double kSlow = 3.0 * M_PI / 180.0;   // rad/s, in the mean: no swing
-  constexpr double kSmall = 3.0 * M_PI / 180.0;  // rad from row to row: not taken singly
+  constexpr double kSeldom = 0.2;                // s between rows: a tracker sends more often
+  constexpr double kSeldomest = 60.0;            // s: single poses are taken faster than this
+  constexpr double kFastest = 1.0;               // s between rows that a tracker sends
+  constexpr double kSlow = 3.0 * M_PI / 180.0;   // rad/s, mean: slower is no swing
+  constexpr double kSmall = 3.0 * M_PI / 180.0;  // rad between rows: smaller steps are no single poses
   if (poses.size() < 2) return "";
   std::vector<double> steps, turns;
   double path = 0.0;
@@ -499,8 +502,8 @@ std::string doubt_of_time(std::span<const PivotPose> poses) {
 
 Inversion doubt_of_direction(const PivotFit& fit) {
   constexpr double kLongTool = 0.25, kLongestTool = 0.75;  // m, from the markers to the tip
-  constexpr double kNearer = 1.5, kFarNearer = 2.0;        // times, of the dimple to the tracker
-  // A frame that was laid into the dimple has it so near to its origin, m.
+  constexpr double kNearer = 1.5, kFarNearer = 2.0;        // times the distance from dimple to tracker
+  // A frame with its origin in the dimple has the dimple this close to it, m.
   constexpr double kAtOrigin = 0.02;
   const double tip = fit.point().e().norm(), dimple = fit.dimple.e().norm();
   const bool at_origin = dimple < kAtOrigin;
@@ -536,7 +539,7 @@ std::string other_convention(std::span<const PivotPose> poses) {
       if (fit.rms <= 0.5 * kMostPivotRms)
         return fmt::format("; {} it stays within {:.2g} mm rms", other.name, fit.rms * 1e3);
     } catch (const Error&) {
-      continue;  // no better than as it is
+      continue;  // no better than the plain reading
     }
   }
   const std::string moved = moved_once(poses);

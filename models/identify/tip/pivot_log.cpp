@@ -13,12 +13,12 @@
 namespace enc::models {
 namespace {
 
-constexpr double kFarthestMarkers = 10.0;  // m: no tracker sees farther; what is farther is in another unit
-constexpr double kUnit = 1e-3;             // of a quaternion: numbers of four digits are as good
+constexpr double kFarthestMarkers = 10.0;  // m: no tracker sees farther, so a larger value is in another unit
+constexpr double kUnit = 1e-3;             // deviation of a quaternion's length: four digits are enough
 
-constexpr double kNearTip = 5e-3, kNearPlaces = 20e-3;  // m: what looks like metres that were taken for mm
+constexpr double kNearTip = 5e-3, kNearPlaces = 20e-3;  // m: metres that were read as mm
 
-// Well-formed as Unicode's table 3-7 says: nothing that is longer than it need be, and no surrogates.
+// Well-formed by Unicode's table 3-7: no overlong forms, no surrogates.
 bool is_utf8(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   for (std::size_t i = 0; i < text.size();) {
@@ -58,7 +58,7 @@ class PivotReader {
       const PivotPose pose{time, Pose<'C', 'T'>(rotation(), place())};
       const bool repeats = !log_.poses.empty() && log_.poses.back().X_CT.xyz == pose.X_CT.xyz &&
                            log_.poses.back().X_CT.xyzw == pose.X_CT.xyzw;
-      if (!repeats) log_.poses.push_back(pose);  // seven unchanged numbers are no news
+      if (!repeats) log_.poses.push_back(pose);  // an unchanged pose is no new pose
     }
     return std::move(log_);
   }
@@ -130,7 +130,8 @@ class PivotReader {
 bool is_pivot_log(std::string_view text) {
   const std::string_view header = csv_header(text);
   const auto has = [&](std::string_view part) { return header.find(part) != std::string_view::npos; };
-  return (has("tool_q") || has("markers_")) && !has("tip_x_mm");  // one misspelt is still meant to be one
+  // even with a misspelt column it counts as such a log
+  return (has("tool_q") || has("markers_")) && !has("tip_x_mm");
 }
 
 PivotLog parse_pivot_log(const std::string& text, const std::string& name) {

@@ -11,7 +11,8 @@
 namespace enc::models {
 namespace {
 
-// ---- whether the machine carries the tool: compares the motions of a log's tool and tip, one axis at a time
+// ---- Checks that the machine carries the tool: compares the motions of a log's tool and tip, one axis at a
+// time.
 
 constexpr double kBlock = 0.25;  // s: errors farther apart than this are independent
 
@@ -57,7 +58,7 @@ ToolMotion tool_motion(const TrackerLog& log, const TipPath& path, const SeenAt&
     blocks[block].push_back(tool);
     if (!seen.left_out[k]) good_tips.push_back(tip), good_tools.push_back(tool);
   }
-  // A block that lost most of its packets is no median.
+  // A block that lost most of its packets gives no reliable median.
   std::size_t full = 0;
   for (const std::vector<double>& block : blocks) full = std::max(full, block.size());
   double low = INFINITY, high = -INFINITY;
@@ -70,8 +71,8 @@ ToolMotion tool_motion(const TrackerLog& log, const TipPath& path, const SeenAt&
           spread(left) / spread(tools)};
 }
 
-constexpr double kEarliest = -0.1, kLatest = 0.6;  // s: ages looked for
-constexpr double kStill = 1e-3;                    // m/s, and m of travel: less is no motion
+constexpr double kEarliest = -0.1, kLatest = 0.6;  // s: range of ages searched
+constexpr double kStill = 1e-3;                    // m/s, and m of travel: less counts as no motion
 constexpr double kFewestPackets = 10;              // packets for anything
 constexpr double kOutlier = 6.0;                   // standard deviations
 
@@ -79,7 +80,7 @@ using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 enum Column : Eigen::Index { kRest, kMoving, kAge, kStep };
 
-// One packet as an axis sees it.
+// One packet as seen by an axis.
 struct Seen {
   double error, speed;  // m: tool minus tip at the assumed age; m/s of the tip then
   std::size_t block;
@@ -105,7 +106,7 @@ class Fit {
     travel_ = high - low;
   }
 
-  // The packets stand at `times` (arrival or stamp); all else follows.
+  // Places the packets at `times` (arrival or stamp) and runs the whole fit.
   LatencyFit run(const std::vector<double>& times) {
     times_ = &times;
     left_out_.assign(times.size(), false);
@@ -124,8 +125,8 @@ class Fit {
   }
 
  private:
-  // Least sum of sizes over a coarse grid: nothing to start from is needed, and outliers do no harm. Any age
-  // explains most of a few packets at the end of a short log: half of them must be known.
+  // Least sum of absolute errors over a coarse grid: it needs no start, and outliers do no harm. Any age
+  // explains the few packets at the end of a short log, so half of them must be known.
   double nearest_age() const {
     constexpr double kGrid = 4e-3;  // s
     const std::size_t stride = std::max<std::size_t>(1, log_.packets.size() / 600);
@@ -171,13 +172,12 @@ class Fit {
     for (std::size_t a = 0; a < 3; ++a) describe(a);
   }
 
-  // Is the axis moved, from where on is it moving, which ways?
+  // Determines whether an axis moves, from which speed on, and in which directions.
   void describe(std::size_t a) {
     std::vector<double> speeds;
     for (const Seen& s : axes_[a])
       if (std::abs(s.speed) > kStill) speeds.push_back(std::abs(s.speed));
-    fastest_[a] =
-        speeds.empty() ? 0.0 : percentile(speeds, 0.95);  // one jump of the machine's reading is no motion
+    fastest_[a] = speeds.empty() ? 0.0 : percentile(speeds, 0.95);  // one jump of a reading is no motion
     limit_[a] = std::max(kStill, 0.1 * fastest_[a]);
     std::size_t ahead = 0, back = 0;
     for (const Seen& s : axes_[a]) ahead += s.speed > limit_[a], back += s.speed < -limit_[a];
@@ -216,7 +216,7 @@ class Fit {
       if (!(gram(c, c) > 0.0)) gram(c, c) = 1.0;
     }
     out.information = out.used[kAge] ? gram(kAge, kAge) : 0.0;
-    // Columns of one size: m and s do not mix well.
+    // Scales the columns to one size, because m and s do not mix well.
     const Vec4 size = gram.diagonal().cwiseSqrt();
     const Mat4 scaled = size.cwiseInverse().asDiagonal() * gram * size.cwiseInverse().asDiagonal();
     const Mat4 covariance =
@@ -235,7 +235,7 @@ class Fit {
     return out;
   }
 
-  // Noise at rest and scatter of the age, from what the solution leaves over.
+  // Noise at rest and scatter of the age, from the residuals.
   void weigh() {
     double top = 0.0, bottom = 0.0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -280,7 +280,7 @@ class Fit {
       }
   }
 
-  // All axes together, each with what it knows; against the age that was assumed.
+  // All axes together, weighted by their information, relative to the assumed age.
   [[nodiscard]] Interval common() const {
     double information = 0.0, sum = 0.0;
     Blocks all{std::vector<double>(blocks_, 0.0), std::vector<double>(blocks_, 0.0)};
@@ -328,7 +328,7 @@ class Fit {
     return {std::sqrt(square), i.half / (2.0 * std::max(std::sqrt(square), std::sqrt(i.half) / 2.0))};
   }
 
-  // Means of the stops: where a bias depends on the place they differ.
+  // Means of the stops; they differ if the bias depends on the position.
   void stops(std::size_t a, AxisLatency& axis) const {
     constexpr double kLongEnough = 0.3;  // s
     double low = INFINITY, high = -INFINITY;
@@ -382,7 +382,7 @@ class Fit {
     return out;
   }
 
-  // A lag that does not grow with speed can only be separated from latency by motion at several speeds.
+  // Only motion at several speeds separates a lag that does not grow with speed from latency.
   [[nodiscard]] bool speeds_differ(std::size_t a) const {
     if (!moved_[a]) return false;
     double slow = 0.0, fast = 0.0;
@@ -428,7 +428,7 @@ class Fit {
   std::array<bool, 3> moved_{}, both_{};
 };
 
-// The same once more, with each packet at the time of its stamp: what is left is the stamps' error.
+// Repeats the fit with each packet at its stamp: the result is the stamps' error.
 void compare_stamps(const TrackerLog& log, LatencyFit& fit) {
   std::vector<double> stamps, ages;
   for (const TrackerPacket& packet : log.packets) {

@@ -13,14 +13,14 @@ namespace enc::models {
 namespace {
 
 constexpr std::size_t kFewestRows = 10;  // rows, and packets
-constexpr double kFarthest = 10.0;       // m: nothing of this kind is larger
-constexpr double kLongestPeriod = 0.1;   // s, of the rows: between them the tip is interpolated
-constexpr double kMilliseconds = 0.5;    // s, of the rows: so seldom comes only a time in another unit
-constexpr double kLongestGap = 0.1;      // s, of lost cycles; likewise
+constexpr double kFarthest = 10.0;       // m: larger positions are in another unit
+constexpr double kLongestPeriod = 0.1;   // s between rows, in which the tip is interpolated
+constexpr double kMilliseconds = 0.5;    // s between rows: only a time in another unit is that long
+constexpr double kLongestGap = 0.1;      // s of lost cycles
 constexpr double kRounding = 1e-6;       // s
-constexpr double kWhole = 0.25;          // of a period: a gap is a whole number of them to within this
-constexpr double kFarStamp = 1.0;        // s, of a machine's stamp from its row: another clock
-constexpr double kUneven = 0.5;          // of a period: a step that differs by more is not of this rate
+constexpr double kWhole = 0.25;          // share of a period: a gap is a whole number of them within this
+constexpr double kFarStamp = 1.0;        // s between a machine's stamp and its row: beyond, the clocks differ
+constexpr double kUneven = 0.5;          // share of a period: a step that differs by more has another rate
 constexpr double kSilence = 0.5;         // s without a packet: a gap, and not a lost packet
 constexpr double kWindow = 2.0;          // s over which packets are counted
 constexpr double kRateChange = 0.3;      // a window's count may differ by this share
@@ -85,7 +85,7 @@ class LogReader {
     if (!row_.has(kTipStamp)) return;
     const double before = log_.tip_time.empty() ? kUnset : log_.tip_time.back();
     const double stamp = row_.text(kTipStamp).empty() ? kUnset : row_.number(kTipStamp);
-    // Of a machine that is not heard of the last stands on.
+    // The last stamp repeats while the machine does not report.
     const double time = log_.time.back();
     if (!(stamp <= before) && std::abs(stamp - time) > kFarStamp) {
       const bool other_unit = stamp > time && is_unit(stamp / time);
@@ -98,14 +98,14 @@ class LogReader {
     log_.tip_time.push_back(stamp);
   }
 
-  // A thousand, or a thousand times that: another unit of time.
+  // True for a thousand, a million or a billion: another unit of time.
   static bool is_unit(double factor) {
     constexpr std::array<double, 3> kUnits{1e3, 1e6, 1e9};
     return std::any_of(kUnits.begin(), kUnits.end(),
                        [&](double unit) { return std::abs(factor / unit - 1.0) < 0.05; });
   }
 
-  // Stamps may be of another clock, but not of another unit.
+  // Stamps may come from another clock, but not in another unit.
   void check_tool_stamps() const {
     const TrackerPacket *first = nullptr, *last = nullptr;
     for (const TrackerPacket& packet : log_.packets) {
@@ -206,7 +206,7 @@ class LogReader {
                     missing, odd.size(), longest * 1e3));
   }
 
-  // A lost packet looks like a tool at rest without noise, where the last value is repeated.
+  // If a log repeats the last value, a lost packet looks like a tool at rest without noise.
   bool still(std::size_t from, std::size_t to) const {
     if (!log_.repeated) return false;
     for (std::size_t i = from; i <= to; ++i)
@@ -239,7 +239,7 @@ class LogReader {
     check_packet_rate(times);
   }
 
-  // Two rates in one log are two latencies.
+  // Two rates in one log mean two latencies.
   void check_packet_rate(const std::vector<double>& times) const {
     if (log_.repeated) return;
     const double mean = static_cast<double>(times.size() - 1) / (times.back() - times.front());
@@ -273,7 +273,7 @@ TipPath::TipPath(const TrackerLog& log)
     tip_ = log.tip;
   }
   for (std::size_t i = 0; i < log.tip_time.size(); ++i) {
-    const double t = log.tip_time[i];  // NaN is no news, either
+    const double t = log.tip_time[i];  // skips NaN, too
     if (!(time_.empty() ? std::isfinite(t) : t > time_.back())) continue;
     time_.push_back(t);
     tip_.push_back(log.tip[i]);
@@ -282,7 +282,8 @@ TipPath::TipPath(const TrackerLog& log)
   reach_ = std::max(5e-3, 2.0 * period_);
 }
 
-// The first that was later, or the last. Rows are even but for jitter and gaps: mostly the right one is near.
+// Index of the first later row, or of the last row. Rows are even except for jitter and gaps, so the first
+// guess is usually close.
 std::size_t TipPath::after(double t) const {
   const std::size_t last = time_.size() - 1;
   const double share = (t - time_.front()) / (time_.back() - time_.front());
