@@ -1,5 +1,5 @@
 // What a benchmark is written with: its scene, runs over values and seeds, a line for each figure, plots.
-// docs/reference/report.md tells how; benchmarks/encounter is one.
+// docs/guide/benchmark.md explains it; benchmarks/encounter is one.
 #pragma once
 
 #include <string>

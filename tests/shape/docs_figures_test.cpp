@@ -162,8 +162,7 @@ TEST(DocsFigures, TheReadmeShowsWhatTheProgramPrints) {
 // A page names benchmarks that there are: `bench NAME` or `bench NAME.figure`.
 TEST(DocsFigures, ABenchmarkThatAPageNamesIsThere) {
   static const std::regex kNamed(R"re((?:^\s*\./|`(?:\./)?)(?:encounter )?bench ([a-z][a-z0-9_-]*))re");
-  std::set<std::string> there{"paper-2020", "paper-2003",  // groups
-                              "first"};                    // the example of docs/reference/report.md
+  std::set<std::string> there{"paper-2020", "paper-2003"};  // groups
   for (const auto& entry : fs::directory_iterator(kTop / "benchmarks"))
     there.insert(entry.path().filename().string());
   std::size_t named = 0;

@@ -319,7 +319,7 @@ std::vector<fs::path> sources_in(const std::string& folder) {
   return all;
 }
 
-// What docs/reference/report.md shows as the example.
+// What docs/guide/benchmark.md names as the larger example.
 TEST(BenchmarkShape, APlainBenchmarkIsOneShortFile) {
   const std::vector<fs::path> files = sources_in("benchmarks/encounter");
   ASSERT_EQ(files.size(), 1U);
