@@ -142,7 +142,7 @@ void World::set_up_hexapod(const WorldSpec& spec) {
     pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
                    spec.prepared.tip_radius, spec.seed);
   if (pusher) programme_time_ = pusher->duration();
-  if (const Probe* probe = spec.prepared.probe())
+  if (const IndentationTask* probe = spec.prepared.probe())
     programme_time_ = enc::programme_time(spec.prepared, *probe);
   if (spec.prepared.travel()) programme_time_ = spec.prepared.travel()->duration();
   const mjModel* m = physics_.model();

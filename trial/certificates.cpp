@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/control/scene/steadiness.h"
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 #include "trial/assemble/assemble.h"
 
 namespace enc::trial {
@@ -254,7 +254,7 @@ double asked_at(const Impedance& law, const Object& object, double depth) {
   double most = 0.0;
   for (int i = 1; i <= kSteps; ++i) {
     const double d = depth * i / kSteps;
-    const Felt felt = felt_at(object.interaction, object.stiffness, law.rig.stiffness, d);
+    const RenderedStiffness felt = felt_at(object.interaction, object.stiffness, law.rig.stiffness, d);
     most = std::max(most, felt.stiffness * (d - felt.sunk));
   }
   return most;

@@ -22,7 +22,7 @@ constexpr Family kArm{
     .tip = [](const Inputs& in) { return in.arm.value.tip; },
     .tip_stamp = [](const Inputs& in) { return stamp_of(in.arm); },
     .passivity = [](const State& state) -> const Passivity& {
-      return recall<enc::Meeting>(state).tamed.energy;
+      return recall<ImpedanceState>(state).tamed.energy;
     },
 };
 
@@ -33,13 +33,15 @@ constexpr Family kHexapod{
                     const Scene& /*scene*/) { return std::vector<ArmStrength>(); },
     .passivity_form =
         [](const Scene& scene) {
-          const Render* render = scene.render();
+          const AdmittanceTask* render = scene.render();
           return render != nullptr ? render->passivity : PassivityForm::none;
         },
     .joint_units = [](const Scene& /*scene*/) { return std::vector<std::string>(); },
     .tip = [](const Inputs& in) { return in.tip.value.X_RH.origin(); },
     .tip_stamp = [](const Inputs& in) { return stamp_of(in.tip); },
-    .passivity = [](const State& state) -> const Passivity& { return recall<Rendering>(state).spent.energy; },
+    .passivity = [](const State& state) -> const Passivity& {
+      return recall<AdmittanceState>(state).spent.energy;
+    },
 };
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/control/task/carry/travel.h"
-#include "core/control/task/measure/probe.h"
+#include "core/control/task/indentation/indentation.h"
+#include "core/control/task/tracking/tracking.h"
 #include "models/schema/wording.h"
 #include "models/setup/calibration_files.h"
 #include "sim/clock.h"
@@ -30,7 +30,7 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 // Duration of the machine's own programme, s; 10 if it only waits for a person. With a twin, the twin gives
 // the duration.
 double programme_of(const Scene& scene) {
-  if (const Probe* probe = scene.probe()) return programme_time(scene, *probe);
+  if (const IndentationTask* probe = scene.probe()) return programme_time(scene, *probe);
   return scene.travel() != nullptr ? scene.travel()->duration() : 10.0;
 }
 

@@ -17,7 +17,7 @@ namespace enc::app {
 namespace {
 
 using Json = nlohmann::ordered_json;  // prints NaN as null
-using trial::Meeting;
+using trial::FingerEncounter;
 using trial::PassivityFigures;
 using trial::PressFigures;
 using trial::PushFigures;
@@ -331,7 +331,7 @@ std::string travel_text(const RunReport& r) {
 
 // ---- a bare finger that touches an arm [VisHap 3]
 
-Json meeting_json(const Meeting& m) {
+Json meeting_json(const FingerEncounter& m) {
   return {{"object", m.object},
           {"prepared_s", m.prepared},
           {"arrived_s", m.arrived},
@@ -378,18 +378,18 @@ std::string seen_line(const RunReport& r) {
 
 std::string finger_text(const RunReport& r) {
   const auto& meetings = r.measured.fingers.meetings();
-  const auto touched = those_of(meetings, [](const Meeting& m) { return !std::isnan(m.touched); });
+  const auto touched = those_of(meetings, [](const FingerEncounter& m) { return !std::isnan(m.touched); });
   const std::string prepared =
       fmt::format("far         tip speed at most {:.3f} mm/s\nprepare     {}, {} followed by a touch\n",
                   r.measured.fingers.far_speed() * kMmPerM, counted(meetings.size(), "time"), touched.size());
   if (touched.empty()) return prepared;
   const Json list = list_of(touched, meeting_json);
   std::string there;
-  for (const Meeting& m : touched)
+  for (const FingerEncounter& m : touched)
     there += (there.empty() ? "" : " / ") +
              (std::isnan(m.arrived) ? "not" : fmt::format("{:.0f}", (m.touched - m.arrived) * kMsPerS));
-  const bool deep =
-      std::any_of(meetings.begin(), meetings.end(), [](const Meeting& m) { return m.peak_depth > 0.0; });
+  const bool deep = std::any_of(meetings.begin(), meetings.end(),
+                                [](const FingerEncounter& m) { return m.peak_depth > 0.0; });
   const double sideways = r.measured.fingers.tangential_share();
   return prepared +
          fmt::format(

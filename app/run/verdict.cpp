@@ -90,7 +90,7 @@ void add_beside(const RunReport& r, Lines& lines) {
   const Vec3 size = r.setup.scene.prop.value_or(PropSpec{}).size;
   const double half = 0.5 * std::min(size.x(), size.y());
   const auto& meetings = r.measured.fingers.meetings();
-  const auto beside = [&](const trial::Meeting& m) { return m.miss > half; };
+  const auto beside = [&](const trial::FingerEncounter& m) { return m.miss > half; };
   const auto n = std::count_if(meetings.begin(), meetings.end(), beside);
   if (n == 0) return;
   const auto touched =

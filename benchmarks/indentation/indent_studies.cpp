@@ -9,7 +9,7 @@
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "core/control/task/measure/probe.h"
+#include "core/control/task/indentation/indentation.h"
 #include "core/control/track/reach.h"
 #include "core/machine/loop_model.h"
 #include "models/directions/directions.h"

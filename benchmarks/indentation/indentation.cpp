@@ -15,7 +15,7 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/verdict/reference.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "sim/truth/random.h"
 #include "trial/measure/press_measure.h"
 

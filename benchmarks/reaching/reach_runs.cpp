@@ -10,7 +10,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::bench::reaching {
 namespace {

@@ -12,7 +12,7 @@
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/session/session_measure.h"
 #include "core/base/units.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/devices/mode.h"
 
 namespace enc::bench::session {

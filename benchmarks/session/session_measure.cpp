@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::bench::session {
 namespace {

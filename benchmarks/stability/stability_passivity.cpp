@@ -14,7 +14,7 @@
 #include "benchmarks/stability/stability.h"
 #include "benchmarks/stiffness/push_study.h"
 #include "core/control/safety/passivity/passivity.h"
-#include "core/control/task/render/render.h"
+#include "core/control/task/admittance/admittance_task.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/trial.h"
@@ -78,7 +78,7 @@ class Loop {
       energy_ = {};
       return 0.0;
     }
-    const Yielded tick{moved, depth, std::min(most, r_.wall.stiffness * depth)};
+    const PassivityTick tick{moved, depth, std::min(most, r_.wall.stiffness * depth)};
     if (energy_.on)
       observe(energy_, tick, r_.device.count);
     else
@@ -300,7 +300,7 @@ class ContactWork {
     const bool on = glance.out.mode == Mode::contact || glance.out.mode == Mode::restore;
     const Vec3 tip = glance.truth.tip.e(), force = glance.truth.contact_force.e();
     if (on) {
-      const Vec3 normal = (recall<Rendering>(*glance.state).contact.X_WN * Vec<'N'>(0, 0, 1)).e();
+      const Vec3 normal = (recall<AdmittanceState>(*glance.state).contact.X_WN * Vec<'N'>(0, 0, 1)).e();
       const Vec3 mean = 0.5 * (force + force_), way = tip - tip_;
       const double along = mean.dot(normal) * way.dot(normal);
       now_ = {now_.along - along, now_.across - (mean.dot(way) - along)};

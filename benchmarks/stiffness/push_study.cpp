@@ -8,7 +8,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/kit/scenes.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::bench::stiffness {
 namespace {
@@ -63,7 +63,7 @@ class Observer {
   [[nodiscard]] Vec<'W'> zero_error(const Pose<'W', 'H'>& X_WH, const State& state) const {
     const Pose<'W', 'F'> X_WF = X_WH * scene_.X_HF;
     const double unknown = setup_.twin.hexapod.mass - scene_.force.mass;
-    return X_WF * (world_->force->zero() - recall<Commanded>(state).force_zero) +
+    return X_WF * (world_->force->zero() - recall<CommandState>(state).force_zero) +
            Vec<'W'>(0, 0, -unknown * kGravity);
   }
 

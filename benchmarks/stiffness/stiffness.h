@@ -35,7 +35,7 @@ void over_rig(Bench& bench);
 void add_softest(const BenchContext& context, BenchResult& result);
 
 // Beyond the paper: how soft a wall the machine renders with the damper of
-// core/control/task/render/damping.h, and what it costs.
+// core/control/task/admittance/damping.h, and what it costs.
 
 // Adds figures `stiffness.beyond.*`, plots and tables to the benchmark `stiffness`.
 void add_beyond(const BenchContext& context, const std::function<void(double)>& progress,

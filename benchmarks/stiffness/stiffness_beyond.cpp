@@ -304,7 +304,7 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
     const sim::Truth& truth = trial.world().truth();
     course.time.push_back(seconds(truth.t.time_since_epoch()));
     course.deflection.push_back(1e3 * (dot(at.point - truth.tip, at.normal) - trial.scene().tip_radius));
-    course.seen.push_back(1e-3 * recall<Rendering>(trial.state()).swing.stiffness);
+    course.seen.push_back(1e-3 * recall<AdmittanceState>(trial.state()).swing.stiffness);
   }
   return course;
 }

@@ -118,7 +118,7 @@ Bounce hit_once(models::Setup setup, std::uint64_t seed) {
   bool pressed = false;
   while (trial.tick() && !(now > parted + 0.03)) {
     const sim::Truth& truth = trial.world().truth();
-    const Moved& moved = moved_in(trial.state())[0];
+    const MoverState& moved = moved_in(trial.state())[0];
     const Vec3 normal = Vec3::UnitZ();  // the ball is hit from above
     const double finger = -normal.dot(truth.tool_velocity.e());
     now = seconds(truth.t.time_since_epoch());
@@ -248,7 +248,7 @@ TileEnd push_tile(const BenchContext& context, const std::string& tile) {
   const auto named =
       std::find_if(objects.begin(), objects.end(), [&](const ObjectSpec& o) { return o.name == tile; });
   const auto moving = trial.scene().objects[static_cast<std::size_t>(named - objects.begin())].moving;
-  const Moved& now = moved_in(trial.state())[static_cast<std::size_t>(moving)];
+  const MoverState& now = moved_in(trial.state())[static_cast<std::size_t>(moving)];
   return {now.shift.norm(), now.velocity.norm()};
 }
 

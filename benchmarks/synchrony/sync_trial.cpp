@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/base/frames.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "trial/trial.h"
 
 namespace enc::bench::synchrony {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/control/track/reach.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/truth/random.h"
@@ -94,9 +94,9 @@ struct Watcher {
   }
   // The error of this tick, or unset where the tool was not seen yet.
   Vec3 see(const Tick& tick, const Inputs& in, const Vec3& truth) {
-    stages::Walk walk(scene, tick, in);
-    stages::track_tool(walk, state, false);
-    return walk.tool_tip.e() - truth;
+    stages::StepContext step_context(scene, tick, in);
+    stages::track_tool(step_context, state, false);
+    return step_context.tool_tip.e() - truth;
   }
   void count(const Vec3& error, bool news) {
     if (!error.allFinite()) return;

@@ -59,7 +59,7 @@ struct Walked {
 struct Ran {
   double simulated = 0.0, cpu = 0.0;  // s
   trial::TrialResult result;
-  std::vector<trial::Meeting> meetings;
+  std::vector<trial::FingerEncounter> meetings;
   std::vector<reaching::ReachOutcome> reaches;
   double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
   double step = 0.0;  // N: of Lambda f along the normal, from tick to tick in contact
@@ -186,7 +186,7 @@ std::vector<std::string> quarter_size() {
 void tell_wall(Bench& bench, const Ran& ran) {
   for (const double v : {50.0, 100.0, 200.0, 300.0}) {
     double most = 0.0, n = 0.0;
-    for (const trial::Meeting& m : ran.meetings) {
+    for (const trial::FingerEncounter& m : ran.meetings) {
       if (std::isnan(m.touched) || std::abs(1e3 * m.approach_speed - v) > 1.0) continue;
       most = std::max(most, m.miss);
       ++n;

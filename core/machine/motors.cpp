@@ -22,12 +22,12 @@ double folded_back(double warmth, double peak, double continuous) noexcept {
   return std::min(peak, continuous + cool * (peak - continuous));
 }
 
-Warming::Warming(const Thermal& thermal, double dt)
+MotorHeating::MotorHeating(const Thermal& thermal, double dt)
     : winding_(1.0 - std::exp(-dt / thermal.winding_time)),
       housing_(1.0 - std::exp(-dt / thermal.housing_time)),
       share_(thermal.winding_share) {}
 
-void Warming::operator()(double load, double& winding, double& housing) const noexcept {
+void MotorHeating::operator()(double load, double& winding, double& housing) const noexcept {
   const double heat = load * load;
   winding += winding_ * (share_ * heat - winding);
   housing += housing_ * ((1.0 - share_) * heat - housing);
@@ -117,7 +117,7 @@ std::int64_t Motors::gives_way_in(const Arm& arm, const PerJoint& q, const PerJo
   constexpr double kStep = 0.02;  // s
   constexpr std::int64_t kMost = 1'000;
   const PerJoint each = arm.torque(arm.jacobian(q), way);
-  const Warming warming(thermal_, kStep);
+  const MotorHeating warming(thermal_, kStep);
   const auto steps = [](double time) { return static_cast<std::int64_t>(std::ceil(time / kStep)); };
   Heat heat;
   for (std::int64_t press = 1; press <= std::min(presses.number, kMost); ++press) {

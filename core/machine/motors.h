@@ -35,10 +35,10 @@ inline constexpr double kWarm = 0.8;
 // Torque limit at a relative temperature: peak, then less, and at 1 the continuous torque.
 [[nodiscard]] double folded_back(double warmth, double peak, double continuous) noexcept;
 // One tick under a load; load is torque over continuous torque.
-class Warming {
+class MotorHeating {
  public:
-  Warming() = default;
-  Warming(const Thermal& thermal, double dt);
+  MotorHeating() = default;
+  MotorHeating(const Thermal& thermal, double dt);
   void operator()(double load, double& winding, double& housing) const noexcept;
 
  private:
@@ -88,7 +88,7 @@ class Motors {
   PerJoint peak_{}, continuous_{};  // referred to the joints, N m or N
   double tip_ = 0.0;                // N: largest tip force anywhere
   Thermal thermal_;
-  Warming warming_;
+  MotorHeating warming_;
 };
 
 }  // namespace enc

@@ -32,9 +32,9 @@ struct FingerTracker::Parts {
 
   [[nodiscard]] Refused usable(const StereoFrame& frame, Time exposed) const;
   [[nodiscard]] Region window() const;
-  [[nodiscard]] HandScene::Followed followed() const;
+  [[nodiscard]] HandScene::FingerHint followed() const;
   [[nodiscard]] bool look(const StereoFrame& frame, Time exposed, Triplet& at, Vec3& variance);
-  [[nodiscard]] bool too_fast(const HandScene::Seen& seen, Time exposed) const;
+  [[nodiscard]] bool too_fast(const HandScene::HandFinding& seen, Time exposed) const;
   void forget_nonsense();
   void take(bool found, Time exposed, const Triplet& at, const Vec3& variance);
   [[nodiscard]] Finger told(Time exposed) const;
@@ -70,14 +70,14 @@ Region FingerTracker::Parts::window() const {
 }
 
 // After more than two frames without the finger it must be recognised anew.
-HandScene::Followed FingerTracker::Parts::followed() const {
+HandScene::FingerHint FingerTracker::Parts::followed() const {
   constexpr int kMisses = 2;
   if (stats.whole_frame) return {};
   return {filter.at(), stats.misses <= kMisses ? cap : kUnset};
 }
 
 // True if no hand moves that fast from the last seen position. After a long gap it is another hand.
-bool FingerTracker::Parts::too_fast(const HandScene::Seen& seen, Time exposed) const {
+bool FingerTracker::Parts::too_fast(const HandScene::HandFinding& seen, Time exposed) const {
   constexpr double kFastest = 3.0, kVague = 0.02, kForgotten = 0.5;  // m/s, m, s
   const double since = age(exposed, last_seen);
   if (!last_place.finite() || since > kForgotten) return false;
@@ -85,7 +85,7 @@ bool FingerTracker::Parts::too_fast(const HandScene::Seen& seen, Time exposed) c
 }
 
 bool FingerTracker::Parts::look(const StereoFrame& frame, Time exposed, Triplet& at, Vec3& variance) {
-  HandScene::Seen seen = scene.look(frame, stats.window, followed());
+  HandScene::HandFinding seen = scene.look(frame, stats.window, followed());
   if (seen.doubt == Doubt::no && seen.tip.found && too_fast(seen, exposed)) seen.doubt = Doubt::speed;
   stats.doubt = seen.doubt;
   stats.evidence = seen.evidence;

@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/words.h"
-#include "core/control/task/measure/probe.h"
+#include "core/control/task/indentation/indentation.h"
 #include "core/control/world/object.h"
 #include "core/devices/roles.h"
 #include "core/spec/vision_check.h"

@@ -145,8 +145,8 @@ int dent_seen(mjModel* m, const mjData* data, const Scene& scene, std::size_t ob
   float* normal = m->mesh_normal + static_cast<std::ptrdiff_t>(3) * m->mesh_normaladr[mesh];
   if (m->mesh_normalnum[mesh] != m->mesh_vertnum[mesh]) return -1;
   for (int i = 0; i < m->mesh_vertnum[mesh]; ++i, vertex += 3, normal += 3) {
-    const Displaced to = displaced(field, X_OM * Point<'W'>(vertex[0], vertex[1], vertex[2]),
-                                   X_OM * Vec<'W'>(Vec3(normal[0], normal[1], normal[2]).normalized()));
+    const DisplacedPoint to = displaced(field, X_OM * Point<'W'>(vertex[0], vertex[1], vertex[2]),
+                                        X_OM * Vec<'W'>(Vec3(normal[0], normal[1], normal[2]).normalized()));
     const Point<'W'> at = X_MO * to.point;
     const Vec<'W'> n = X_MO * to.normal;
     for (int k = 0; k < 3; ++k) {

@@ -70,7 +70,7 @@ class ArmPlant {
   ArmTruth truth_;
   Arm believed_;
   double dt_;
-  Warming warming_;
+  MotorHeating warming_;
   std::int64_t window_;  // ticks
   PerJoint step_{};
   State state_;

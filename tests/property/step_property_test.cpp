@@ -325,7 +325,7 @@ void any_pose(const Surface& surface, double zero, std::uint64_t seed) {
     const Vec3 under = deepest(surface, tip).at.point.e();
     for (int k = 0; k < 40; ++k) {
       const Nearest at = surface.nearest(Point<'O'>(Vec3(under + pick.uniform(0, 0.02) * pick.direction())));
-      const Displaced to = displaced(field, at.point, at.normal);
+      const DisplacedPoint to = displaced(field, at.point, at.normal);
       const double in = inside(tip, to.point.e());
       deepest_inside = std::max(deepest_inside, in);
       on_tip += in > -1e-9 ? 1 : 0;

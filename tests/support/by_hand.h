@@ -16,7 +16,7 @@
 #include "core/base/frames.h"
 #include "core/base/sample.h"
 #include "core/base/time.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/finger_loop.h"

@@ -67,7 +67,7 @@ class Loop {
 
   // One tick, or several.
   const Outputs& tick(int n = 1);
-  [[nodiscard]] Point<'W'> tip() const { return scene.X_WR * recall<Commanded>(state).command; }
+  [[nodiscard]] Point<'W'> tip() const { return scene.X_WR * recall<CommandState>(state).command; }
   [[nodiscard]] Time now() const { return k.t; }
 
   Scene scene;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 #include "sim/spec/arm_spec.h"
 
 namespace enc::trial {
@@ -16,7 +16,7 @@ struct Static {
 };
 Static static_at(const LawAt& law, double depth) {
   if (!law.felt) return {1.0, 0.0};
-  const Felt felt =
+  const RenderedStiffness felt =
       felt_at(law.object->interaction, law.object->stiffness, law.stiffness, std::max(0.0, depth));
   return {felt.stiffness * law.firmness / law.stiffness, felt.sunk};
 }
@@ -35,7 +35,7 @@ double ball_push(const LawAt& law, double depth) {
 LawAt law_at(const Glance& glance, const Impedance& law) {
   LawAt at;
   const State& state = *glance.state;
-  const Meeting& now = recall<Meeting>(state);
+  const ImpedanceState& now = recall<ImpedanceState>(state);
   at.live = glance.out.mode != Mode::hold && glance.out.arm_force.finite() && now.aim.target.finite();
   if (!at.live) return at;
   const bool contact = state.mode == Mode::contact;
@@ -49,7 +49,7 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
   at.gain = now.aim.gain;
   at.sunk = now.aim.sunk;
   if (at.object != nullptr && at.object->moving >= 0 && contact) {
-    const Moved& moved = moved_in(state)[static_cast<std::size_t>(at.object->moving)];
+    const MoverState& moved = moved_in(state)[static_cast<std::size_t>(at.object->moving)];
     at.firmness = moved.firmness;
     // The surface at the tick that measured this depth: the ball has moved on since.
     const Point<'W'> tip = glance.scene.X_WR * glance.in.arm.value.tip;
@@ -137,7 +137,7 @@ ArmLedger::ArmLedger(const models::Setup& setup)
 // The core's request for the true state: passes the true state through the core's filters.
 void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
                        Known& now) {
-  const Aim& aim = recall<Meeting>(*glance.state).aim;
+  const Aim& aim = recall<ImpedanceState>(*glance.state).aim;
   if (!was || !was->law.live) {
     error_ = aim.error.e();
     rate_ = aim.error_rate.e();
@@ -180,7 +180,7 @@ bool ArmLedger::tick(const Glance& glance) {
   return true;
 }
 
-void ArmLedger::rest(const Glance& glance) { aim_ = recall<Meeting>(*glance.state).aim; }
+void ArmLedger::rest(const Glance& glance) { aim_ = recall<ImpedanceState>(*glance.state).aim; }
 
 ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known>& was) {
   const Impedance& law = impedance_of(glance.scene);
@@ -195,7 +195,7 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known
   now.law = law_at(glance, law);
   now.held = now.late = now.counted = now.given = Vec3::Zero();
   if (now.law.live) tell(glance, law, was, now);
-  aim_ = recall<Meeting>(*glance.state).aim;
+  aim_ = recall<ImpedanceState>(*glance.state).aim;
   return now;
 }
 
@@ -208,10 +208,10 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   const Posture& at = posture(q, law);
   now.law.damping = at.damping;
   now.compensated = at.compensated;
-  const Aim& aim = recall<Meeting>(*glance.state).aim;
+  const Aim& aim = recall<ImpedanceState>(*glance.state).aim;
   Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
   // A target that jumped is on its way from this tick on. A target that accelerates in a contact only moves
-  // sideways (core/control/task/meet/aim.cpp).
+  // sideways (core/control/task/impedance/aim.cpp).
   const bool on_its_way = !(aim_.caught_up && aim.caught_up);
   now.law.on_its_way = on_its_way;
   if (!on_its_way && glance.out.mode == Mode::contact) change -= now.law.normal * now.law.normal.dot(change);

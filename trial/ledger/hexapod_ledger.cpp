@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/control/task/tasks.h"
 
 namespace enc::trial {
@@ -35,7 +35,7 @@ double recoverable(const Object& object, ResponseState state, double depth, doub
 }  // namespace
 
 bool HexapodLedger::tick(const Glance& glance) {
-  const Render* render = glance.scene.render();
+  const AdmittanceTask* render = glance.scene.render();
   damped_ = render != nullptr && render->damping.has_value();
   return render != nullptr;
 }
@@ -44,7 +44,7 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
   Known now;
   now.felt = glance.truth.contact_force.e();
   now.tip = glance.truth.tip.e();
-  const Rendering& rendering = recall<Rendering>(*glance.state);
+  const AdmittanceState& rendering = recall<AdmittanceState>(*glance.state);
   const State& state = *glance.state;
   const Contact& contact = rendering.contact;
   const bool engaged = (state.mode == Mode::contact || state.mode == Mode::restore) && contact.object >= 0;

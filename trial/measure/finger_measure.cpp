@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::trial {
 
@@ -72,7 +72,7 @@ Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
 
 void FingerMeasure::watch_meeting(const Glance& glance, double now) {
   constexpr double kThere = 2e-3;  // m
-  Meeting& meeting = meetings_.back();
+  FingerEncounter& meeting = meetings_.back();
   const TrueDepth at = true_depth(glance);
   if (std::isnan(meeting.touched)) {
     meeting.object = glance.out.object;
@@ -96,7 +96,7 @@ void FingerMeasure::watch_meeting(const Glance& glance, double now) {
 void FingerMeasure::watch_force(const Glance& glance) {
   constexpr double kFelt = 1.0;                // N
   constexpr double kFrom = 2e-3, kTo = 10e-3;  // m
-  Meeting& meeting = meetings_.back();
+  FingerEncounter& meeting = meetings_.back();
   const TrueDepth at = true_depth(glance);
   if (std::isnan(meeting.touched) || !at.normal.finite()) {
     last_force_ = kUnset;

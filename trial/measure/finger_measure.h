@@ -20,7 +20,7 @@ struct LineFit {
 };
 
 // One approach, from the core's "prepare" to the end of the contact.
-struct Meeting {
+struct FingerEncounter {
   std::int32_t object = -1;
   double prepared = kUnset;        // s of experiment: away became follow
   double arrived = kUnset;         // s: from then on the prop is within 2 mm of the meeting point (Way)
@@ -50,7 +50,7 @@ class FingerMeasure {
  public:
   void see(const Glance& glance);
 
-  [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
+  [[nodiscard]] const std::vector<FingerEncounter>& meetings() const { return meetings_; }
   [[nodiscard]] const LineFit& fit() const { return fit_; }  // force over the true depth of 2 to 10 mm
   // Line over the depth as the core estimated it.
   [[nodiscard]] const LineFit& believed() const { return believed_; }
@@ -61,7 +61,7 @@ class FingerMeasure {
   void watch_meeting(const Glance& glance, double now);
   void watch_force(const Glance& glance);
 
-  std::vector<Meeting> meetings_ = with_room<Meeting>();
+  std::vector<FingerEncounter> meetings_ = with_room<FingerEncounter>();
   Way way_;  // path of the prop since the last "prepare"
   LineFit fit_, believed_;
   FarWatch far_;

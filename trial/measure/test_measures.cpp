@@ -64,7 +64,7 @@ namespace {
 
 constexpr double kSettled = 0.3;  // s of rest before a stop counts: longer than any packet's delay
 
-std::int32_t next_axis(const Travel& travel, std::int32_t leg) {
+std::int32_t next_axis(const TrackingTask& travel, std::int32_t leg) {
   return travel.on_leg(leg + 1) ? travel.legs[static_cast<std::size_t>(leg) + 1].axis : -1;
 }
 
@@ -111,7 +111,7 @@ void TravelMeasure::see(const Glance& glance) {
   const Scene& scene = glance.scene;
   if (scene.travel() == nullptr || glance.state == nullptr) return;
   const Inputs& in = glance.in;
-  const Travelling& now = recall<Travelling>(*glance.state);
+  const TrackingState& now = recall<TrackingState>(*glance.state);
   if (in.tip.health == Health::absent || !scene.travel()->on_leg(now.leg)) return;
   const TravelLeg& leg = scene.travel()->legs[static_cast<std::size_t>(now.leg)];
   const Vec3 velocity = (scene.X_WR * in.tip.value.velocity).e();

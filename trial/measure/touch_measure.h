@@ -3,7 +3,7 @@
 //
 // An oscillation of machine and hand against each other during a touch is a limit cycle of the loop, not the
 // hand's own motion. If the tip moves by itself, force and depth change in opposite directions; if it gives
-// way to a push, they change in one direction (core/control/task/render/damping.h).
+// way to a push, they change in one direction (core/control/task/admittance/damping.h).
 #pragma once
 
 #include <cmath>

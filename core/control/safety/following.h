@@ -11,7 +11,7 @@ namespace enc {
 
 // Time for which something has been off its commanded path. A fast command excuses a larger error, for as
 // long as the machine may lag behind that command.
-struct Straying {
+struct PathDeviation {
   double fastest = 0.0;  // m/s
   double off = 0.0;      // s
 
@@ -32,7 +32,7 @@ struct Straying {
 struct Following {
   Point<'R'> expected;  // position of the servo model; unset: not started
   Vec<'R'> velocity = Vec<'R'>::zero();
-  Straying straying;
+  PathDeviation straying;
   bool lost = false;  // off for too long; stays set until the tool leaves
 };
 

@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/control/scene/scene.h"
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 
 namespace enc {
 namespace {
@@ -236,13 +236,13 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   keep_settings(spec, rig, scene);
   Impedance law = law_of(spec, rig, scene.dt);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
-  static_cast<Impedance&>(scene.task.emplace<Meet>()) = std::move(law);
+  static_cast<Impedance&>(scene.task.emplace<ImpedanceTask>()) = std::move(law);
   scene.tip_radius = 0.0;  // a prop has its surface in front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
   check_arm_passivity(rig.arm, scene);
   if (std::vector<Mover> movers = make_movers(spec.objects, scene.objects); !movers.empty())
-    scene.task = Push{*scene.impedance(), std::move(movers)};
+    scene.task = DynamicObjectTask{*scene.impedance(), std::move(movers)};
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   check_arm_reach(spec, scene);
   check_ways(spec, scene);

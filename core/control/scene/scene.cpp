@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/control/scene/press_check.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/control/task/tasks.h"
 #include "core/machine/arm.h"
 
@@ -278,11 +278,11 @@ void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& sce
 // The law of the rendered object, until another task is chosen.
 void set_law(const RigSpec& rig, Scene& scene) {
   if (rig.admittance.damping == Damping::observed)
-    std::get<Render>(scene.task)
+    std::get<AdmittanceTask>(scene.task)
         .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
                          stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
-  std::get<Render>(scene.task).passivity = rig.admittance.passivity;
-  std::get<Render>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
+  std::get<AdmittanceTask>(scene.task).passivity = rig.admittance.passivity;
+  std::get<AdmittanceTask>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
 }
 
 void check_passivity(const RigSpec& rig, const Scene& scene) {
@@ -425,24 +425,24 @@ class Chains {
       W_H_ = read_arm(in);
     else
       read_machine(in);
-    stages::Walk walk(scene_, tick, in);
-    std::visit([&](const auto& task) { go_through(task, walk, state); }, scene_.task);
-    compare(walk.X_WH, W_H_);
-    compare(walk.X_WH * scene_.X_HF, W_H_ * matrix(rig_.frames.H_F));
+    stages::StepContext context(scene_, tick, in);
+    std::visit([&](const auto& task) { go_through(task, context, state); }, scene_.task);
+    compare(context.X_WH, W_H_);
+    compare(context.X_WH * scene_.X_HF, W_H_ * matrix(rig_.frames.H_F));
     if (in.tool.health == Health::ok) {
-      compare(walk.X_WT_newest, W_T_);
-      compare(walk.tip_newest.e(), placed(W_T_, spec_.tools[0].tip));
+      compare(context.X_WT_newest, W_T_);
+      compare(context.tip_newest.e(), placed(W_T_, spec_.tools[0].tip));
     }
-    if (scene_.has_force) compare(walk.felt.e(), kForce);
+    if (scene_.has_force) compare(context.felt.e(), kForce);
   }
 
   template <class Task>
-  void go_through(const Task& task, stages::Walk& walk, State& state) const {
+  void go_through(const Task& task, stages::StepContext& context, State& state) const {
     typename Task::Memory memory;
-    track(walk, task, state, memory);
-    if constexpr (std::is_base_of_v<Commanded, typename Task::Memory>) {
+    track(context, task, state, memory);
+    if constexpr (std::is_base_of_v<CommandState, typename Task::Memory>) {
       memory.tared = rig_.force.tare_time;
-      sense(walk, state, memory, false);
+      sense(context, state, memory, false);
     }
   }
 

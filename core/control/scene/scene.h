@@ -27,13 +27,14 @@ struct Scene : CommonScene {
 
   Tasks::Any task;  // the task of this scene
 
-  // The task if it has this type, else null. The law of an arm is that of Meet or of Push.
-  [[nodiscard]] const Render* render() const { return std::get_if<Render>(&task); }
-  [[nodiscard]] const Probe* probe() const { return std::get_if<Probe>(&task); }
-  [[nodiscard]] const Travel* travel() const { return std::get_if<Travel>(&task); }
+  // The task if it has this type, else null. The law of an arm is that of ImpedanceTask or of
+  // DynamicObjectTask.
+  [[nodiscard]] const AdmittanceTask* render() const { return std::get_if<AdmittanceTask>(&task); }
+  [[nodiscard]] const IndentationTask* probe() const { return std::get_if<IndentationTask>(&task); }
+  [[nodiscard]] const TrackingTask* travel() const { return std::get_if<TrackingTask>(&task); }
   [[nodiscard]] const Impedance* impedance() const {
-    if (const auto* push = std::get_if<Push>(&task)) return push;
-    return std::get_if<Meet>(&task);
+    if (const auto* push = std::get_if<DynamicObjectTask>(&task)) return push;
+    return std::get_if<ImpedanceTask>(&task);
   }
 };
 

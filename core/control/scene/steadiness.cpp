@@ -10,7 +10,7 @@
 
 #include "core/control/safety/inside.h"
 #include "core/control/scene/scene.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/control/track/reach.h"
 #include "core/spec/rig_spec.h"
 

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "core/control/task/render/damping.h"
+#include "core/control/task/admittance/damping.h"
 #include "core/machine/loop_model.h"
 #include "core/shape/response/response.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/machine/arm.h"
 
 namespace enc::stages {
@@ -19,7 +19,7 @@ constexpr double kWidestJaws = 1.0, kMostGrip = 1e4;
 constexpr double kBack = 1e-3;
 
 // The core sends no command before the machine has reported its position, and starts from there.
-void begin_anew(CommonState& state, Commanded& now) {
+void begin_anew(CommonState& state, CommandState& now) {
   state.started = false;
   state.entered = false;
   state.mode = Mode::away;
@@ -28,72 +28,73 @@ void begin_anew(CommonState& state, Commanded& now) {
   now.following = Following{};
 }
 
-void track_tip(Walk& walk, CommonState& state, Commanded& now) {
-  const auto& sample = walk.in.tip;
-  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
-    walk.why |= kTipLost;
+void track_tip(StepContext& context, CommonState& state, CommandState& now) {
+  const auto& sample = context.in.tip;
+  if (sample.health == Health::absent || age(context.tick.t, sample.t) > context.scene.force.stale) {
+    context.why |= kTipLost;
     return;
   }
   const auto& tip = sample.value;
   const bool usable = (sample.health == Health::ok || sample.health == Health::out_of_range) &&
                       tip.X_RH.valid() && tip.X_RH.p().norm() < kFarthest && tip.velocity.finite() &&
                       tip.acceleration.finite() && tip.acceleration.norm() < kMostAcceleration &&
-                      tip.velocity.norm() < kFastest && sample.t <= walk.tick.t + walk.tick.dt;
+                      tip.velocity.norm() < kFastest && sample.t <= context.tick.t + context.tick.dt;
   if (!usable) {
-    walk.why |= kTipInvalid;
+    context.why |= kTipInvalid;
     return;
   }
-  walk.X_WH = walk.scene.X_WR * tip.X_RH;
+  context.X_WH = context.scene.X_WR * tip.X_RH;
   if (!state.started) {
     // Commands keep W's axes, so a turned machine must first be turned back by its own means.
-    if (walk.X_WH.q().angularDistance(Quat::Identity()) > kTurned) {
-      walk.why |= kTipInvalid;
+    if (context.X_WH.q().angularDistance(Quat::Identity()) > kTurned) {
+      context.why |= kTipInvalid;
       return;
     }
     state.started = true;
     now.command = tip.X_RH.origin();
   }
   // A withheld command needs no following check, so that check starts anew.
-  if (walk.in.withheld)
+  if (context.in.withheld)
     now.following = Following{};
-  else if (!follows(walk.scene.servo, now.command, now.command_velocity, tip.X_RH.origin(), now.following))
+  else if (!follows(context.scene.servo, now.command, now.command_velocity, tip.X_RH.origin(), now.following))
     now.following.lost = true;
 }
 
 }  // namespace
 
-void track(Walk& walk, const Displacing&, CommonState& state, Commanded& now) noexcept {
-  walk.stops_tool = true;
-  if (walk.in.resumed) begin_anew(state, now);
-  if (walk.scene.has_manipulator) track_tip(walk, state, now);
-  track_tool(walk, state, false);
+void track(StepContext& context, const Displacing&, CommonState& state, CommandState& now) noexcept {
+  context.stops_tool = true;
+  if (context.in.resumed) begin_anew(state, now);
+  if (context.scene.has_manipulator) track_tip(context, state, now);
+  track_tool(context, state, false);
 }
 
-void grip(Walk& walk) noexcept {
-  if (walk.scene.clamped_tool < 0) return;
-  const Stamped<GripSample>& sample = walk.in.grip;
+void grip(StepContext& context) noexcept {
+  if (context.scene.clamped_tool < 0) return;
+  const Stamped<GripSample>& sample = context.in.grip;
   const GripSample& jaws = sample.value;
   const bool possible = std::abs(jaws.opening) < kWidestJaws &&
                         std::abs(jaws.force) < kMostGrip &&  // false for NaN
-                        sample.t <= walk.tick.t + walk.tick.dt;
+                        sample.t <= context.tick.t + context.tick.dt;
   const bool usable = sample.health == Health::ok || sample.health == Health::out_of_range;
   const bool empty = jaws.phase == GripPhase::closed && !jaws.holding;
-  if (!possible || !usable || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale)
-    walk.why |= kToolNotHeld;
+  if (!possible || !usable || empty || age(context.tick.t, sample.t) > context.scene.force.stale)
+    context.why |= kToolNotHeld;
 }
 
 // A machine that did not follow may move on at any time. The hold lasts until the tool has gone and the
 // command is back at the machine's position. Without a view of the tool it lasts to the end.
-void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept {
+void hold_lost(StepContext& context, CommonState& state, CommandState& now) noexcept {
   if (!now.following.lost) return;
-  const bool back = (walk.X_WH.origin() - walk.scene.X_WR * now.command).norm() < kBack;  // false for NaN
-  const bool gone =
-      walk.scene.has_tracker && walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.follow.pause;
+  const bool back =
+      (context.X_WH.origin() - context.scene.X_WR * now.command).norm() < kBack;  // false for NaN
+  const bool gone = context.scene.has_tracker && context.tool_known && context.tool_fresh &&
+                    context.gap > context.scene.follow.pause;
   if (gone && back) {
     now.following = Following{};
     state.mode = Mode::away;
   } else {
-    walk.why |= kNotFollowing;
+    context.why |= kNotFollowing;
   }
 }
 
@@ -107,66 +108,66 @@ constexpr double kFreeTareTime = 2.0;  // s: time constant of the zero while the
 
 // The zero is the mean of the last window but one, so it contains no part of a touch, however slowly that
 // begins.
-void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
+void tare_again(const StepContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
   if (now.tare_window == 0.0 || !clear) now.tare_mean = Vec<'F'>::zero();
   if (!clear) {
     now.tare_last = Vec<'F'>();
     now.tare_window = 0.0;
     return;
   }
-  now.tare_window += walk.scene.dt;
-  now.tare_mean = now.tare_mean + (walk.scene.dt / now.tare_window) * (unloaded - now.tare_mean);
-  if (now.tare_window < walk.scene.force.tare_time) return;
+  now.tare_window += context.scene.dt;
+  now.tare_mean = now.tare_mean + (context.scene.dt / now.tare_window) * (unloaded - now.tare_mean);
+  if (now.tare_window < context.scene.force.tare_time) return;
   if (now.tare_last.finite()) now.force_zero = now.tare_last;
   now.tare_last = now.tare_mean;
   now.tare_window = 0.0;
 }
 
 // The running mean of the first tare_time becomes the zero; after that the rig's setting applies.
-void tare(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
-  const ForceRig& rig = walk.scene.force;
+void tare(const StepContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
+  const ForceRig& rig = context.scene.force;
   const bool first = now.tared < rig.tare_time;
-  if (!first && rig.tare == Tare::window) return tare_again(walk, unloaded, clear, now);
+  if (!first && rig.tare == Tare::window) return tare_again(context, unloaded, clear, now);
   if (!clear || (!first && rig.tare == Tare::start)) return;
-  now.tared += walk.scene.dt;
-  const double gain = walk.scene.dt / (first ? now.tared : kFreeTareTime);
+  now.tared += context.scene.dt;
+  const double gain = context.scene.dt / (first ? now.tared : kFreeTareTime);
   now.force_zero = now.force_zero + gain * (unloaded - now.force_zero);
 }
 
 }  // namespace
 
 // The force zero does not change while the tool is unseen or in a hold: the tool may be anywhere.
-void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept {
-  if (!walk.scene.has_force) return;
-  const auto& sample = walk.in.wrench;
-  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
-    walk.why |= kForceLost;
+void sense(StepContext& context, CommonState& state, CommandState& now, bool clear) noexcept {
+  if (!context.scene.has_force) return;
+  const auto& sample = context.in.wrench;
+  if (sample.health == Health::absent || age(context.tick.t, sample.t) > context.scene.force.stale) {
+    context.why |= kForceLost;
     return;
   }
   const bool absurd = !sample.value.force.finite() || !sample.value.torque.finite() ||
                       sample.value.force.norm() > kAbsurd || sample.value.torque.norm() > kAbsurd ||
-                      sample.t > walk.tick.t + walk.tick.dt;
+                      sample.t > context.tick.t + context.tick.dt;
   if (absurd || sample.health == Health::fault) {
-    walk.why |= kForceInvalid;
+    context.why |= kForceInvalid;
     return;
   }
   if (sample.health == Health::saturated || sample.health == Health::out_of_range)
-    walk.why |= kForceSaturated;
-  if ((walk.why & (kTipInvalid | kTipLost | kForceSaturated)) != 0) return;
+    context.why |= kForceSaturated;
+  if ((context.why & (kTipInvalid | kTipLost | kForceSaturated)) != 0) return;
 
   // measured = contact + m g - m a + zero
-  const Pose<'W', 'F'> X_WF = walk.X_WH * walk.scene.X_HF;
-  const Vec<'W'> acceleration = walk.scene.X_WR * walk.in.tip.value.acceleration;
-  const Vec<'W'> dead_load = walk.scene.force.mass * (Vec<'W'>(0, 0, -kStandardGravity) - acceleration);
+  const Pose<'W', 'F'> X_WF = context.X_WH * context.scene.X_HF;
+  const Vec<'W'> acceleration = context.scene.X_WR * context.in.tip.value.acceleration;
+  const Vec<'W'> dead_load = context.scene.force.mass * (Vec<'W'>(0, 0, -kStandardGravity) - acceleration);
   const Vec<'F'> unloaded = sample.value.force - X_WF.inverse() * dead_load;
-  tare(walk, unloaded, clear && !holding(walk) && !state.held, now);
-  if (now.tared < walk.scene.force.tare_time) {
-    walk.why |= kTaring;
+  tare(context, unloaded, clear && !holding(context) && !state.held, now);
+  if (now.tared < context.scene.force.tare_time) {
+    context.why |= kTaring;
     return;
   }
-  walk.felt = X_WF * (unloaded - now.force_zero);
-  state.force = state.force + walk.scene.filter_gain * (walk.felt - state.force);
-  walk.force = state.force;
+  context.felt = X_WF * (unloaded - now.force_zero);
+  state.force = state.force + context.scene.filter_gain * (context.felt - state.force);
+  context.force = state.force;
 }
 
 }  // namespace enc::stages

@@ -13,7 +13,7 @@ struct CommonState;
 struct Displacing {};
 
 // State of these stages.
-struct Commanded {
+struct CommandState {
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
   Following following;
@@ -25,7 +25,7 @@ struct Commanded {
 };
 
 template <class F>
-void fields(F& f, Commanded& d) {
+void fields(F& f, CommandState& d) {
   fields(f, "force_zero_F", d.force_zero);
   f("tared", d.tared);
   fields(f, "tare_mean_F", d.tare_mean);
@@ -41,15 +41,15 @@ void fields(F& f, Commanded& d) {
 }
 
 namespace stages {
-struct Walk;
+struct StepContext;
 // Computes the poses of tip and tool.
-void track(Walk& walk, const Displacing& task, CommonState& state, Commanded& now) noexcept;
+void track(StepContext& context, const Displacing& task, CommonState& state, CommandState& now) noexcept;
 // Checks that the gripper holds its tool, if the scene has a clamped tool.
-void grip(Walk& walk) noexcept;
+void grip(StepContext& context) noexcept;
 // Computes the force on the tip. `clear`: nothing can touch the tip, so the sensor's reading is its zero.
-void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept;
+void sense(StepContext& context, CommonState& state, CommandState& now, bool clear) noexcept;
 // Holds a machine that did not follow.
-void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept;
+void hold_lost(StepContext& context, CommonState& state, CommandState& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

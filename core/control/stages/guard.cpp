@@ -9,11 +9,11 @@ namespace enc::stages {
 namespace {
 
 // The part of the path to the target that the machine can reach.
-Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
-  const Quat q = walk.scene.X_WR.q().conjugate();
-  const auto ok = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
+Point<'R'> reachable(StepContext& context, const Point<'R'>& from, const Point<'R'>& to) {
+  const Quat q = context.scene.X_WR.q().conjugate();
+  const auto ok = [&](const Point<'R'>& p) { return context.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
   if (ok(to) || !ok(from)) return to;
-  walk.why |= kUnreachable;
+  context.why |= kUnreachable;
   double lo = 0.0;
   double hi = 1.0;
   for (int i = 0; i < 20; ++i) {
@@ -26,9 +26,9 @@ Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
 // Keeps speed and acceleration within the machine's limits. The normal comes first and is one-dimensional, so
 // the command can never overshoot the surface or the deflection limit, whatever the target does. The sideways
 // motion gets the rest.
-Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& before) {
-  const double dt = walk.scene.dt;
-  const Reach& reach = walk.scene.reach;
+Vec3 next_velocity(StepContext& context, const Walls& walls, const Vec3& way, const Vec3& before) {
+  const double dt = context.scene.dt;
+  const Reach& reach = context.scene.reach;
   const double most = reach.acceleration * dt;
   const auto toward = [&](double distance) {
     return std::min(
@@ -54,7 +54,7 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   const Vec3 side_wanted = distance > 0.0 ? Vec3(aside * (side_speed / distance)) : Vec3(Vec3::Zero());
   const double rest = std::sqrt(std::max(0.0, most * most - (v - v0) * (v - v0)));
   Vec3 change = side_wanted - side_before;
-  if (change.norm() > rest * (1.0 + 1e-9) || std::abs(wanted - v) > 1e-9) walk.why |= kLimited;
+  if (change.norm() > rest * (1.0 + 1e-9) || std::abs(wanted - v) > 1e-9) context.why |= kLimited;
   if (change.norm() > rest) change *= rest / change.norm();
   Vec3 side = side_before + change;
   if (side.norm() > fastest) {
@@ -65,46 +65,49 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
 }
 
 // The walls describe the nearest side only; beside an edge there are others.
-Vec3 kept_inside(Walk& walk, CommonState& state, const Commanded& now, const Walls& walls,
+Vec3 kept_inside(StepContext& context, CommonState& state, const CommandState& now, const Walls& walls,
                  const Vec3& wanted) {
   if (std::isnan(walls.depth)) return wanted;
   // Usually there is room for the whole stopping distance.
   const double speed = wanted.norm();
-  const double way = speed * (walk.scene.dt + speed / (2.0 * walk.scene.reach.acceleration));
-  if (walls.depth - way >= least_depth(walk)) return wanted;
-  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
-  const Vec3 kept = inside.velocity(brake_of(walk, now), walls.depth, wanted);
-  if (kept != wanted) walk.why |= kLimited;
+  const double way = speed * (context.scene.dt + speed / (2.0 * context.scene.reach.acceleration));
+  if (walls.depth - way >= least_depth(context)) return wanted;
+  Inside inside(context.scene, state.object, least_depth(context), Vec<'W'>::zero(), state.hints.command);
+  const Vec3 kept = inside.velocity(brake_of(context, now), walls.depth, wanted);
+  if (kept != wanted) context.why |= kLimited;
   return kept;
 }
 
 // Velocity of the next set-point, in W.
-Vec3 commanded(Walk& walk, CommonState& state, const Commanded& now, const Walls& walls, const Vec3& before) {
-  const double dt = walk.scene.dt;
-  const double acceleration = walk.scene.reach.acceleration;
+Vec3 commanded(StepContext& context, CommonState& state, const CommandState& now, const Walls& walls,
+               const Vec3& before) {
+  const double dt = context.scene.dt;
+  const double acceleration = context.scene.reach.acceleration;
   const Vec3 straight = slowed(before, acceleration * dt);
-  if ((walk.why & kNotFollowing) != 0 && walk.X_WH.valid())
+  if ((context.why & kNotFollowing) != 0 && context.X_WH.valid())
     // Move back to the machine's position. Otherwise the machine would jump to the command as soon as it can
     // move.
     return kept_inside(
-        walk, state, now, walls,
-        next_velocity(walk, walls, walk.X_WH.p() - (walk.scene.X_WR * now.command).e(), before));
-  if (holding(walk)) {
+        context, state, now, walls,
+        next_velocity(context, walls, context.X_WH.p() - (context.scene.X_WR * now.command).e(), before));
+  if (holding(context)) {
     // Brake straight to standstill, unless that would carry the tip out of the object. A tip that is outside
     // is brought back in.
     const bool safe = walls.out >= 0.0 &&
                       walls.normal.dot(straight) <= approach_speed(walls.out, kAlongShare * acceleration, dt);
-    return safe ? straight
-                : kept_inside(walk, state, now, walls, next_velocity(walk, walls, Vec3::Zero(), before));
+    return safe
+               ? straight
+               : kept_inside(context, state, now, walls, next_velocity(context, walls, Vec3::Zero(), before));
   }
-  Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
+  Point<'R'> target = context.scene.X_WR.inverse() * context.target;
   if (!target.finite()) {
-    walk.why |= kNotFinite;
+    context.why |= kNotFinite;
     return straight;
   }
-  target = reachable(walk, now.command, target);
-  return kept_inside(walk, state, now, walls,
-                     next_velocity(walk, walls, walk.scene.X_WR.q() * (target - now.command).e(), before));
+  target = reachable(context, now.command, target);
+  return kept_inside(
+      context, state, now, walls,
+      next_velocity(context, walls, context.scene.X_WR.q() * (target - now.command).e(), before));
 }
 
 // Vector from base to platform, in R.
@@ -151,23 +154,23 @@ Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity,
 
 }  // namespace
 
-Brake brake_of(const Walk& walk, const Commanded& now) {
-  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
-  const Reach& reach = walk.scene.reach;
+Brake brake_of(const StepContext& context, const CommandState& now) {
+  const Pose<'W', 'R'>& X_WR = context.scene.X_WR;
+  const Reach& reach = context.scene.reach;
   return {X_WR * now.command, X_WR.q() * now.command_velocity.e(), reach.acceleration, reach.speed,
-          walk.scene.dt};
+          context.scene.dt};
 }
 
-void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& walls) noexcept {
-  const double dt = walk.scene.dt;
-  const double acceleration = walk.scene.reach.acceleration;
-  const Quat q_WR = walk.scene.X_WR.q();
+void limit_command(StepContext& context, CommonState& state, CommandState& now, const Walls& walls) noexcept {
+  const double dt = context.scene.dt;
+  const double acceleration = context.scene.reach.acceleration;
+  const Quat q_WR = context.scene.X_WR.q();
   const Quat q_RH = q_WR.conjugate();
   const Vec3 before = now.command_velocity.e();
-  Vec3 after = q_RH * commanded(walk, state, now, walls, q_WR * before);
+  Vec3 after = q_RH * commanded(context, state, now, walls, q_WR * before);
   // If the machine braked from the next tick on, its stopping position and the path there must be within
   // reach.
-  const Reach& reach = walk.scene.reach;
+  const Reach& reach = context.scene.reach;
   const Pose<'R', 'H'> from(q_RH, now.command);
   const auto safe = [&](const Vec3& velocity) {
     const Vec3 way = braking_way(velocity, acceleration, dt);
@@ -175,12 +178,12 @@ void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& 
            legs_reach_along(reach.machine, from, way);
   };
   if (!safe(after) && reach.contains(from)) {
-    walk.why |= kUnreachable;
+    context.why |= kUnreachable;
     // A held machine does not move along the edge. Inside an object, the tip stays inside on that path.
-    const bool goes = !holding(walk);
+    const bool goes = !holding(context);
     const double braking_time = dt + after.norm() / (2.0 * acceleration);
     Vec3 aside = goes ? along_edge(reach.machine, from, after, braking_time) : before;
-    if (goes) aside = q_RH * kept_inside(walk, state, now, walls, q_WR * aside);
+    if (goes) aside = q_RH * kept_inside(context, state, now, walls, q_WR * aside);
     const bool can = goes && (aside - before).norm() <= acceleration * dt * (1.0 + 1e-9) && safe(aside);
     after = can ? aside : slowed(before, acceleration * dt);
   }

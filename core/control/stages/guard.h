@@ -6,7 +6,7 @@
 
 #include "core/control/safety/inside.h"
 #include "core/control/stages/displacing.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 
@@ -22,10 +22,12 @@ struct Walls {
 
 // Writes a set-point into now.command that is finite, reachable, slow enough and within the walls. Call it
 // only after the machine has reported its position.
-void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& walls) noexcept;
+void limit_command(StepContext& context, CommonState& state, CommandState& now, const Walls& walls) noexcept;
 
 // Depth of the tip's centre at which the whole tip is inside, m.
-[[nodiscard]] inline double least_depth(const Walk& walk) { return walk.scene.tip_radius + kSkin; }
-[[nodiscard]] Brake brake_of(const Walk& walk, const Commanded& now);
+[[nodiscard]] inline double least_depth(const StepContext& context) {
+  return context.scene.tip_radius + kSkin;
+}
+[[nodiscard]] Brake brake_of(const StepContext& context, const CommandState& now);
 
 }  // namespace enc::stages

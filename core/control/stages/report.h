@@ -2,16 +2,16 @@
 #pragma once
 
 #include "core/control/stages/displacing.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 
 // Mode, reasons, force and display. `q_WN`: axes of N in which the force is reported; `contact`: null without
 // a contact.
-void report_common(const Walk& walk, const CommonState& state, const Quat& q_WN, const Contact* contact,
-                   Outputs& out) noexcept;
+void report_common(const StepContext& context, const CommonState& state, const Quat& q_WN,
+                   const Contact* contact, Outputs& out) noexcept;
 // The set-point of a machine that takes positions, and the gripper command.
-void report_displaced(const Walk& walk, const Commanded& now, Outputs& out) noexcept;
+void report_displaced(const StepContext& context, const CommandState& now, Outputs& out) noexcept;
 
 }  // namespace enc::stages
 
@@ -33,7 +33,7 @@ struct SeenTool {
 // Chooses the tool pose that the display shows (DisplayRig::tip). While a tool presses, its tip touches the
 // haptic-tip. The machine measures that position to a few micrometres in each cycle, far better than the
 // tracker measures the tool.
-[[nodiscard]] SeenTool seen_tool(const stages::Walk& walk, const CommonState& state,
+[[nodiscard]] SeenTool seen_tool(const stages::StepContext& context, const CommonState& state,
                                  const Contact* contact) noexcept;
 
 }  // namespace enc

@@ -1,10 +1,10 @@
-#include "core/control/stages/walk.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
+
+#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 
@@ -20,43 +20,44 @@ bool tells_noise(const TrackedTool& tool, double most) {
   return silent || (possible(tool.along) && possible(tool.across));
 }
 
-bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
+bool plausible(const StepContext& context, const Stamped<TrackedTool>& sample) {
   const auto& tool = sample.value;
-  return tells_noise(tool, walk.scene.tracker.farthest) && tool.X_CT.valid() &&
-         tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
-         tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t + walk.tick.dt;
+  return tells_noise(tool, context.scene.tracker.farthest) && tool.X_CT.valid() &&
+         tool.X_CT.p().norm() < context.scene.tracker.farthest && tool.tool >= 0 &&
+         tool.tool < static_cast<int>(context.scene.tools.size()) &&
+         sample.t <= context.tick.t + context.tick.dt;
 }
 
-void judge_age(Walk& walk, const CommonState& state) {
-  const double old = age(walk.tick.t, exposed(walk.scene.tracker, state.tool.t));
-  walk.tool_fresh = old <= walk.scene.tracker.usual_age;
-  if (walk.tool_fresh) return;
-  if (old <= walk.scene.tracker.lost_age) {
-    walk.why |= kToolPredicted;
+void judge_age(StepContext& context, const CommonState& state) {
+  const double old = age(context.tick.t, exposed(context.scene.tracker, state.tool.t));
+  context.tool_fresh = old <= context.scene.tracker.usual_age;
+  if (context.tool_fresh) return;
+  if (old <= context.scene.tracker.lost_age) {
+    context.why |= kToolPredicted;
   } else if (state.mode == Mode::away) {
-    walk.tool_known = false;  // mode is away: a tool out of sight is simply away
-    walk.why |= kToolUnseen;
+    context.tool_known = false;  // mode is away: a tool out of sight is simply away
+    context.why |= kToolUnseen;
   } else {
-    walk.why |= kToolLost;
+    context.why |= kToolLost;
   }
 }
 
-void take_in(const Walk& walk, CommonState& state, bool pressing) {
-  const TrackerRig& rig = walk.scene.tracker;
+void take_in(const StepContext& context, CommonState& state, bool pressing) {
+  const TrackerRig& rig = context.scene.tracker;
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
-  const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
-  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip),
-          noise_of(rig, pose, walk.scene.X_WC), state.tip_motion, pressing);
+  const Point<'T'>& tip = context.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
+  observe(rig, pose.tool, exposed(rig, state.tool.t), context.scene.X_WC * (pose.X_CT * tip),
+          noise_of(rig, pose, context.scene.X_WC), state.tip_motion, pressing);
 }
 
 // The path from `from` to `to` ends where the tool's tip meets the haptic-tip. A prediction ignores a touch
 // until the poses show it, and would carry the tool right through the machine.
-Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
+Point<'W'> stopped_by_tip(const StepContext& context, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
-  if (!walk.stops_tool || !walk.X_WH.valid()) return to;
-  const double apart = tool_radius + walk.scene.tip_radius;
-  const Vec3 c = (from - walk.X_WH.origin()).e();
+  if (!context.stops_tool || !context.X_WH.valid()) return to;
+  const double apart = tool_radius + context.scene.tip_radius;
+  const Vec3 c = (from - context.X_WH.origin()).e();
   const Vec3 way = (to - from).e();
   const double toward = -c.dot(way);
   if (toward <= 0.0) return to;
@@ -70,43 +71,43 @@ Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>
 
 // Extrapolates the tip from the newest pose. The tool moves with the tip and keeps that pose's rotation: its
 // rotation is not rendered, and its effect on the tip is part of the tip's own motion.
-void carry_on(Walk& walk, const CommonState& state) {
+void carry_on(StepContext& context, const CommonState& state) {
   const TipMotion& motion = state.tip_motion;
-  const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
-  const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t);
-  const Point<'W'> tip = stopped_by_tip(walk, radius, motion.position, ahead);
-  walk.X_WT = {walk.X_WT.q(), walk.X_WT.origin() + (tip - walk.tool_tip)};
-  walk.tool_tip = tip;
+  const double radius = context.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
+  const Point<'W'> ahead = predict(context.scene.tracker, motion, context.tick.t);
+  const Point<'W'> tip = stopped_by_tip(context, radius, motion.position, ahead);
+  context.X_WT = {context.X_WT.q(), context.X_WT.origin() + (tip - context.tool_tip)};
+  context.tool_tip = tip;
 }
 
 }  // namespace
 
-void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept {
-  if (!walk.scene.has_tracker) return;
-  const auto& sample = walk.in.tool;
-  if (sample.health == Health::fault) walk.why |= kTrackerFault;
+void track_tool(StepContext& context, CommonState& state, bool pressing) noexcept {
+  if (!context.scene.has_tracker) return;
+  const auto& sample = context.in.tool;
+  if (sample.health == Health::fault) context.why |= kTrackerFault;
   if (sample.health == Health::ok && sample.value.tool != -1) {  // -1: no tool recognised, which is no fault
-    if (!plausible(walk, sample)) {
-      walk.why |= kToolInvalid;
+    if (!plausible(context, sample)) {
+      context.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
-      take_in(walk, state, pressing);
+      take_in(context, state, pressing);
     }
   }
   if (state.tool.health != Health::ok) {
-    walk.why |= kToolUnseen;
+    context.why |= kToolUnseen;
     return;
   }
   // A clamped tool is seen, recorded and drawn, but it presses nothing: it moves with the tip.
-  walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
-  const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
-  walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
-  walk.tool_tip = walk.X_WT * tool.tip.centre;
-  walk.X_WT_newest = walk.X_WT;
-  walk.tip_newest = walk.tool_tip;
-  if (walk.scene.tracker.prediction != Prediction::hold) carry_on(walk, state);
-  walk.tool_radius = tool.tip.radius;
-  judge_age(walk, state);
+  context.tool_known = state.tool.value.tool != context.scene.clamped_tool;
+  const Tool& tool = context.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
+  context.X_WT = context.scene.X_WC * state.tool.value.X_CT;
+  context.tool_tip = context.X_WT * tool.tip.centre;
+  context.X_WT_newest = context.X_WT;
+  context.tip_newest = context.tool_tip;
+  if (context.scene.tracker.prediction != Prediction::hold) carry_on(context, state);
+  context.tool_radius = tool.tip.radius;
+  judge_age(context, state);
 }
 
 // ---- The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
@@ -129,7 +130,7 @@ namespace {
 // Query of the objects in this tick: for the finger or the tool, or for the tip.
 struct Query {
   const CommonScene& scene;
-  std::span<const Moved> moved;
+  std::span<const MoverState> moved;
   Point<'W'> p;
   double radius = 0.0;         // radius of the finger, tool or tip, m
   bool touched_first = false;  // prefer any touched object to every untouched one
@@ -247,41 +248,42 @@ constexpr double kJump = 1e-3;
 
 // Over a bulge, the point under the tool moves no faster than the tool, and elsewhere hardly faster. It moves
 // farther only if another part has become the nearest.
-void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const Point<'W'>& query) {
+void report_jump(StepContext& context, CommonState& state, const Point<'W'>& before,
+                 const Point<'W'>& query) {
   // Before the first tick with a tool, `before` is unset, and that is no jump.
   const double moved = (query - before).norm();
-  if ((walk.surface_point - state.last_point).norm() > moved + kJump) walk.why |= kSurfaceJump;
+  if ((context.surface_point - state.last_point).norm() > moved + kJump) context.why |= kSurfaceJump;
   state.last_query = query;
-  state.last_point = walk.surface_point;
+  state.last_point = context.surface_point;
 }
 
 }  // namespace
 
-void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept {
+void nearest_surface(StepContext& context, CommonState& state, const SurfaceQuery& asked) noexcept {
   // Without a tracker the tip itself is the query. It then waits at its own nearest surface point, and force
   // alone makes a contact.
-  const bool by_tool = walk.scene.has_tracker;
+  const bool by_tool = context.scene.has_tracker;
   const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
-  if (by_tool && !walk.tool_known) return;
-  const Query query{walk.scene, walk.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius,
-                    asked.touched_first};
+  if (by_tool && !context.tool_known) return;
+  const Query query{context.scene, context.moved, by_tool ? context.tool_tip : context.X_WH.origin(),
+                    context.tool_radius, asked.touched_first};
   if (!query.p.finite()) return;
   Candidate best;
   if (asked.engaged != nullptr) {
     best.hint = state.hints.tool[0];
     best.at = pressed_surface(query, asked.engaged->object, best.hint);
     state.hints.tool[0] = best.hint;
-  } else if (!walk.scene.objects.empty()) {
+  } else if (!context.scene.objects.empty()) {
     best = chosen_object(query, state, asked.comes_to, state.hints);
   }
   if (best.hint.object != state.object) state.entered = false;
   state.object = best.hint.object;
-  walk.surface_point = best.at.point;
-  walk.normal = best.at.normal;
+  context.surface_point = best.at.point;
+  context.normal = best.at.normal;
   if (!by_tool) return;
-  walk.gap = best.hint.object >= 0 && beside(query, best.hint) ? best.at.distance
-                                                               : best.at.distance - walk.tool_radius;
-  report_jump(walk, state, last_query, query.p);
+  context.gap = best.hint.object >= 0 && beside(query, best.hint) ? best.at.distance
+                                                                  : best.at.distance - context.tool_radius;
+  report_jump(context, state, last_query, query.p);
 }
 
 }  // namespace enc::stages

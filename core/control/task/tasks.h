@@ -8,10 +8,10 @@
 #include <variant>
 
 #include "core/control/stages/common_state.h"
-#include "core/control/task/carry/travel.h"
-#include "core/control/task/measure/probe.h"
-#include "core/control/task/push/push.h"
-#include "core/control/task/render/render.h"
+#include "core/control/task/admittance/admittance_task.h"
+#include "core/control/task/dynamic_object/dynamic_object.h"
+#include "core/control/task/indentation/indentation.h"
+#include "core/control/task/tracking/tracking.h"
 
 namespace enc {
 
@@ -22,11 +22,11 @@ struct TaskList {
   using Memory = std::variant<std::monostate, typename Task::Memory...>;
 };
 
-using Tasks = TaskList<Render,  // admittance rendering: the tip gives way under a tool
-                       Meet,    // impedance rendering: a prop meets a finger
-                       Push,    // dynamic objects, which the finger moves
-                       Probe,   // indentation test: presses and measures a real object
-                       Travel   // tracking test: carries a tool past the tracker
+using Tasks = TaskList<AdmittanceTask,     // admittance rendering: the tip gives way under a tool
+                       ImpedanceTask,      // impedance rendering: a prop meets a finger
+                       DynamicObjectTask,  // dynamic objects, which the finger moves
+                       IndentationTask,    // indentation test: presses and measures a real object
+                       TrackingTask        // tracking test: carries a tool past the tracker
                        >;
 
 static_assert(std::is_trivially_copyable_v<Tasks::Memory>);
@@ -54,14 +54,14 @@ template <class Memory>
 
 // The present or last contact of a scene that renders a contact.
 [[nodiscard]] inline const Contact& contact_of(const State& state) noexcept {
-  const auto* rendering = std::get_if<Rendering>(&state.task);
-  return rendering != nullptr ? rendering->contact : recall<Meeting>(state).contact;
+  const auto* rendering = std::get_if<AdmittanceState>(&state.task);
+  return rendering != nullptr ? rendering->contact : recall<ImpedanceState>(state).contact;
 }
 
-// State of the objects that move, in the order of Push::movers.
-[[nodiscard]] inline std::span<const Moved> moved_in(const State& state) noexcept {
-  const auto* pushing = std::get_if<Pushing>(&state.task);
-  return pushing != nullptr ? std::span<const Moved>(pushing->moved) : std::span<const Moved>();
+// State of the objects that move, in the order of DynamicObjectTask::movers.
+[[nodiscard]] inline std::span<const MoverState> moved_in(const State& state) noexcept {
+  const auto* pushing = std::get_if<DynamicObjectState>(&state.task);
+  return pushing != nullptr ? std::span<const MoverState>(pushing->moved) : std::span<const MoverState>();
 }
 
 // Bytes of State that a scene of this task uses.

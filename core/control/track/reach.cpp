@@ -75,7 +75,7 @@ struct Known {
 };
 
 // The pictures, turned about the normal so that the hand's path has no y; and the prior of that path.
-struct Seen {
+struct TurnedSightings {
   std::array<Sighting, kSightings> turned;
   std::size_t count = 0;
   double weight = kUnset;                     // weight of one picture, 1 / m^2
@@ -85,7 +85,8 @@ struct Seen {
   double left_y = kUnset;   // its inverse variance, 1/m^2
   double certain = kUnset;  // log-precision of both
 
-  Seen(const ReachBelief& hand, std::span<const Sighting> pictures, double noise_of, const Vec3& first)
+  TurnedSightings(const ReachBelief& hand, std::span<const Sighting> pictures, double noise_of,
+                  const Vec3& first)
       : count(std::min(pictures.size(), kSightings)),
         weight(1.0 / (noise_of * noise_of)),
         length(first.norm()) {
@@ -149,7 +150,7 @@ struct Axes {
 
 // Evidence of pictures, prior and surface for a reach with these times. `rest`: of the first movement;
 // `beyond`: how far the second aims beyond, as a share of its path.
-Axes axes_of(const Seen& seen, const Timing& t, double rest, double beyond) {
+Axes axes_of(const TurnedSightings& seen, const Timing& t, double rest, double beyond) {
   Axes axes;
   for (const auto& [at, age] : seen.pictures())
     axes.see(at, seen.weight, MinimumJerk((-age - t.begins) / t.first).x,
@@ -176,7 +177,7 @@ double share_that_takes(const ReachBelief& hand, const Timing& t, double middle,
 // The unknowns along an axis: the hand's start, the first movement, and the part of the rest that the prior
 // does not predict. The second movement covers the rest; across the surface it aims beyond it. The evidence
 // omits how much the pictures differ from zero, because that is common to all reaches.
-Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
+Fit fit(const ReachBelief& hand, const TurnedSightings& seen, const Timing& t, double width) {
   const double rest = 1.0 / hand.share - 1.0;  // fraction of the first movement
   const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
   const Axes axes = axes_of(seen, t, rest, beyond);
@@ -227,7 +228,7 @@ Axes even(std::span<const Sighting> pictures, double weight) {
 }
 
 // A hand at constant speed that touches now.
-Fit fit_even(const Seen& seen) {
+Fit fit_even(const TurnedSightings& seen) {
   Axes axes = even(seen.pictures(), seen.weight);
   axes.z.a += kExact;
   const Pivots aside(axes.xy), z(axes.z);
@@ -268,7 +269,7 @@ class Mean {
   Vec3 first_ = Vec3::Zero();
 };
 
-void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, Mean& mean) {
+void try_reaches(const ReachBelief& hand, const TurnedSightings& seen, const Tries& tries, Mean& mean) {
   const double share = std::log((1.0 - kEven) / (tries.times * tries.begins));
   for (int i = 0; i < tries.times; ++i)
     for (int j = 0; j < tries.begins; ++j)
@@ -335,14 +336,14 @@ Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first
   if (pictures.empty()) return unknown;
   const Vec3 way = pictures.front().at - pictures.back().at;
   if (!(way.z() < 0.0)) return unknown;
-  const Seen coarse(hand, pictures, noise, kLength * way.normalized());
+  const TurnedSightings coarse(hand, pictures, noise, kLength * way.normalized());
   Mean few;
   try_reaches(hand, coarse, kFew, few);
   const Vec3 turned = few.first();
   Vec3 first;
   first << coarse.given(turned.head<2>()), turned.z();
   if (!(first.norm() > kShortest && first.norm() < kWide)) first = kLength * way.normalized();
-  const Seen seen(hand, pictures, noise, first);
+  const TurnedSightings seen(hand, pictures, noise, first);
   Mean mean;
   Fit steady = fit_even(seen);
   steady.evidence += std::log(kEven);

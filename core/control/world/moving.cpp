@@ -26,7 +26,7 @@ constexpr double kSlow = 0.020;
 // The firmness of a tile on the way back, smoothed. Encoder counts limit the rate to some 15 mm/s, which is
 // all of the push at the start of a touch. The smoothing is short against the bounce, so the restitution
 // stays exact.
-double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const Moved& now) {
+double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const MoverState& now) {
   const double time = kSmooth * std::numbers::pi * std::sqrt(mover.mass / mover.stiffness);
   const double wanted =
       press.sinks < 0.0 ? std::max(0.0, 1.0 + mover.bounce * press.sinks / now.deepest) : 1.0;
@@ -34,7 +34,7 @@ double tile_firmness(const Mover& mover, const FingerPress& press, double dt, co
 }
 
 // The firmness of a ball. `deepest`: depth of the finger when q was last lowered.
-double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
+double ball_firmness(const Mover& mover, const FingerPress& press, MoverState& now) {
   const double faster = -press.normal.e().dot(now.velocity.e()) - press.speed;
   if (faster <= 0.0 || press.depth >= now.deepest) return now.firmness;
   const double parting = kShort * mover.restitution * press.speed;
@@ -45,7 +45,7 @@ double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
 }
 
 // Applies the law to the finger in this object and updates its state for the next tick. Returns the force, N.
-double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& now) {
+double pressed(const Mover& mover, const FingerPress& press, double dt, MoverState& now) {
   now.depth = press.depth;
   if (!(press.depth > 0.0)) {
     now.deepest = 0.0;
@@ -63,7 +63,7 @@ double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& n
   return mover.stiffness * now.firmness * press.depth;
 }
 
-void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double dt, Moved& now) {
+void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double dt, MoverState& now) {
   const Vec3 velocity = now.velocity.e() + force * (dt / mover.mass);
   const Vec3 shift = now.shift.e() + velocity * dt;
   const bool gone = shift.norm() >= mover.travel * (1.0 - 1e-9);
@@ -73,7 +73,7 @@ void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double
   const bool apart = now.deepest == 0.0 && !press.late;
   const bool clear =
       !press.finger.finite() || (press.finger - mover.centre).norm() - mover.radius - press.radius > kClear;
-  if ((gone || slow) && apart && clear) now = Moved{};
+  if ((gone || slow) && apart && clear) now = MoverState{};
 }
 
 // Distance along `way` (in the box's own axes) until it meets the second box; infinite if it passes by.
@@ -93,7 +93,8 @@ double room(const Vec3& apart, const Vec3& sum, const Vec3& way) {
 }
 
 // Least free distance of a tile that moves towards +way or -way.
-double free_way(const Mover& mover, const Moved& now, std::span<const Moved> moved, double direction) {
+double free_way(const Mover& mover, const MoverState& now, std::span<const MoverState> moved,
+                double direction) {
   double least = kNever;
   const Vec3 way = mover.to_tile * mover.way.e() * direction;
   for (const Neighbour& other : mover.neighbours) {
@@ -105,7 +106,8 @@ double free_way(const Mover& mover, const Moved& now, std::span<const Moved> mov
   return least;
 }
 
-void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, double dt, Moved& now) {
+void slide(const Mover& mover, const Vec3& force, std::span<const MoverState> moved, double dt,
+           MoverState& now) {
   const Vec3 way = mover.way.e();
   double speed = way.dot(now.velocity.e()) + way.dot(force) * dt / mover.mass;
   const double stopped = mover.friction * dt / mover.mass;  // m/s that friction removes in a tick
@@ -127,10 +129,10 @@ void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, 
 }  // namespace
 
 void move(std::span<const Mover> movers, const FingerPress& press, double dt,
-          std::span<Moved> moved) noexcept {
+          std::span<MoverState> moved) noexcept {
   for (std::size_t i = 0; i < movers.size(); ++i) {
     const Mover& mover = movers[i];
-    Moved& now = moved[i];
+    MoverState& now = moved[i];
     Vec3 force = Vec3::Zero();
     if (mover.object == press.object && std::isfinite(press.depth)) {
       force = -pressed(mover, press, dt, now) * press.normal.e();

@@ -30,7 +30,7 @@ namespace enc {
 inline constexpr std::size_t kMostMoving = 16;  // objects of a scene that can move
 
 // State of an object that moves, and of the finger in it.
-struct Moved {
+struct MoverState {
   Vec<'W'> shift = Vec<'W'>::zero(), velocity = Vec<'W'>::zero();
   // Depth of the finger at the last tick, m; unset: another object was nearest.
   double depth = kUnset;
@@ -80,20 +80,20 @@ struct FingerPress {
 // moves. Friction, both ends of its path and its neighbours stop a tile. A running surface stays in place:
 // its shift is the distance that it has run.
 void move(std::span<const Mover> movers, const FingerPress& press, double dt,
-          std::span<Moved> moved) noexcept;
+          std::span<MoverState> moved) noexcept;
 inline constexpr double kClear = 0.020;  // m
 
 // c of the tile's law for a restitution e of 0.05 to 1.
 [[nodiscard]] double bounce_of(double restitution);
 
 // Displacement of the object from its rest position.
-[[nodiscard]] inline Vec<'W'> shift_of(const Object& object, std::span<const Moved> moved) noexcept {
+[[nodiscard]] inline Vec<'W'> shift_of(const Object& object, std::span<const MoverState> moved) noexcept {
   const bool stands = object.moving < 0 || object.interaction.kind == Interaction::spin;
   return stands ? Vec<'W'>::zero() : moved[static_cast<std::size_t>(object.moving)].shift;
 }
 
-// Gives each object with a moving interaction its index in Pushing::moved. Throws Error (key: that of the
-// file).
+// Gives each object with a moving interaction its index in DynamicObjectState::moved. Throws Error (key: that
+// of the file).
 [[nodiscard]] std::vector<Mover> make_movers(const std::vector<ObjectSpec>& specs,
                                              std::vector<Object>& objects);
 

@@ -56,7 +56,7 @@ struct Object {
   ContactLimits limits{};                             // limits of single contacts
   InteractionSpec interaction{};
   double stiffness = kUnset;  // N/m, stiffness of the interaction
-  std::int32_t moving = -1;   // index in Pushing::moved; -1: fixed
+  std::int32_t moving = -1;   // index in DynamicObjectState::moved; -1: fixed
 
   [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
 

@@ -151,8 +151,8 @@ bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Ne
 
 }  // namespace
 
-Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint) noexcept {
-  Deepest found{tip.centre, surface.nearest(tip.centre, hint)};
+DeepestBall deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint) noexcept {
+  DeepestBall found{tip.centre, surface.nearest(tip.centre, hint)};
   if (tip.shape != TipShape::edge) return found;
   // The distance is least where the normal is at right angles to the edge: secant steps kept in the bracket.
   const auto slope = [&] { return found.at.normal.e().dot(tip.axis.e()); };
@@ -189,7 +189,7 @@ DentField<double> dent_field(const Surface& surface, const DentSample& dent, std
   constexpr double kPoint = 0.2e-3;  // m: a sharper tip is drawn with this radius, its lowest point unchanged
   DentField<double> field;
   if (!(dent.depth > 0.0)) return field;
-  const Deepest at = deepest(surface, dent.tip, hint);
+  const DeepestBall at = deepest(surface, dent.tip, hint);
   const Vec3 n = at.at.normal.e();
   field.active = true;
   Vec3::Map(field.n.data()) = n;
@@ -213,7 +213,8 @@ DentField<double> dent_field(const Surface& surface, const DentSample& dent, std
   return field;
 }
 
-Displaced displaced(const DentField<double>& field, const Point<'O'>& p, const Vec<'O'>& normal) noexcept {
+DisplacedPoint displaced(const DentField<double>& field, const Point<'O'>& p,
+                         const Vec<'O'>& normal) noexcept {
   const auto shift = shift_at(field, p);
   if (!(shift.by > 0.0)) return {p, normal, 0.0};
   // x -> x - n by(x) has the gradient I - n g^T; normals go with its inverse transpose.
@@ -237,7 +238,7 @@ double dented_distance(const Surface& surface, const DentSample& dent, const Poi
   double up = 0.0;
   if (!surface_over(surface, n, p, at, up)) return at.distance;
   const Point<'O'> top = p + up * Vec<'O'>(n);
-  const Displaced seen = displaced(field, top, surface.nearest(top, at.feature).normal);
+  const DisplacedPoint seen = displaced(field, top, surface.nearest(top, at.feature).normal);
   return seen.by > 0.0 ? (seen.by - up) * seen.normal.e().dot(n) : at.distance;
 }
 

@@ -19,12 +19,13 @@
 namespace enc {
 
 // The deepest ball of a tip in an object: its centre, and the surface point under it.
-struct Deepest {
+struct DeepestBall {
   Point<'O'> centre;
   Nearest at;  // nearest to the centre
 };
 // `hint`, here and below: start of the search (surface.h); it never changes a result.
-[[nodiscard]] Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint = -1) noexcept;
+[[nodiscard]] DeepestBall deepest(const Surface& surface, const Tip<'O'>& tip,
+                                  std::int32_t hint = -1) noexcept;
 
 // The deformation by a tip, if the tip is below the undeformed surface.
 [[nodiscard]] DentSample dent_of(const Surface& surface, std::int32_t object, const Tip<'O'>& tip) noexcept;
@@ -55,13 +56,13 @@ struct DentField {
 
 // A displaced surface point, and the normal of the deformed surface there. `normal`: undeformed, outward,
 // unit.
-struct Displaced {
+struct DisplacedPoint {
   Point<'O'> point;
   Vec<'O'> normal;
   double by = 0.0;  // m, against the field's n
 };
-[[nodiscard]] Displaced displaced(const DentField<double>& field, const Point<'O'>& p,
-                                  const Vec<'O'>& normal) noexcept;
+[[nodiscard]] DisplacedPoint displaced(const DentField<double>& field, const Point<'O'>& p,
+                                       const Vec<'O'>& normal) noexcept;
 
 // As displaced(), for arrays, as the renderer draws them: positions and undeformed unit normals in, displaced
 // ones out. In and out must not overlap. No heap; points out of reach are only copied.

@@ -52,7 +52,7 @@ struct AugmentedView::Parts {
   Pose<'C', 'W'> X_CW;
   Image left, removed, augmented;
   Mask device, skin, covered, replaced;
-  augment::Seen seen;
+  augment::DepthPicture seen;
 };
 
 AugmentedView::Parts::Parts(const AugmentedSpec& given, std::span<const Object> objects)

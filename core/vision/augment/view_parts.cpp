@@ -163,7 +163,7 @@ double edge(const Corner& a, const Corner& b, double x, double y) {
 }
 
 // Interpolates 1 / depth, which is linear in the image.
-void fill(const std::array<Corner, 3>& c, float shade, Seen& seen) {
+void fill(const std::array<Corner, 3>& c, float shade, DepthPicture& seen) {
   const double area = edge(c[0], c[1], c[2].column, c[2].row);
   if (area == 0.0) return;
   const auto [left, right] = std::minmax({c[0].column, c[1].column, c[2].column});
@@ -190,7 +190,7 @@ Facets facets_of(const Surface& surface) {
   return std::visit([](const auto& shape) { return of(shape); }, surface.shape());
 }
 
-Seen::Seen(int w, int h)
+DepthPicture::DepthPicture(int w, int h)
     : width(w),
       height(h),
       depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
@@ -198,9 +198,9 @@ Seen::Seen(int w, int h)
   clear();
 }
 
-void Seen::clear() { std::fill(depth.begin(), depth.end(), std::numeric_limits<float>::infinity()); }
+void DepthPicture::clear() { std::fill(depth.begin(), depth.end(), std::numeric_limits<float>::infinity()); }
 
-void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>& X_CO, Seen& seen) {
+void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>& X_CO, DepthPicture& seen) {
   std::vector<Vec3> in_C;
   std::vector<Corner> corners;
   for (const Point<'O'>& corner : facets.corners) {

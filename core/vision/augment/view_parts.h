@@ -57,15 +57,15 @@ inline constexpr double kPatch = 0.120;  // m, side
 [[nodiscard]] Facets facets_of(const Surface& surface);
 
 // The visible surface of all objects in each pixel, without hand and room.
-struct Seen {
+struct DepthPicture {
   int width = 0, height = 0;
   std::vector<float> depth;  // m, along the view; infinite: no object
   std::vector<float> shade;  // 0 to 1
-  Seen(int w, int h);
+  DepthPicture(int w, int h);
   void clear();
 };
 // Skips a triangle that is not wholly in front of the camera.
-void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>& X_CO, Seen& seen);
+void draw(const Facets& facets, const RectifiedPair& pair, const Pose<'C', 'O'>& X_CO, DepthPicture& seen);
 
 // Pixels of an arm's part in the rectified left image, by the part's modelled position. Sets the pixels of
 // the part, and those within `margin` px of it. Only the portion of the part in front of the camera counts.

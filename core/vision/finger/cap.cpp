@@ -228,7 +228,7 @@ constexpr int kMostPasses = 8;  // px
 struct Level {
   double value, slope;
 };
-Level level_at(const Smoothed& image, double x, int y) {
+Level level_at(const SmoothGrey& image, double x, int y) {
   const int left = static_cast<int>(std::floor(x));
   const double t = x - left;
   const float* p = image.at(left, y) - 1;
@@ -330,7 +330,7 @@ Region part_of(const Fingertip& tip, const Region& image) {
 }
 
 struct Views {
-  Smoothed left, right;
+  SmoothGrey left, right;
 };
 
 // Cut-outs of both images around that part, for middle disparities from `least` to `most`.
@@ -342,7 +342,7 @@ Views views_of(const Grey& left, const Grey& right, const Fingertip& tip, double
   const Region own = part_of(tip, {0, 0, left.width, left.height});
   const Region other{own.x0 - static_cast<int>(kSlack * most) - kCubic, own.y0,
                      own.x1 - static_cast<int>(least / kSlack) + kCubic, own.y1};
-  return {Smoothed(left, own, passes), Smoothed(right, other, passes)};
+  return {SmoothGrey(left, own, passes), SmoothGrey(right, other, passes)};
 }
 
 class Comparison {

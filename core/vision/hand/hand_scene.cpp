@@ -102,7 +102,7 @@ ImageView HandScene::segment_right(const StereoFrame& frame, const Region& wante
 }
 
 bool HandScene::exchanged(const StereoFrame& frame) {
-  for (int row = 0; row < Exchanged::kRows; ++row) {
+  for (int row = 0; row < ExchangeCheck::kRows; ++row) {
     const Region strip = exchanged_.strip(row);
     to_grey(rectified(Side::left, frame.left, strip), strip, grey_left_);
     to_grey(rectified(Side::right, frame.right, strip), strip, grey_right_);
@@ -124,7 +124,7 @@ void HandScene::look_for_finger_in_background(const StereoFrame& frame) {
   if (finger_in_background_ || !hue_alone_->learned()) return;
   segment(*hue_alone_, frame.left, this->frame());
   match(frame, this->frame(), this->frame());
-  Seen seen;
+  HandFinding seen;
   seen.tip = finder_.find(skin_, disparity_, this->frame());
   finger_in_background_ = seen.tip.found && (seen.tip.fitted || seen.tip.score > 0.8);
 }
@@ -152,7 +152,8 @@ int HandScene::farthest_reach(const Region& window) const {
   return finder_.reach(static_cast<double>(most));
 }
 
-HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, const Followed& followed) {
+HandScene::HandFinding HandScene::look(const StereoFrame& frame, const Region& window,
+                                       const FingerHint& followed) {
   const Triplet& expected = followed.at;
   palm_measured_ = false;
   const double thought = expected.disparity > 0.0 ? 1.3 * expected.disparity : 0.0;
@@ -168,7 +169,7 @@ HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, 
   }
   (void)finder_.find(skin_, disparity_, window, expected);
   const std::int64_t pixels = segmented_.pixels();
-  Seen seen = choose(frame, followed);
+  HandFinding seen = choose(frame, followed);
   seen.pixels = pixels;
   return seen;
 }
@@ -270,7 +271,7 @@ void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double e
 
 // A tracked finger cannot come much nearer or move much farther away within a frame. If the blocks say so,
 // search at the expected disparity instead.
-void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
+void HandScene::measure(HandFinding& seen, const StereoFrame& frame, double expected) {
   constexpr double kUnrefined = 0.5;  // px rms, error of a block on a cap
   Surfaces surfaces{};
   std::size_t count = surfaces_of(seen.tip, surfaces);
@@ -385,7 +386,7 @@ Vec3 HandScene::in_image(const Triplet& to, const Triplet& from) const {
 }
 
 // Evidence of the cap, which is measured in any case.
-void HandScene::weigh_cap(Seen& seen) const {
+void HandScene::weigh_cap(HandFinding& seen) const {
   FingerEvidence& e = seen.evidence;
   e.outlined = seen.tip.fitted;
   e.tip = triangulate(pair(), {seen.tip.column, seen.tip.row, seen.disparity});
@@ -396,7 +397,7 @@ void HandScene::weigh_cap(Seen& seen) const {
 }
 
 // Form of the finger behind the tip in the mask.
-FingerForm HandScene::form_behind(Seen& seen, const StereoFrame& frame, double reach) {
+FingerForm HandScene::form_behind(HandFinding& seen, const StereoFrame& frame, double reach) {
   const Region part = form_region(seen.tip, reach, this->frame());
   segment_too(frame, part);
   const FingerForm form = form_of(skin_, seen.tip, reach);
@@ -408,7 +409,7 @@ FingerForm HandScene::form_behind(Seen& seen, const StereoFrame& frame, double r
 }
 
 // Length and slope of the finger, and the depth of its tip that follows from them.
-void HandScene::weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen) {
+void HandScene::weigh_finger(const FingerForm& form, const StereoFrame& frame, HandFinding& seen) {
   FingerEvidence& e = seen.evidence;
   const Fingertip& tip = seen.tip;
   make_ready(frame, form_region(tip, kReach, this->frame()));
@@ -437,7 +438,7 @@ void HandScene::weigh_finger(const FingerForm& form, const StereoFrame& frame, S
   e.depth_off = e.depth * (seen.disparity / spots.disparity(0.0) - 1.0);
 }
 
-void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
+void HandScene::weigh_hand(const StereoFrame& frame, double width, HandFinding& seen) {
   if (!palm_measured_) {
     segment_too(frame, this->frame());
     palm_.measure(skin_);
@@ -479,7 +480,7 @@ double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
 
 // True if a detection continues the tracked finger: near the predicted position, equally wide, and straight.
 // This reads no more of the images than was already needed.
-bool HandScene::goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed) {
+bool HandScene::goes_on(HandFinding& seen, const StereoFrame& frame, const FingerHint& followed) {
   constexpr double kNear = 0.020;  // m: a detection farther off may be another finger of the hand
   if (!(followed.cap > 0.0)) return false;
   if (!((seen.evidence.tip - triangulate(pair(), followed.at)).norm() < kNear)) return false;
@@ -488,7 +489,7 @@ bool HandScene::goes_on(Seen& seen, const StereoFrame& frame, const Followed& fo
   return seen.followed;
 }
 
-void HandScene::recognise(Seen& seen, const StereoFrame& frame) {
+void HandScene::recognise(HandFinding& seen, const StereoFrame& frame) {
   if (seen.tip.fitted && seen.disparity > 0.0) {
     const FingerForm form = form_behind(seen, frame, kReach);
     if (form.width > 0.0) weigh_finger(form, frame, seen);
@@ -500,14 +501,14 @@ void HandScene::recognise(Seen& seen, const StereoFrame& frame) {
 }
 
 // True if a hand near the detection has three or more straight fingers: then the pointing one is ambiguous.
-bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
+bool HandScene::near_many(const HandFinding& one, std::span<const HandFinding> all) {
   constexpr double kSameHand = 5.0, kOfHand = 9.0;  // widths of the finger: between palms; from tip to palm
   constexpr std::ptrdiff_t kMany = 3;
   const double cap = one.evidence.cap;
-  return std::any_of(all.begin(), all.end(), [&](const Seen& hand) {
+  return std::any_of(all.begin(), all.end(), [&](const HandFinding& hand) {
     const Point<'C'>& palm = hand.evidence.palm;
     if (!((palm - one.evidence.tip).norm() < kOfHand * cap)) return false;
-    return std::count_if(all.begin(), all.end(), [&](const Seen& finger) {
+    return std::count_if(all.begin(), all.end(), [&](const HandFinding& finger) {
              const FingerEvidence& e = finger.evidence;
              return is_straight(e) && (e.palm - palm).norm() < kSameHand * cap;
            }) >= kMany;
@@ -516,26 +517,26 @@ bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
 
 // Chooses the fingertip that continues the tracked finger, else the accepted one farthest from its palm. If
 // none is accepted, it returns the first one with its doubt.
-HandScene::Seen HandScene::choose(const StereoFrame& frame, const Followed& followed) {
-  std::array<Seen, FingertipFinder::kMost> seen;
-  const std::span<Seen> all(seen.data(), finder_.count());
+HandScene::HandFinding HandScene::choose(const StereoFrame& frame, const FingerHint& followed) {
+  std::array<HandFinding, FingertipFinder::kMost> seen;
+  const std::span<HandFinding> all(seen.data(), finder_.count());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Seen& one = all[i];
+    HandFinding& one = all[i];
     one.tip = finder_.tip(skin_, i);
     if (one.tip.fitted) sharpen(one.tip);
     measure(one, frame, followed.at.disparity);
     weigh_cap(one);
     if (goes_on(one, frame, followed)) return one;
   }
-  for (Seen& one : all) recognise(one, frame);
-  for (Seen& one : all)
+  for (HandFinding& one : all) recognise(one, frame);
+  for (HandFinding& one : all)
     if (one.doubt == Doubt::no && near_many(one, all)) one.doubt = Doubt::fingers;
-  const auto surer = [](const Seen& a, const Seen& b) {
+  const auto surer = [](const HandFinding& a, const HandFinding& b) {
     if (a.doubt != Doubt::no || b.doubt != Doubt::no) return b.doubt == Doubt::no && a.doubt != Doubt::no;
     return reach_of(a.evidence) < reach_of(b.evidence);
   };
   const auto best = std::max_element(all.begin(), all.end(), surer);
-  return best == all.end() ? Seen{} : *best;
+  return best == all.end() ? HandFinding{} : *best;
 }
 
 }  // namespace enc

@@ -29,7 +29,7 @@ class HandScene {
   [[nodiscard]] bool learned() const { return segmenter_.learned(); }
   [[nodiscard]] bool finger_in_background() const { return finger_in_background_; }
 
-  struct Seen {
+  struct HandFinding {
     Fingertip tip;
     double disparity = kUnset, variance = kUnset;  // px, px^2, cap's middle
     FingerEvidence evidence;
@@ -39,14 +39,14 @@ class HandScene {
     std::int64_t pixels = 0;  // pixels segmented
   };
   // A finger seen in earlier frames.
-  struct Followed {
+  struct FingerHint {
     Triplet at;           // predicted position, or NaN
     double cap = kUnset;  // m, its width when recognised; NaN: it must be recognised anew
   };
   // Candidates are searched within `window`. The predicted position of a tracked finger selects among several
   // fingers, and its disparity decides how much is segmented at first. Without a tracked finger, the most
   // certain pointing finger is chosen.
-  Seen look(const StereoFrame& frame, const Region& window, const Followed& followed);
+  HandFinding look(const StereoFrame& frame, const Region& window, const FingerHint& followed);
 
   [[nodiscard]] Region frame() const { return {0, 0, rectifier_.width(), rectifier_.height()}; }
   [[nodiscard]] const RectifiedPair& pair() const { return rectifier_.pair(); }
@@ -73,22 +73,22 @@ class HandScene {
   void confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap);
   // Starts from a disparity of the cap's middle.
   [[nodiscard]] CapDisparity match_from(const Fingertip& tip, double middle) const;
-  void measure(Seen& seen, const StereoFrame& frame, double expected);
+  void measure(HandFinding& seen, const StereoFrame& frame, double expected);
 
   // The evidence of a detection.
   void segment_too(const StereoFrame& frame, const Region& wanted);
   void make_ready(const StereoFrame& frame, const Region& part);
   [[nodiscard]] Vec3 in_image(const Triplet& to, const Triplet& from) const;
-  void weigh_cap(Seen& seen) const;
-  FingerForm form_behind(Seen& seen, const StereoFrame& frame, double reach);
-  void weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen);
+  void weigh_cap(HandFinding& seen) const;
+  FingerForm form_behind(HandFinding& seen, const StereoFrame& frame, double reach);
+  void weigh_finger(const FingerForm& form, const StereoFrame& frame, HandFinding& seen);
   [[nodiscard]] int flanks(const Pixel& at, const Fingertip& tip, double width, double disparity);
-  void weigh_hand(const StereoFrame& frame, double width, Seen& seen);
+  void weigh_hand(const StereoFrame& frame, double width, HandFinding& seen);
   [[nodiscard]] double disparity_around(const StereoFrame& frame, const Pixel& at);
-  bool goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed);
-  void recognise(Seen& seen, const StereoFrame& frame);
-  [[nodiscard]] static bool near_many(const Seen& one, std::span<const Seen> all);
-  Seen choose(const StereoFrame& frame, const Followed& followed);
+  bool goes_on(HandFinding& seen, const StereoFrame& frame, const FingerHint& followed);
+  void recognise(HandFinding& seen, const StereoFrame& frame);
+  [[nodiscard]] static bool near_many(const HandFinding& one, std::span<const HandFinding> all);
+  HandFinding choose(const StereoFrame& frame, const FingerHint& followed);
   void look_for_finger_in_background(const StereoFrame& frame);
 
   Rectifier rectifier_;
@@ -96,7 +96,7 @@ class HandScene {
   Segmenter segmenter_;
   std::unique_ptr<Segmenter> hue_alone_;  // fed from the first frame of the background on
   Matcher matcher_;
-  Exchanged exchanged_;
+  ExchangeCheck exchanged_;
   FingertipFinder finder_;
   PalmFinder palm_;
   bool palm_measured_ = false;  // measured in this frame

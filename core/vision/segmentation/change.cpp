@@ -82,8 +82,8 @@ T fixed(double value, double one) {
   return static_cast<T>(std::clamp(std::floor(value * one + 0.5), 0.0, double{static_cast<T>(-1)}));
 }
 
-Explained explained(const Light& light, double change) {
-  Explained e{};
+FrameLight explained(const Light& light, double change) {
+  FrameLight e{};
   const auto& g = light.gain;
   const double least = std::min(g[0], std::min(g[1], g[2]));
   for (std::size_t c = 0; c < 3; ++c) {
@@ -136,7 +136,7 @@ void Change::row_of(const Light& light, int y, const Region& region) {
 void Change::candidates(const ImageView& frame, const Region& region, double change, const Cut& cut,
                         Mask& out) {
   const Light light = meter_.measure(frame);
-  const Explained how = explained(light, change);
+  const FrameLight how = explained(light, change);
   const Region wide = grid_.touched(region, surroundings_.margin());
   const Region widest = grid_.touched(wide, Hueless::kAround);
   for (int y = widest.y0; y < widest.y1; ++y) {

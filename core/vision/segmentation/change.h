@@ -53,7 +53,7 @@ class Hueless {
   explicit Hueless(int width) : columns_(static_cast<std::size_t>(width)) {}
 
   // Sets `skin` for the `hueless` pixels within `region` that have the hue of skin. `hueless` is valid up to
-  // kAround px beyond it. `white` as in Explained.
+  // kAround px beyond it. `white` as in FrameLight.
   void find(const ImageView& frame, const Planes& background, const Mask& hueless, const Region& region,
             const std::uint16_t (&white)[3], const Cut& cut, Mask& skin);
 

@@ -16,7 +16,7 @@ void to_grey(const ImageView& image, const Region& part, Grey& grey) {
   }
 }
 
-Smoothed::Smoothed(const Grey& image, const Region& part, int passes)
+SmoothGrey::SmoothGrey(const Grey& image, const Region& part, int passes)
     : part_(part.cut({0, 0, image.width, image.height})),
       read_(Region{part.x0 - passes, part.y0 - passes, part.x1 + passes, part.y1 + passes}.cut(
           {0, 0, image.width, image.height})) {
@@ -31,7 +31,7 @@ Smoothed::Smoothed(const Grey& image, const Region& part, int passes)
 }
 
 // Works in place; at the border the pixel itself replaces the missing neighbour.
-void Smoothed::pass() {
+void SmoothGrey::pass() {
   const std::size_t rows = level_.size() / stride_;
   for (std::size_t y = 0; y < rows; ++y) {
     float* row = level_.data() + y * stride_;

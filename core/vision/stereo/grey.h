@@ -33,12 +33,12 @@ struct Grey {
 void to_grey(const ImageView& image, const Region& part, Grey& grey);
 
 // A part of a grey image without its finest detail, which is mostly noise.
-class Smoothed {
+class SmoothGrey {
  public:
   // Applies that many passes of (1 2 1) / 4 along rows and columns, not rounded: a Gaussian whose variance is
   // half their number, in px^2. Reads `image` as far beyond `part` as there are passes. The result for a
   // pixel does not depend on other requests.
-  Smoothed(const Grey& image, const Region& part, int passes);
+  SmoothGrey(const Grey& image, const Region& part, int passes);
 
   // Valid arguments of at(): `part` within the image.
   [[nodiscard]] const Region& part() const { return part_; }

@@ -167,16 +167,16 @@ MatchSpec blocks(const RectifiedPair& pair) {
 
 }  // namespace
 
-Exchanged::Exchanged(const RectifiedPair& pair, int width, int height)
+ExchangeCheck::ExchangeCheck(const RectifiedPair& pair, int width, int height)
     : matcher_(blocks(pair), pair), width_(width), height_(height) {}
 
-Region Exchanged::strip(int row) const {
+Region ExchangeCheck::strip(int row) const {
   const int y = (2 * row + 1) * height_ / (2 * kRows);
   return Region{0, y - kRowsOfBlock / 2, width_, y + kRowsOfBlock / 2 + 1}.cut({0, 0, width_, height_});
 }
 
 // Every frame examines other columns, so that one bare patch of wall does not spoil all answers.
-int Exchanged::matched(const Grey& left, const Grey& right) {
+int ExchangeCheck::matched(const Grey& left, const Grey& right) {
   int count = 0;
   for (int row = 0; row < kRows; ++row) {
     const int y = (2 * row + 1) * height_ / (2 * kRows);
@@ -188,7 +188,7 @@ int Exchanged::matched(const Grey& left, const Grey& right) {
   return count;
 }
 
-bool Exchanged::see(const Grey& left, const Grey& right) {
+bool ExchangeCheck::see(const Grey& left, const Grey& right) {
   const int ahead = matched(left, right), behind = matched(right, left);
   ++frame_;
   if (behind >= kLeast && behind > kClear * ahead) exchanged_ = true;

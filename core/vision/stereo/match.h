@@ -88,13 +88,13 @@ class DisparityMap {
 
 // Detects exchanged images: the left image is from the right camera. Everything in both images would then lie
 // behind the cameras, where no camera can see.
-class Exchanged {
+class ExchangeCheck {
  public:
   static constexpr int kRows = 5, kColumns = 8;  // places examined in a frame
   static constexpr int kLeast = 6;               // fewest matched places for a decision
   static constexpr double kClear = 4.0;          // factor over the matches of the other order
 
-  Exchanged(const RectifiedPair& pair, int width, int height);
+  ExchangeCheck(const RectifiedPair& pair, int width, int height);
 
   // Rows of both images that see() reads; `row` is below kRows.
   [[nodiscard]] Region strip(int row) const;

@@ -167,7 +167,7 @@ TEST(NearestObject, OfTwoThatCoincideTheFirstIsTaken) {
 TEST(NearestObject, WhatAnArmsFingerTouchesTakesOverAtOnce) {
   for (const bool has_arm : {false, true}) {
     Scene scene = two_balls(0.036);  // 16 mm between them, and a tip of 2 mm
-    if (has_arm) scene.task = Meet();
+    if (has_arm) scene.task = ImpedanceTask();
     scene.follow.hysteresis = 0.015;
     test::Loop loop(std::move(scene));
     loop.tool_tip = {-0.004, 0, 0.02};

@@ -60,7 +60,7 @@ TEST(ObjectsInput, TheShippedScenesAreReadyAndHaveTheirProps) {
     EXPECT_THAT(setup_of(scene).notes, IsEmpty()) << scene;
   }
   EXPECT_EQ(trial::prepare_setup(setup_of("keypad")).objects.size(), 12U);
-  EXPECT_EQ(std::get<Push>(trial::prepare_setup(setup_of("tiles")).task).movers.size(), 2U);
+  EXPECT_EQ(std::get<DynamicObjectTask>(trial::prepare_setup(setup_of("tiles")).task).movers.size(), 2U);
 }
 
 TEST(ObjectsInput, NumbersOutOfRange) {

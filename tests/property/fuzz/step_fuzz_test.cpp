@@ -163,8 +163,8 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   judged += well_ > 1.5 ? 1 : 0;
   // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
   // there, and a tip that is outside and on its way back.
-  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).aim.stuck &&
-      !recall<Commanded>(state).following.lost && (out.why & kOutsideObject) == 0)
+  if (out.mode == Mode::hold && well_ > 1.5 && !recall<ImpedanceState>(state).aim.stuck &&
+      !recall<CommandState>(state).following.lost && (out.why & kOutsideObject) == 0)
     return "hold goes on: " + why_text(out.why);
   if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
     return "hold without a reason, or a reason without";
@@ -192,7 +192,7 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const bool same = std::abs(force - same_force_) <= 0.15 * scene.force.contact;
   if (!same) same_force_ = force;
   alone_ = !own && same ? alone_ + dt : 0.0;
-  // Late poses do not count, and how late they are is not seen here: half as long again.
+  // LoopDelay poses do not count, and how late they are is not seen here: half as long again.
   const double longest = elsewhere && force <= 3.0 * scene.force.contact ? 7.5 : 90.0;
   const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
@@ -212,7 +212,7 @@ std::string Limits::judge_machine(const Scene& scene, const State& state, const 
   if (!out.tip.valid()) return "the command is not a pose";
   if (!scene.reach.contains(out.tip)) return "the command is out of reach";
   const Vec3 at = out.tip.p();
-  if (!known_) before_ = at - scene.dt * recall<Commanded>(state).command_velocity.e();
+  if (!known_) before_ = at - scene.dt * recall<CommandState>(state).command_velocity.e();
   const Vec3 velocity = (at - before_) / scene.dt;
   const double change = (velocity - velocity_).norm() / scene.dt;
   known_ = true;
@@ -223,7 +223,7 @@ std::string Limits::judge_machine(const Scene& scene, const State& state, const 
   if (!state.entered || state.object < 0) return {};
   const Object& object = scene.objects[static_cast<std::size_t>(state.object)];
   const double outside =
-      object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<Commanded>(state).command))
+      object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<CommandState>(state).command))
           .distance +
       scene.tip_radius;
   if (outside > kGuard) return fmt::format("the tip is sent {:.1f} um outside", outside * 1e6);
@@ -234,7 +234,8 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   if (!out.arm_force.finite()) return {};
   const ArmRig& rig = scene.impedance()->rig;
   if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
-  const Vec3 velocity = recall<Meeting>(state).aim.velocity.e(), at = recall<Meeting>(state).aim.target.e();
+  const Vec3 velocity = recall<ImpedanceState>(state).aim.velocity.e(),
+             at = recall<ImpedanceState>(state).aim.target.e();
   // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
   const bool hit = out.mode == Mode::contact && state.object >= 0 &&
                    scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
@@ -246,10 +247,10 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   if (known_ && !anew(out) && of_the_arm(at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
     what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
   const double change = of_the_arm(velocity - velocity_).norm();
-  const double most = recall<Meeting>(state).aim.hurried ? rig.reach_acceleration : rig.acceleration;
+  const double most = recall<ImpedanceState>(state).aim.hurried ? rig.reach_acceleration : rig.acceleration;
   if (known_ && !anew(out) && change > most * scene.dt * (1 + 1e-6))
     what = fmt::format("target at {} m/s^2", change / scene.dt);
-  known_ = recall<Meeting>(state).aim.target.finite() && !anew(out);
+  known_ = recall<ImpedanceState>(state).aim.target.finite() && !anew(out);
   before_ = at;
   velocity_ = velocity;
   return what;
@@ -331,8 +332,8 @@ class World {
     return well;
   }
   void told(const Outputs& out, const State& state) {
-    if (scene_.impedance() && lags_ && recall<Meeting>(state).aim.target.finite())
-      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).aim.target,
+    if (scene_.impedance() && lags_ && recall<ImpedanceState>(state).aim.target.finite())
+      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<ImpedanceState>(state).aim.target,
                                             joints_);
     if (!scene_.impedance() && state.started) sent_ = out.tip.p();
     ++k_.index;
@@ -348,16 +349,17 @@ class World {
     }
     if (honest_ && scene_.has_force && scene_.has_tracker)
       for (int i = 0; i < 3; ++i)
-        if (recall<Commanded>(state).force_zero.e()[i] < zero_low_[i] - 0.05 ||
-            recall<Commanded>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
+        if (recall<CommandState>(state).force_zero.e()[i] < zero_low_[i] - 0.05 ||
+            recall<CommandState>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
           return fmt::format("a zero of {:.3f} N is believed, which was {:.3f} to {:.3f} N",
-                             recall<Commanded>(state).force_zero.e()[i], zero_low_[i], zero_high_[i]);
+                             recall<CommandState>(state).force_zero.e()[i], zero_low_[i], zero_high_[i]);
     const bool held = out.mode == Mode::hold;
     if (scene_.impedance()) {
       const bool off =
-          stuck_ && recall<Meeting>(state).aim.target.finite() &&
-          recall<Meeting>(state).aim.velocity.norm() < 1e-3 &&
-          (recall<Meeting>(state).aim.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
+          stuck_ && recall<ImpedanceState>(state).aim.target.finite() &&
+          recall<ImpedanceState>(state).aim.velocity.norm() < 1e-3 &&
+          (recall<ImpedanceState>(state).aim.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() >
+              6.5e-3 &&
           (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
       off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
       return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";

@@ -34,7 +34,7 @@ struct Room {
     scene.objects.push_back({});
     scene.objects[0].shape = ShapeKind::plane;
     rig.arm.machine = machine;
-    prepared.task = Meet();
+    prepared.task = ImpedanceTask();
     Object wall{Surface(Plane{}), Pose<'W', 'O'>::identity(), {}, kUnset, kUnset, Tangential::stick, kUnset};
     wall.stiffness = 500.0;
     prepared.objects.push_back(wall);

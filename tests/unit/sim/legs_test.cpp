@@ -335,7 +335,7 @@ TEST(Rig, AStaticPushIsReadAsItIs) {
                            "truth.ball.relaxing_slow=0", "truth.force.quantum_N=1e-12"})
     set.emplace_back(text);
   Twin twin(set, 1, "rig_A");
-  while (recall<Probing>(twin.state).phase != ProbePhase::dwell && twin.now() < 20.0) twin.tick();
+  while (recall<IndentationState>(twin.state).phase != ProbePhase::dwell && twin.now() < 20.0) twin.tick();
   twin.run(2000);
   const double force = -twin.world->truth().contact_force.xyz[2];
   EXPECT_GT(force, 10.0);

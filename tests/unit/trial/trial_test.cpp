@@ -207,7 +207,7 @@ TEST(DropOut, AToolThatPressesAfterItWasUnseenIsInContactAtOnce) {
     loop.tick(2);
     EXPECT_EQ(loop.out.mode, Mode::contact) << from;
     EXPECT_NEAR(loop.out.gap, -0.0005, 1e-4) << from;
-    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6) << from;
+    EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6) << from;
     loop.tick(1000);
     EXPECT_NEAR(loop.out.deflection, (5.0 - 0.05) / 2000.0, 1e-5) << from;  // 2 N/mm, threshold 0.05 N
   }
@@ -262,7 +262,7 @@ TEST(Retare, NotWhileTheToolIsUnseen) {
     loop.tick(200);  // it is no longer known
     loop.force = Vec<'W'>(0, 0, -5.0);
     loop.tick(5000);
-    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+    EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
     loop.tool_seen = true;
     loop.tool_tip = at_gap(-0.0005);
     loop.tick(1000);
@@ -276,17 +276,17 @@ TEST(Retare, NotWhenThePoseIsOldAndNotInAHold) {
   loop.tick(46);  // usual_age
   loop.force_zero = Vec<'F'>(0, 0, -1.0);
   loop.tick(500);  // predicted, then lost
-  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+  EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
   loop.tool_seen = true;
   loop.spoil = [](Inputs& in) {
     in.missed = 100;
   };  // a clock that is late each time: a hold with all else well
   loop.tick(500);
   EXPECT_EQ(loop.out.mode, Mode::hold);
-  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+  EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
   loop.spoil = {};
   loop.tick(500);
-  EXPECT_LT(recall<Commanded>(loop.state).force_zero.xyz[2], -0.1);  // and then it is learnt
+  EXPECT_LT(recall<CommandState>(loop.state).force_zero.xyz[2], -0.1);  // and then it is learnt
 }
 
 // Before the first zero is known nothing is learnt of a tool that is not seen either.
@@ -301,7 +301,7 @@ TEST(Retare, TheFirstZeroNeedsAToolThatIsSeenToBeClear) {
   loop.tool_tip = at_gap(0.010);
   loop.tick(300);
   EXPECT_EQ(loop.out.why & kTaring, 0U);
-  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-6);
+  EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
 }
 
 // A clock that keeps wall time and falls behind: real devices lose the cycles, a simulation goes on where it

@@ -479,7 +479,7 @@ TEST(ShippedBall, GainsNoEnergy) {
     while (trial.tick()) {
       const sim::Truth& truth = trial.truth();
       work += trial.scene().dt * dot(truth.contact_force, truth.tip_velocity);
-      const Moved& ball = moved_in(trial.state())[0];
+      const MoverState& ball = moved_in(trial.state())[0];
       if (ball.shift.e().isZero()) continue;
       EXPECT_LE(0.5 * 0.058 * ball.velocity.e().squaredNorm(), work) << "seed " << seed;
     }

@@ -96,7 +96,7 @@ double force_at(const Forces& forces, double i) {
 }
 
 Rows rows_of(const Tape& tape) {
-  const Probe& probe = *tape.scene.probe();
+  const IndentationTask& probe = *tape.scene.probe();
   const auto ticks = static_cast<std::size_t>(tape.last - tape.first + 1);
   Rows rows{std::vector<std::ptrdiff_t>(ticks, -1), 0, in_seconds(tape.begin), tape.scene.dt};
   const double from = -std::min(kBefore, 0.5 * probe.clear);

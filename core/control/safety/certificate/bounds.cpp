@@ -17,7 +17,7 @@ struct Demand {
   double q0 = 0.0, q1 = 0.0, w = 0.0;
 };
 Demand demand_at(const SampledLoop& loop, const Damper& damper, double angle) {
-  const Late delay = late(loop);
+  const LoopDelay delay = late(loop);
   const Complex step = one_less(angle), rate = rate_response(loop, angle);
   const Complex seen = filter_response(loop.filter, angle) * (1.0 - one_less(angle * delay.whole));
   const Complex weight = (1.0 - delay.part * step) * step * (0.5 * loop.period / step.real());  // 1 - cos
@@ -110,7 +110,7 @@ double delayed_stiffness(const SampledLoop& loop, const Damper& damper) {
   return lag > 0.0 ? damping / lag : kInfinite;
 }
 
-Plane plane_of(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+Plane plane_of(const SampledLoop& loop, const Steps& steps, const Request& asked) {
   const double stiffness = asked.stiffness;
   if (!loop.alone().known() || !sane(steps.friction) || !sane(steps.encoder) || !(stiffness > 0.0)) return {};
   const double beta = loop.damping / (stiffness * loop.period);
@@ -139,7 +139,7 @@ double friction_stiffness(const SampledLoop& loop, double friction, const Damper
   return stops(loop, friction, below, damper.at(below), amplitude, turning) ? end.stiffness : 0.0;
 }
 
-std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Asked& asked) {
+std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Request& asked) {
   const SampledLoop loop = given.alone().along();
   const Damper& damper = asked.damper;
   const double stiffness = asked.stiffness;

@@ -19,7 +19,7 @@ struct Steps {
 };
 
 // The requested rendering.
-struct Asked {
+struct Request {
   double stiffness = kUnset;  // K, N/m
   Damper damper{};
 };
@@ -76,7 +76,7 @@ struct Plane {
   double beta = kUnset, sigma = kUnset;
   Region region = Region::unknown;
 };
-[[nodiscard]] Plane plane_of(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+[[nodiscard]] Plane plane_of(const SampledLoop& loop, const Steps& steps, const Request& asked);
 
 // True if dry friction stops an oscillation of that amplitude (m). By its describing function, friction is
 // one more damper of 4 f_c / (pi w amplitude). w is the frequency at which the loop rings. Assumes sinusoidal
@@ -93,6 +93,6 @@ inline constexpr double kSmall = 1e-4, kLarge = 1e-3;  // m: the two disturbance
 // All rows: colgate_schenkel, abbott_okamura, gil_hulin, diolaiti, friction_small, friction_large,
 // exact_alone, exact_with_hand. Only the last row includes `loop.hand`. If the tip moves sideways too, only
 // the exact rows apply.
-[[nodiscard]] std::vector<Row> bounds(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+[[nodiscard]] std::vector<Row> bounds(const SampledLoop& loop, const Steps& steps, const Request& asked);
 
 }  // namespace enc::certificate

@@ -64,7 +64,7 @@ struct Slide {
 struct Law {
   const SampledLoop& loop;
   double stiffness, damper, count;
-  Late delay = late(loop);
+  LoopDelay delay = late(loop);
   double error = 0.0, rate = 0.0;
   std::vector<double> readings{}, forces{};  // newest first
 
@@ -170,8 +170,8 @@ bool can_be(const SampledLoop& loop, const Steps& steps, double stiffness, doubl
 
 }  // namespace
 
-Released release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
-                 double disturbance) {
+ReleaseResult release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
+                      double disturbance) {
   if (!can_be(loop, steps, stiffness, damper, disturbance)) return {};
   if (stiffness + loop.hand.stiffness == 0.0) return {Rest::still, 0.0, 0.0};  // nothing pulls
   const bool linear = steps.friction == 0.0 && steps.encoder == 0.0;
@@ -212,7 +212,7 @@ Released release(const SampledLoop& loop, const Steps& steps, double stiffness, 
 namespace {
 
 // The first figure that is not a number or has an impossible value.
-std::string missing_of(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+std::string missing_of(const SampledLoop& loop, const Steps& steps, const Request& asked) {
   const struct {
     const char* name;
     double value;
@@ -247,7 +247,7 @@ bool passive(const SampledLoop& loop, const Steps& steps, double stiffness, doub
          needed_damping(loop.alone(), stiffness, damper) <= loop.damping;
 }
 
-Class class_of(const SampledLoop& loop, const Steps& steps, const Asked& asked, const Certificate& found) {
+Class class_of(const SampledLoop& loop, const Steps& steps, const Request& asked, const Certificate& found) {
   const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
   if (passive(loop, steps, stiffness, damper)) return Class::passive;
   const bool alone = rests(loop.alone(), row_of(found, "exact_alone"), stiffness, damper);
@@ -262,7 +262,7 @@ Class class_of(const SampledLoop& loop, const Steps& steps, const Asked& asked, 
 
 }  // namespace
 
-Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+Certificate certify(const SampledLoop& loop, const Steps& steps, const Request& asked) {
   Certificate found;
   found.rows = bounds(loop, steps, asked);
   found.plane = plane_of(loop, steps, asked);
@@ -283,7 +283,7 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
   return found;
 }
 
-Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+Class linear_class(const SampledLoop& loop, const Steps& steps, const Request& asked) {
   if (!missing_of(loop, steps, asked).empty()) return Class::unknown;
   const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
   if (passive(loop, steps, stiffness, damper)) return Class::passive;

@@ -60,14 +60,14 @@ enum class Rest : std::uint8_t {
 };
 constexpr auto words(Rest) { return enum_words("still", "limit cycle", "away", "unknown"); }
 
-struct Released {
+struct ReleaseResult {
   Rest rest = Rest::unknown;
   double swing = kUnset;  // m, peak to peak in the last quarter
   double after = kUnset;  // simulated time, s
 };
 // `disturbance`: m, above 0. The release includes the loop's hand.
-[[nodiscard]] Released release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
-                               double disturbance);
+[[nodiscard]] ReleaseResult release(const SampledLoop& loop, const Steps& steps, double stiffness,
+                                    double damper, double disturbance);
 
 enum class Class : std::uint8_t { passive, alone, held, unheld, local, unstable, unknown };
 constexpr auto words(Class) {
@@ -82,15 +82,15 @@ struct Certificate {
   // Bounds (bounds.h). An unknown class has rows too, NaN for the unknown ones.
   std::vector<Row> rows;
   Plane plane{};
-  Released small{}, large{};  // released 0.1 mm and 1 mm beside the target
+  ReleaseResult small{}, large{};  // released 0.1 mm and 1 mm beside the target
 };
 
 // `loop.hand`: the attached hand, if any. Every figure of the loop except its filter is required.
-[[nodiscard]] Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+[[nodiscard]] Certificate certify(const SampledLoop& loop, const Steps& steps, const Request& asked);
 
 // The class from the eigenvalues alone, in a fiftieth of the time of certify(). `unknown` if a figure is
 // missing, or if the loop is stable neither alone nor held, because friction then decides.
-[[nodiscard]] Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+[[nodiscard]] Class linear_class(const SampledLoop& loop, const Steps& steps, const Request& asked);
 
 // The row with that name; throws std::out_of_range if there is no such row.
 [[nodiscard]] const Row& row_of(const Certificate& certificate, const std::string& name);

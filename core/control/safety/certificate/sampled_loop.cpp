@@ -49,7 +49,7 @@ class TipLoop {
   [[nodiscard]] int winding(double stiffness, double damper) const;
 
   const SampledLoop& loop_;
-  Late late_;
+  LoopDelay late_;
   Eigen::Matrix<double, 6, 6> free_;  // change of eta and its rate over a period
   // Effect of the force that begins in the period, and of the last one.
   Eigen::Matrix<double, 6, 3> fresh_, old_;
@@ -285,7 +285,7 @@ struct Device {
 
 // Compliance at z = e^{j angle}, with the delay, m/N.
 Complex compliance(const SampledLoop& loop, const Device& device, double angle) {
-  const Late delay = late(loop);
+  const LoopDelay delay = late(loop);
   const Complex past = one_less(angle), turn = -std::conj(past);  // 1 - 1/z, z - 1
   const Eigen::Vector2cd push = device.fresh.cast<Complex>() + (1.0 - past) * device.old.cast<Complex>();
   const Complex a = turn - device.free(0, 0), d = turn - device.free(1, 1);
@@ -297,7 +297,7 @@ Complex compliance(const SampledLoop& loop, const Device& device, double angle) 
 
 // One step of the whole memory: position, speed, n readings, both filtered values, pending forces.
 Eigen::MatrixXd step_of(const SampledLoop& loop, double stiffness, double damper) {
-  const Late delay = late(loop);
+  const LoopDelay delay = late(loop);
   const Device device(loop);
   const Eigen::Index readings = 2, filtered = readings + loop.ticks;
   const Eigen::Index forces = filtered + (std::isnan(loop.filter) ? 0 : 2);
@@ -359,7 +359,7 @@ SampledLoop SampledLoop::along() const {
   return loop;
 }
 
-Late late(const SampledLoop& loop) {
+LoopDelay late(const SampledLoop& loop) {
   const double periods = loop.delay / loop.period, whole = std::floor(periods + 1e-9);
   const double part = periods - whole;
   return {static_cast<int>(whole), part > 1e-9 ? part : 0.0};

@@ -62,11 +62,11 @@ struct Damper {
 };
 
 // t_d as whole periods and a fraction of one, 0 <= part < 1.
-struct Late {
+struct LoopDelay {
   int whole = 0;
   double part = 0.0;
 };
-[[nodiscard]] Late late(const SampledLoop& loop);
+[[nodiscard]] LoopDelay late(const SampledLoop& loop);
 
 // 1 - e^{-j angle}, precise for small angles.
 [[nodiscard]] std::complex<double> one_less(double angle);

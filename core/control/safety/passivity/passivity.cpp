@@ -20,7 +20,7 @@ double bound(double left, double u, double g, double count) {
 
 }  // namespace
 
-void begin(Passivity& now, const Yielded& tick, double left) noexcept {
+void begin(Passivity& now, const PassivityTick& tick, double left) noexcept {
   now = Passivity{};
   now.on = true;
   renew(now, tick);
@@ -29,7 +29,7 @@ void begin(Passivity& now, const Yielded& tick, double left) noexcept {
   now.moved = tick.moved;
 }
 
-void renew(Passivity& now, const Yielded& tick) noexcept {
+void renew(Passivity& now, const PassivityTick& tick) noexcept {
   now.depth = tick.depth;
   now.spring = tick.spring;
   now.stored = std::max(0.0, 0.5 * tick.spring * tick.depth);
@@ -38,7 +38,7 @@ void renew(Passivity& now, const Yielded& tick) noexcept {
 // Counts: a shorter reversal is attributed to the encoder (assumed: more than one count, and less than two).
 constexpr double kTurnCounts = 1.5;
 
-void observe(Passivity& now, const Yielded& tick, double count) noexcept {
+void observe(Passivity& now, const PassivityTick& tick, double count) noexcept {
   const double apart = now.slack + tick.moved;
   const bool turns = apart * now.way <= 0.0 && std::abs(apart) < kTurnCounts * count;
   now.moved = turns ? 0.0 : apart;

@@ -41,18 +41,18 @@ struct Passivity {
 };
 
 // Observation of one tick.
-struct Yielded {
+struct PassivityTick {
   double moved = 0.0;   // m, outward motion since the last tick
   double depth = 0.0;   // m, depth in the law's spring
   double spring = 0.0;  // N, outward push of the spring without motion
 };
 // Starts a contact. `left`, J: the energy put in before, counted up to what the spring holds; 0 for a wall
 // that was not in contact yet; negative: a deficit.
-void begin(Passivity& now, const Yielded& tick, double left) noexcept;
+void begin(Passivity& now, const PassivityTick& tick, double left) noexcept;
 // Replaces the spring from now on, for example when the normal jumps; the change gives no energy.
-void renew(Passivity& now, const Yielded& tick) noexcept;
+void renew(Passivity& now, const PassivityTick& tick) noexcept;
 // Ends the period in which `pushed` was held; readings step by `count`, m.
-void observe(Passivity& now, const Yielded& tick, double count) noexcept;
+void observe(Passivity& now, const PassivityTick& tick, double count) noexcept;
 // The part of the wanted push that is allowed, N, before other limits; `per_newton` is g, `count` as above.
 [[nodiscard]] double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept;
 // Largest outward distance to which a machine that holds its path may be commanded, m. The hand pushes with

@@ -45,7 +45,7 @@ struct Pixel {
 };
 
 // True if brightness has changed, or the colour at equal brightness.
-bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, const Explained& light) {
+bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, const FrameLight& light) {
   const int s = seen.sum(), e = expected.sum();
   const int most = std::max(s, e);
   const int unclear = std::min(noise * light.noise >> 8, 0x1fff);
@@ -56,7 +56,7 @@ bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, cons
   return std::abs(s - lit) > 2 * unclear + (lit * light.bright >> 16);
 }
 
-void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
+void change_row(const ChangeRow& row, int n, const FrameLight& light, const Cut& cut, std::uint8_t* strong,
                 std::uint8_t* skin, std::uint8_t* hueless) {
   const HueRule rule{cut.least_chroma, cut.least_value};
   const auto expected = [&](int channel, std::uint8_t mean) {

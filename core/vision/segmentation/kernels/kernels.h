@@ -24,7 +24,7 @@ struct Cut {
 };
 
 // The light of a frame relative to that of the background, and its residual (light.h).
-struct Explained {
+struct FrameLight {
   std::uint16_t gain[3];   // red, green, blue; 1024 is 1
   std::uint16_t white[3];  // correction of the light's colour; 256 is 1, the largest
   // Threshold of change in a tile's noise (eighths): quarters of 255; 256 is 1.
@@ -58,7 +58,7 @@ struct Kernels {
                     std::uint8_t* found);
   // skin: pixels with the hue of skin after removal of the light's colour. strong: the skin pixels that the
   // light does not explain. hueless: unexplained pixels without a hue.
-  void (*change_row)(const ChangeRow& row, int n, const Explained& light, const Cut& cut,
+  void (*change_row)(const ChangeRow& row, int n, const FrameLight& light, const Cut& cut,
                      std::uint8_t* strong, std::uint8_t* skin, std::uint8_t* hueless);
   void (*and_row)(const std::uint8_t* with, int n, std::uint8_t* row);
   // a or (b and c)

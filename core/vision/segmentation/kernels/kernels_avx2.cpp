@@ -186,7 +186,7 @@ V apart(V a, V b, V e, V s, V limit, V m) {
                                  _mm256_unpackhi_epi16(limit, zero), _mm256_unpackhi_epi16(m, zero)));
 }
 
-V changed(const Words& p, const Words& mean, V noise, V side, const Explained& light) {
+V changed(const Words& p, const Words& mean, V noise, V side, const FrameLight& light) {
   const Words seen{four(p.r), four(p.g), four(p.b)};
   const Words was{expected(mean.r, light.gain[0]), expected(mean.g, light.gain[1]),
                   expected(mean.b, light.gain[2])};
@@ -209,7 +209,7 @@ V whiter(V channel, unsigned gain) {
   return _mm256_packus_epi16(of(low(channel)), of(high(channel)));
 }
 
-void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
+void change_row(const ChangeRow& row, int n, const FrameLight& light, const Cut& cut, std::uint8_t* strong,
                 std::uint8_t* skin, std::uint8_t* hueless) {
   int x = 0;
   for (; x + 32 <= n; x += 32) {

@@ -259,7 +259,7 @@ TEST(Hold, StandsStillWithinTheBrakingDistance) {
   loop.spoil = [](Inputs& in) { in.missed = 100; };
   loop.tick(1000);
   EXPECT_EQ(loop.out.mode, Mode::hold);
-  EXPECT_EQ(recall<Commanded>(loop.state).command_velocity.norm(), 0.0);
+  EXPECT_EQ(recall<CommandState>(loop.state).command_velocity.norm(), 0.0);
   // v^2 / 2a = 0.05^2 / 0.82 = 3.05 mm.
   EXPECT_LE((loop.tip() - at).norm(), 0.00305 + 50e-6);
   expect_within_limits(loop);

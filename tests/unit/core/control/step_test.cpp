@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/control/task/tasks.h"
 #include "core/record/state_hash.h"
 #include "tests/support/by_hand.h"
@@ -235,15 +235,15 @@ TEST(Contact, EveryLimitIsReached) {
         const Inputs in;
         State state;
         state.mode = Mode::contact;
-        const Render task;
-        Rendering now;
+        const AdmittanceTask task;
+        AdmittanceState now;
         now.contact.object = 0;
         now.contact.X_WN = Pose<'W', 'N'>::identity();
         for (int i = 0; i < 3; ++i) {
-          stages::Walk walk(scene, tick, in);
-          walk.force = Vec<'W'>(0, 0, -1000.0);
-          stages::model(walk, task, state, now);
-          EXPECT_TRUE(walk.why & kAtLimit) << tenths << " of " << curve;
+          stages::StepContext context(scene, tick, in);
+          context.force = Vec<'W'>(0, 0, -1000.0);
+          stages::model(context, task, state, now);
+          EXPECT_TRUE(context.why & kAtLimit) << tenths << " of " << curve;
           EXPECT_EQ(now.displacement.xyz[2], -limit) << tenths << " of " << curve;
         }
       }
@@ -392,21 +392,22 @@ TEST(State, ATickHashesWhatItsTaskHas) {
   Count shared;
   State state;
   fields(shared, state);
-  for (const int leaves : {leaves_of<Render>(), leaves_of<Meet>(), leaves_of<Probe>(), leaves_of<Travel>()}) {
+  for (const int leaves : {leaves_of<AdmittanceTask>(), leaves_of<ImpedanceTask>(),
+                           leaves_of<IndentationTask>(), leaves_of<TrackingTask>()}) {
     EXPECT_GT(leaves, shared.leaves);
     EXPECT_LT(leaves, shared.leaves + 125);
   }
-  EXPECT_GE(leaves_of<Push>(), leaves_of<Meet>() + 9 * static_cast<int>(kMostMoving));
+  EXPECT_GE(leaves_of<DynamicObjectTask>(), leaves_of<ImpedanceTask>() + 9 * static_cast<int>(kMostMoving));
 }
 
 TEST(State, AStateHasTheMemoryOfItsScenesTask) {
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(loop.state.task));
-  EXPECT_EQ(recall<Rendering>(loop.state).contact.object, -1) << "nothing yet";
+  EXPECT_EQ(recall<AdmittanceState>(loop.state).contact.object, -1) << "nothing yet";
   loop.tick();
-  EXPECT_TRUE(std::holds_alternative<Rendering>(loop.state.task));
-  EXPECT_FALSE(recall<Meeting>(loop.state).aim.target.finite()) << "another task's";
-  EXPECT_TRUE(recall<Commanded>(loop.state).command.finite()) << "what several tasks share";
+  EXPECT_TRUE(std::holds_alternative<AdmittanceState>(loop.state.task));
+  EXPECT_FALSE(recall<ImpedanceState>(loop.state).aim.target.finite()) << "another task's";
+  EXPECT_TRUE(recall<CommandState>(loop.state).command.finite()) << "what several tasks share";
 }
 
 // A state goes on in a scene of another task as one that knows nothing of it.
@@ -414,21 +415,21 @@ TEST(State, OfAnotherTaskBeginsAnew) {
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
   loop.tick(500);
   EXPECT_TRUE(loop.state.started && loop.out.tip.valid());
-  loop.state.task.emplace<Probing>().phase = ProbePhase::push;
+  loop.state.task.emplace<IndentationState>().phase = ProbePhase::push;
   loop.tick();
-  EXPECT_TRUE(std::holds_alternative<Rendering>(loop.state.task));
+  EXPECT_TRUE(std::holds_alternative<AdmittanceState>(loop.state.task));
   EXPECT_TRUE(loop.out.tip.valid()) << "it begins where the machine is";
 }
 
 TEST(State, ABallsSceneRemembersItsPart) {
   RecordProperty("state_bytes", static_cast<int>(sizeof(State)));
-  RecordProperty("of_a_ball", static_cast<int>(remembered<Render>()));
+  RecordProperty("of_a_ball", static_cast<int>(remembered<AdmittanceTask>()));
   std::printf(
       "State %zu bytes; of a scene that renders %zu, meets %zu, pushes %zu, probes %zu, travels %zu\n",
-      sizeof(State), remembered<Render>(), remembered<Meet>(), remembered<Push>(), remembered<Probe>(),
-      remembered<Travel>());
-  EXPECT_LT(remembered<Render>(), 1200U);  // 96 of them of its passivity controller
-  EXPECT_GT(sizeof(State), remembered<Render>() + 500U) << "what only other tasks need";
+      sizeof(State), remembered<AdmittanceTask>(), remembered<ImpedanceTask>(),
+      remembered<DynamicObjectTask>(), remembered<IndentationTask>(), remembered<TrackingTask>());
+  EXPECT_LT(remembered<AdmittanceTask>(), 1200U);  // 96 of them of its passivity controller
+  EXPECT_GT(sizeof(State), remembered<AdmittanceTask>() + 500U) << "what only other tasks need";
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 #include "core/spec/rendering_rig.h"
 #include "sim/plants/arm_plant.h"
 
@@ -84,7 +84,7 @@ TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
   for (const double load : {1.2, 2.0, 3.0, 4.4}) {
     const double time = bears_for(thermal, load, folds_at(load, kPeak, 1.0));
     double winding = 0.0, housing = 0.0;
-    const Warming warming(thermal, kStep);
+    const MotorHeating warming(thermal, kStep);
     int ticks = 0;
     for (; folded_back(winding + housing, kPeak, 1.0) >= load; ++ticks) warming(load, winding, housing);
     EXPECT_NEAR(kStep * ticks, time, 0.01 * time) << load;

@@ -379,10 +379,10 @@ TEST_F(RecordTest, AChangeOfTheHashAloneIsFound) {
 
 TEST(LayoutHash, IsTheSameEveryTimeAndAnotherForEachTask) {
   Scene render, meet, push, probe, travel;
-  meet.task = Meet();
-  push.task = Push();
-  probe.task = Probe();
-  travel.task = Travel();
+  meet.task = ImpedanceTask();
+  push.task = DynamicObjectTask();
+  probe.task = IndentationTask();
+  travel.task = TrackingTask();
   EXPECT_EQ(layout_hash(render), layout_hash(Scene()));
   std::set<std::uint64_t> all;
   for (const Scene* scene : {&render, &meet, &push, &probe, &travel}) all.insert(layout_hash(*scene));

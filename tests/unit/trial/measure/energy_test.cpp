@@ -92,7 +92,7 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
   Felt felt;
   felt.result = Trial(setup, options).run();
   felt.slope = fingers.fit().slope();
-  for (const Meeting& m : fingers.meetings()) {
+  for (const FingerEncounter& m : fingers.meetings()) {
     felt.peak = std::max(felt.peak, m.peak_force);
     felt.step = std::max(felt.step, m.greatest_step);
   }

@@ -397,7 +397,7 @@ std::vector<double> apart_when_they_meet(const char* scene) {
     const Wanted at = wanted_at(aimed, glance.truth.tool_tip);
     if (at.distance > glance.truth.tool_radius) return;
     met = true;
-    const Vec3 way = (recall<enc::Meeting>(*glance.state).aim.target - glance.truth.tip).e();
+    const Vec3 way = (recall<ImpedanceState>(*glance.state).aim.target - glance.truth.tip).e();
     apart.push_back((way - at.normal.e() * at.normal.e().dot(way)).norm());
   };
   Trial(std::move(setup), options).run();

@@ -97,7 +97,7 @@ TEST(Edges, WhereTheNearestPointLeapsAcrossAGrooveTheTipWaitsInside) {
   loop.tick(3000);
   EXPECT_LE(loop.worst_outside, kGuard);
   EXPECT_NE(loop.out.mode, Mode::hold) << why_text(loop.out.why);
-  EXPECT_LT(recall<Commanded>(loop.state).command_velocity.norm(), 1e-4);  // and there it stands
+  EXPECT_LT(recall<CommandState>(loop.state).command_velocity.norm(), 1e-4);  // and there it stands
   loop.tool_tip = Point<'W'>(0.004, 0, 0.012);
   loop.tick(1500);
   EXPECT_NEAR(loop.tip().xyz[0], right, 1e-5);
@@ -318,7 +318,7 @@ TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
     for (int i = 0; i < 400; ++i) {
       loop.tool_tip = Point<'W'>(Vec3(loop.tool_tip.e() + step));
       loop.tick();
-      const double speed = recall<Commanded>(loop.state).command_velocity.norm();
+      const double speed = recall<CommandState>(loop.state).command_velocity.norm();
       if (before > most * (1.0 - 1e-6)) {
         ++seen;
         ASSERT_GT(speed, most * (1.0 - 1e-6)) << i;

@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/control/step.h"
-#include "core/control/task/carry/travel.h"
-#include "core/control/task/measure/probe.h"
+#include "core/control/task/indentation/indentation.h"
+#include "core/control/task/tracking/tracking.h"
 #include "tests/support/scenes.h"
 
 namespace enc {
@@ -146,7 +146,7 @@ Loop with_grip(const SceneSpec& spec, int from = 0) {
 }
 int until(Loop& loop, TravelPhase phase, std::int32_t leg) {
   int ticks = 0;
-  while ((recall<Travelling>(loop.state).phase != phase || recall<Travelling>(loop.state).leg != leg) &&
+  while ((recall<TrackingState>(loop.state).phase != phase || recall<TrackingState>(loop.state).leg != leg) &&
          ticks < 60'000) {
     loop.tick();
     ++ticks;
@@ -167,7 +167,7 @@ TEST(Travel, LegsOfEachAxisAndWay) {
   spec.travel->axes = "xz";
   spec.travel->ways = TravelWays::both_ways;
   spec.travel->repeats = 2;
-  const Travel travel = *made(spec).travel();
+  const TrackingTask travel = *made(spec).travel();
   ASSERT_EQ(travel.legs.size(), 2U * 2U * 5U);
   EXPECT_EQ(travel.legs[0].axis, -1);  // x begins where the machine is
   EXPECT_EQ(travel.legs[0].length, 0.0);
@@ -184,15 +184,15 @@ TEST(Travel, WaitsForTheJawsThenMovesInTrapezoids) {
   Loop loop = with_grip(travel_scene(), 300);
   loop.tick(300);
   EXPECT_EQ(loop.out.mode, Mode::travel);
-  EXPECT_EQ(recall<Travelling>(loop.state).phase, TravelPhase::wait);
+  EXPECT_EQ(recall<TrackingState>(loop.state).phase, TravelPhase::wait);
   EXPECT_LT(loop.tip().e().norm(), 1e-12);
   until(loop, TravelPhase::move, 2);  // 10 to 40 mm
   const double top = 0.040, a = loop.scene.reach.acceleration;
   // Half a ramp, where it has its whole acceleration; then even; 30 mm in 30 / 40 + 40 / 410 s.
   loop.tick(49);
-  EXPECT_NEAR(recall<Commanded>(loop.state).command_velocity.norm(), a * 0.050, 1e-9);
+  EXPECT_NEAR(recall<CommandState>(loop.state).command_velocity.norm(), a * 0.050, 1e-9);
   loop.tick(200);
-  EXPECT_NEAR(recall<Commanded>(loop.state).command_velocity.norm(), top, 1e-9);
+  EXPECT_NEAR(recall<CommandState>(loop.state).command_velocity.norm(), top, 1e-9);
   const int rest = until(loop, TravelPhase::dwell, 2);
   EXPECT_NEAR((250 + rest) * 1e-3, 0.030 / top + top / a, 0.015);
   EXPECT_NEAR(loop.tip().xyz[0], 0.040, 1.1e-6);
@@ -219,13 +219,13 @@ TEST(Travel, EndsInItsTimeAndStandsStill) {
 TEST(Travel, TimeStandsStillInAHold) {
   Loop loop = with_grip(travel_scene());
   until(loop, TravelPhase::dwell, 1);
-  const double elapsed = recall<Travelling>(loop.state).elapsed;
+  const double elapsed = recall<TrackingState>(loop.state).elapsed;
   const auto hold = loop.spoil;
   loop.spoil = [&](Inputs& in) { in.grip = {{GripPhase::closed, 0.0, 0.0, false}, in.tip.t, Health::ok}; };
   loop.tick(500);
   EXPECT_EQ(loop.out.mode, Mode::hold);
   EXPECT_NE(loop.out.why & kToolNotHeld, 0U);
-  EXPECT_EQ(recall<Travelling>(loop.state).elapsed, elapsed);
+  EXPECT_EQ(recall<TrackingState>(loop.state).elapsed, elapsed);
   loop.spoil = hold;
   EXPECT_NEAR(until(loop, TravelPhase::move, 2), 200, 3);
 }
@@ -261,7 +261,7 @@ constexpr double kCentre = 0.052;       // m, of the ball above W: first touch a
 // Ticks until the programme is in a phase; gives how many.
 int until(Loop& loop, ProbePhase phase) {
   int ticks = 0;
-  while (recall<Probing>(loop.state).phase != phase && ticks < 60'000) {
+  while (recall<IndentationState>(loop.state).phase != phase && ticks < 60'000) {
     loop.tick();
     ++ticks;
   }
@@ -269,7 +269,7 @@ int until(Loop& loop, ProbePhase phase) {
 }
 double depth(const Loop& loop) { return loop.scene.probe()->deflection(loop.tip()); }
 
-TEST(Probe, FirstTouchAndAxisOfTheThreeIndentations) {
+TEST(IndentationTask, FirstTouchAndAxisOfTheThreeIndentations) {
   SceneSpec spec = rig_scene();
   const Scene a = made(spec);
   EXPECT_EQ(a.tip_radius, kProbeRadius);
@@ -292,7 +292,7 @@ TEST(Probe, FirstTouchAndAxisOfTheThreeIndentations) {
   EXPECT_LT((c.probe()->X_WN.q() * Vec3::UnitZ() - out).norm(), 1e-12);
 }
 
-TEST(Probe, WalksThroughItsPhases) {
+TEST(IndentationTask, WalksThroughItsPhases) {
   Loop loop(made(rig_scene()));
   loop.tick();
   EXPECT_EQ(loop.out.mode, Mode::probe);
@@ -318,7 +318,7 @@ TEST(Probe, WalksThroughItsPhases) {
   EXPECT_NEAR(depth(loop), -0.004, 1.1e-6);
 }
 
-TEST(Probe, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
+TEST(IndentationTask, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   SceneSpec spec = rig_scene();
   spec.probe->repeats = 3;
   spec.probe->rest = 0.5;
@@ -327,7 +327,7 @@ TEST(Probe, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   const double longest = programme_time(loop.scene, *loop.scene.probe());
   double deepest = -1.0;
   int ticks = 0;
-  for (; recall<Probing>(loop.state).phase != ProbePhase::done && ticks < 60'000; ++ticks) {
+  for (; recall<IndentationState>(loop.state).phase != ProbePhase::done && ticks < 60'000; ++ticks) {
     loop.tick();
     deepest = std::max(deepest, depth(loop));
   }
@@ -344,7 +344,7 @@ TEST(Probe, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
 }
 
 // The programme stands still with the machine: it does not catch up by pushing faster.
-TEST(Probe, AHoldInAPushIsOnlyAPause) {
+TEST(IndentationTask, AHoldInAPushIsOnlyAPause) {
   Loop loop(made(rig_scene()));
   until(loop, ProbePhase::push);
   loop.tick(1500);
@@ -368,7 +368,7 @@ TEST(Probe, AHoldInAPushIsOnlyAPause) {
 }
 
 // A push of the ball on the probe is positive along the axis, N's z; the unfiltered force has no lag.
-TEST(Probe, MeasuresForceAlongItsAxisWithoutLag) {
+TEST(IndentationTask, MeasuresForceAlongItsAxisWithoutLag) {
   Loop loop(made(rig_scene()));
   loop.force_zero = Vec<'F'>(0.3, -0.2, 0.5);
   until(loop, ProbePhase::push);
@@ -383,13 +383,13 @@ TEST(Probe, MeasuresForceAlongItsAxisWithoutLag) {
 }
 
 // While the probe is near the object the force zero stays what it was, whatever is measured.
-TEST(Probe, FindsItsForceZeroOnlyClearOfTheObject) {
+TEST(IndentationTask, FindsItsForceZeroOnlyClearOfTheObject) {
   Loop loop(made(rig_scene()));
   until(loop, ProbePhase::push);
-  const Vec<'F'> zero = recall<Commanded>(loop.state).force_zero;
+  const Vec<'F'> zero = recall<CommandState>(loop.state).force_zero;
   loop.force = Vec<'W'>(0, 0, -5.0);
   until(loop, ProbePhase::rest);
-  EXPECT_EQ(recall<Commanded>(loop.state).force_zero.xyz, zero.xyz);
+  EXPECT_EQ(recall<CommandState>(loop.state).force_zero.xyz, zero.xyz);
 }
 
 void expect_refused(const SceneSpec& spec, const std::string& key, const std::string& words) {
@@ -402,7 +402,7 @@ void expect_refused(const SceneSpec& spec, const std::string& key, const std::st
   }
 }
 
-TEST(Probe, RefusesWhatCannotBe) {
+TEST(IndentationTask, RefusesWhatCannotBe) {
   SceneSpec spec = rig_scene();
   spec.probe->depth = 0.0101;
   expect_refused(spec, "probe.depth", "no deeper than the radius");
@@ -442,7 +442,7 @@ TEST(Probe, RefusesWhatCannotBe) {
 }
 
 // A real thing is for the probe alone.
-TEST(Probe, AnObjectWithoutABehaviourIsRefusedWhereItWouldBeRendered) {
+TEST(IndentationTask, AnObjectWithoutABehaviourIsRefusedWhereItWouldBeRendered) {
   SceneSpec spec = rig_scene();
   spec.probe.reset();
   expect_refused(spec, "object.ball.behaviour", "no behaviour ''");

@@ -20,7 +20,7 @@ struct World {
   std::vector<ObjectSpec> specs;
   std::vector<Object> objects;
   std::vector<Mover> movers;
-  std::array<Moved, kMostMoving> moved{};
+  std::array<MoverState, kMostMoving> moved{};
   Point<'W'> last;  // of the finger
 
   void add(const std::string& name, Surface surface, const Pose<'W', 'O'>& X_WO, const InteractionSpec& does,
@@ -43,7 +43,7 @@ struct World {
     const double before = object.moving < 0 ? kUnset : moved[static_cast<std::size_t>(object.moving)].depth;
     const double sinks = std::isnan(before) ? 0.0 : (-at.distance - before) / kTick;
     move(movers, {index, -at.distance, normal, p, 0.0, speed, sinks, false}, kTick, moved);
-    const Moved& now = moved[static_cast<std::size_t>(object.moving)];
+    const MoverState& now = moved[static_cast<std::size_t>(object.moving)];
     return std::max(0.0, -at.distance) * object.stiffness * now.firmness;
   }
 };
@@ -292,7 +292,7 @@ struct Ball : Bench {
     at(-0.080, 10);
     at(-0.010, 500);
   }
-  [[nodiscard]] const Moved& moved() const { return moved_in(loop.state)[0]; }
+  [[nodiscard]] const MoverState& moved() const { return moved_in(loop.state)[0]; }
   // The prop goes on at `speed` under the finger, until they part or for `ticks`.
   int strike(double speed, int ticks = 100) {
     for (int i = 1; i <= ticks; ++i) {
@@ -331,7 +331,7 @@ TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
   double fastest = 0.0;
   for (int i = 0; i < 100; ++i) {
     ball.at(-0.002);
-    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).aim.velocity.norm());
+    fastest = std::max(fastest, recall<ImpedanceState>(ball.loop.state).aim.velocity.norm());
   }
   EXPECT_LT(fastest, 0.050);
 }

@@ -19,7 +19,7 @@ Tip<'O'> cone_tip(const Vec3& centre, double radius, double half_angle, const Ve
 Tip<'O'> edge_tip(const Vec3& centre, double radius, double length, const Vec3& axis) {
   return {Point<'O'>(centre), radius, TipShape::edge, Vec<'O'>(Vec3(axis.normalized())), 0.0, length};
 }
-Displaced moved(const Surface& surface, const DentSample& dent, const Vec3& p) {
+DisplacedPoint moved(const Surface& surface, const DentSample& dent, const Vec3& p) {
   const Nearest at = surface.nearest(Point<'O'>(p));
   return displaced(dent_field(surface, dent), at.point, at.normal);
 }
@@ -51,7 +51,7 @@ TEST(Dent, ThePointUnderTheToolMovesByTheDepth) {
               edge_tip(centre, radius, 0.03, n.unitOrthogonal())}) {
           const DentSample dent = dent_of(*surface, 0, tip);
           EXPECT_NEAR(dent.depth, depth, 1e-14);
-          const Displaced under = moved(*surface, dent, zero * n);
+          const DisplacedPoint under = moved(*surface, dent, zero * n);
           EXPECT_NEAR(under.by, depth, 1e-12);
           EXPECT_LT((under.point.e() - (zero - depth) * n).norm(), 1e-12);
           EXPECT_GT(under.normal.e().dot(n), 1.0 - 1e-9);
@@ -71,16 +71,16 @@ TEST(Dent, TheSurfaceLiesOnTheTip) {
   const Vec3 centre(0, 0, 0.033 - 0.004 + 0.002);
   const DentSample dent = dent_of(kBall, 0, ball_tip(centre, 0.002));
   for (const double aside : {0.0, 0.3e-3, 0.8e-3, 1.13e-3}) {
-    const Displaced at = moved(kBall, dent, {aside, 0, std::sqrt(0.033 * 0.033 - aside * aside)});
+    const DisplacedPoint at = moved(kBall, dent, {aside, 0, std::sqrt(0.033 * 0.033 - aside * aside)});
     EXPECT_NEAR((at.point.e() - centre).norm(), 0.002, 1e-12) << aside;
     EXPECT_LT((at.normal.e() - (centre - at.point.e()) / 0.002).norm(), 1e-9) << aside;
   }
-  const Displaced beyond = moved(kBall, dent, {2e-3, 0, std::sqrt(0.033 * 0.033 - 4e-6)});
+  const DisplacedPoint beyond = moved(kBall, dent, {2e-3, 0, std::sqrt(0.033 * 0.033 - 4e-6)});
   EXPECT_GT((beyond.point.e() - centre).norm(), 0.002 + 1e-4);
   // A blunt cone of 75 degrees rises by cot 75 = 0.268 beside its apex: the surface lies on its side.
   const DentSample blunt = dent_of(kBall, 0, cone_tip(centre, 0.002, 75 * M_PI / 180, {0, 0, 1}));
   for (const double aside : {1e-3, 2e-3, 3e-3}) {
-    const Displaced at = moved(kBall, blunt, {0, aside, std::sqrt(0.033 * 0.033 - aside * aside)});
+    const DisplacedPoint at = moved(kBall, blunt, {0, aside, std::sqrt(0.033 * 0.033 - aside * aside)});
     const double side =
         (at.point.xyz[2] - centre.z()) * std::sin(75 * M_PI / 180) - aside * std::cos(75 * M_PI / 180);
     EXPECT_NEAR(side, -0.002, 1e-12) << aside;
@@ -189,8 +189,8 @@ TEST(Dent, ArraysAreDisplacedAsPointsAre) {
             {in[0].data(), in[1].data(), in[2].data(), in[3].data(), in[4].data(), in[5].data()},
             {out[0].data(), out[1].data(), out[2].data(), out[3].data(), out[4].data(), out[5].data()}, 1003);
       for (std::size_t i = 0; i < 1003; ++i) {
-        const Displaced one = displaced(field, Point<'O'>(in[0][i], in[1][i], in[2][i]),
-                                        Vec<'O'>(in[3][i], in[4][i], in[5][i]));
+        const DisplacedPoint one = displaced(field, Point<'O'>(in[0][i], in[1][i], in[2][i]),
+                                             Vec<'O'>(in[3][i], in[4][i], in[5][i]));
         EXPECT_LT((one.point.e() - Vec3(out[0][i], out[1][i], out[2][i])).norm(), 2e-8);
         EXPECT_LT((one.normal.e() - Vec3(out[3][i], out[4][i], out[5][i])).norm(), 2e-4);
         if (one.by == 0.0) {

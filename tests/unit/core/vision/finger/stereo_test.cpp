@@ -274,7 +274,7 @@ Grey grey_of(const Image& image) {
 class ExchangedTest : public testing::Test {
  protected:
   StereoRig rig = drawn::small();
-  Exchanged watch{Rectifier(rig).pair(), 320, 240};
+  ExchangeCheck watch{Rectifier(rig).pair(), 320, 240};
   static Grey bare() {
     Grey grey(320, 240);
     std::fill(grey.level.begin(), grey.level.end(), std::uint8_t{90});
@@ -318,8 +318,8 @@ TEST_F(ExchangedTest, NoiseIsNoSign) {
 TEST_F(ExchangedTest, AnyRigIsLookedAt) {
   RectifiedPair wide = Rectifier(rig).pair();
   wide.baseline = 1.0;
-  EXPECT_NO_THROW(Exchanged(wide, 320, 240));
-  Exchanged tiny(Rectifier(rig).pair(), 8, 4);
+  EXPECT_NO_THROW(ExchangeCheck(wide, 320, 240));
+  ExchangeCheck tiny(Rectifier(rig).pair(), 8, 4);
   EXPECT_FALSE(tiny.see(Grey(8, 4), Grey(8, 4)));
 }
 

@@ -161,18 +161,18 @@ Grey noise() {
 }
 const Region kWhole{0, 0, kColumns, kRows};
 
-TEST(Smoothed, WithoutAPassItIsTheImage) {
+TEST(SmoothGrey, WithoutAPassItIsTheImage) {
   const Grey image = noise();
-  const Smoothed same(image, kWhole, 0);
+  const SmoothGrey same(image, kWhole, 0);
   for (int y = 0; y < kRows; ++y)
     for (int x = 0; x < kColumns; ++x) ASSERT_EQ(*same.at(x, y), static_cast<float>(*image.at(x, y)));
 }
 
-TEST(Smoothed, APointSpreadsByHalfAPixelSquaredAPass) {
+TEST(SmoothGrey, APointSpreadsByHalfAPixelSquaredAPass) {
   Grey image(kColumns, kRows);
   *image.at(20, 15) = 200;
   for (const int passes : {1, 2, 5}) {
-    const Smoothed spread(image, kWhole, passes);
+    const SmoothGrey spread(image, kWhole, passes);
     double sum = 0.0, across = 0.0, down = 0.0;
     for (int y = 0; y < kRows; ++y)
       for (int x = 0; x < kColumns; ++x) {
@@ -187,16 +187,16 @@ TEST(Smoothed, APointSpreadsByHalfAPixelSquaredAPass) {
   }
 }
 
-TEST(Smoothed, APixelIsTheSameWhateverElseIsAsked) {
+TEST(SmoothGrey, APixelIsTheSameWhateverElseIsAsked) {
   const Grey image = noise();
-  const Smoothed all(image, kWhole, 3);
+  const SmoothGrey all(image, kWhole, 3);
   for (const Region& part : {Region{10, 8, 20, 14}, Region{-5, -5, 4, 3}, Region{35, 20, 60, 50}}) {
-    const Smoothed some(image, part, 3);
+    const SmoothGrey some(image, part, 3);
     EXPECT_EQ(some.part(), part.cut(kWhole));
     for (int y = some.part().y0; y < some.part().y1; ++y)
       for (int x = some.part().x0; x < some.part().x1; ++x) ASSERT_EQ(*some.at(x, y), *all.at(x, y));
   }
-  EXPECT_TRUE(Smoothed(image, Region{50, 0, 60, 10}, 3).part().empty());
+  EXPECT_TRUE(SmoothGrey(image, Region{50, 0, 60, 10}, 3).part().empty());
 }
 
 }  // namespace

@@ -100,8 +100,8 @@ TEST(SampledLoop, BoundFallsWithDelayAndPeriodAndRisesWithDamping) {
   }
 }
 
-// Late by five eighths of the hand's own swing a damper drives it and a spring damps it: what is stable does
-// not begin at nothing.
+// LoopDelay by five eighths of the hand's own swing a damper drives it and a spring damps it: what is stable
+// does not begin at nothing.
 TEST(SampledLoop, StableStiffnessesNeedNotBeginAtNothing) {
   SampledLoop loop{0.1, 0.1, 1e-3, 33.5e-3};
   loop.hand = {0.05, 0.1, 2000.0};
@@ -487,7 +487,7 @@ TEST(Certificate, WhatIsTooSlowToBeWatchedIsNotCalledStill) {
 TEST(Certificate, LightMassIsNotFrozen) {
   const SampledLoop light{1e-9, 0.5, 1e-3}, heavy{1e-4, 0.5, 1e-3};
   for (const double friction : {0.0, 1e-3}) {
-    const Released found = release(light, {friction, 0.0}, 100.0, 0.0, kLarge);
+    const ReleaseResult found = release(light, {friction, 0.0}, 100.0, 0.0, kLarge);
     EXPECT_EQ(found.rest, Rest::still) << friction;
     EXPECT_LT(found.swing, 1e-5) << friction;
     // Its force moves it by K T/b of the way in a period, as the eigenvalues say: up to twice.
@@ -507,7 +507,7 @@ TEST(Certificate, WhatCreepsIsStill) {
 // On its way down to what its counts keep going, which is more than 1 % of where it came from.
 TEST(Certificate, WhatGoesDownToALimitCycleIsWatchedOn) {
   const SampledLoop loop{0.1, 0.16, 1e-3};
-  const Released slow = release(loop, {0.0, 1e-4}, 300.0, 0.0, 50.0 * kSmall);
+  const ReleaseResult slow = release(loop, {0.0, 1e-4}, 300.0, 0.0, 50.0 * kSmall);
   EXPECT_EQ(slow.rest, Rest::cycle);
   EXPECT_EQ(release(loop, {0.0, 0.0}, 300.0, 0.0, 50.0 * kSmall).rest, Rest::still);
 }
@@ -552,21 +552,21 @@ TEST(Certificate, DescribingFunctionForetellsWhatFrictionStops) {
 TEST(Certificate, CountsKeepALoopGoingWhereFrictionDoesNotHoldThem) {
   const SampledLoop loop{0.1, 0.3, 1e-3, 1e-3};
   EXPECT_EQ(release(loop, {0.2, 2e-3}, 150.0, 0.0, kLarge).rest, Rest::still);
-  const Released hunts = release(loop, {0.02, 2e-3}, 150.0, 0.0, 1e-2);
+  const ReleaseResult hunts = release(loop, {0.02, 2e-3}, 150.0, 0.0, 1e-2);
   EXPECT_EQ(hunts.rest, Rest::cycle);
   EXPECT_GT(hunts.swing, 0.2e-3);
   EXPECT_LT(hunts.swing, 2e-3);  // over one edge
 }
 
 TEST(Certificate, MissingFiguresAreNamed) {
-  const auto missing = [](const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+  const auto missing = [](const SampledLoop& loop, const Steps& steps, const Request& asked) {
     const Certificate found = certify(loop, steps, asked);
     EXPECT_EQ(found.verdict, Class::unknown);
     EXPECT_EQ(found.rows.size(), 8U);
     EXPECT_EQ(found.small.rest, Rest::unknown);
     return found.missing;
   };
-  const Asked asked{100.0, {}};
+  const Request asked{100.0, {}};
   EXPECT_EQ(missing({0.1, kUnset, 1e-3}, kEncoder, asked), "damping");
   EXPECT_EQ(missing({0.1, -1.0, 1e-3}, kEncoder, asked), "damping");
   EXPECT_EQ(missing({0.1, 0.1, 0.0}, kEncoder, asked), "period");

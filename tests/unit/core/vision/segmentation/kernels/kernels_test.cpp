@@ -189,7 +189,7 @@ TEST_F(Twins, SeeTheSameChange) {
     for (int i = 0; i < n; ++i) side.push_back(word(round % 3 == 0 ? 65535 : 20000));
     const ChangeRow row{rgb.data(), red.data(), green.data(), blue.data(), still.data(), side.data()};
     const std::uint32_t most = round % 7 == 0 ? 65535U : 3000U;
-    const Explained light{
+    const FrameLight light{
         {word(8192), word(8192), 896}, {word(256), word(256), 256}, word(most), word(most), word(most)};
     const HueRule rule{static_cast<std::uint8_t>(round % 5 == 0 ? 40 : 1),
                        static_cast<std::uint8_t>(round % 5 == 0 ? 60 : 0)};

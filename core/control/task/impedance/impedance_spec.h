@@ -56,7 +56,7 @@ struct RestSpec {
 };
 
 // Predicted touch of an approaching finger (aim.cpp, finger.h).
-struct ComingSpec {
+struct ReachPredictionSpec {
   // Factor on the vaguest noise up to which pictures stay clear enough (assumed: a hysteresis of a tenth).
   static constexpr double kStaysClear = 1.1;
   // m: height of the waiting tool above the predicted touch (assumed: no contact yet).

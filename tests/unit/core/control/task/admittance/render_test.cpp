@@ -1,10 +1,10 @@
-// Rendering: each mode ends when its cause has (mode.h); the damper; a tip that comes late; re-tare.
+// AdmittanceState: each mode ends when its cause has (mode.h); the damper; a tip that comes late; re-tare.
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "core/control/task/render/damping.h"
+#include "core/control/task/admittance/damping.h"
 #include "core/machine/loop_model.h"
 #include "tests/support/by_hand.h"
 #include "tests/support/scenes.h"
@@ -90,7 +90,7 @@ TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
     loop.tool_tip = at_gap(0.0085);
     loop.tick(1500);
     EXPECT_EQ(loop.out.mode, Mode::follow) << drift;
-    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -drift, 0.02)
+    EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.xyz[2], -drift, 0.02)
         << drift;  // and it is learnt anew
     const std::int32_t contacts = loop.out.contacts;
     loop.tick(5000);
@@ -183,13 +183,13 @@ TEST(ModeEnds, WithoutLearningTheForceOfAHiddenHand) {
     loop.tick(63'000);
     EXPECT_EQ(loop.out.mode, Mode::away);
     loop.tick(20'000);
-    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-3) << force;
+    EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-3) << force;
     loop.tool = 0;
     loop.tool_tip = at_gap(0.150);  // and it is again when that tool is seen clear
     loop.force = Vec<'W'>::zero();
     loop.force_zero = Vec<'F'>(0, 0, -0.03);
     loop.tick(20'000);
-    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -0.03, 0.005) << force;
+    EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.xyz[2], -0.03, 0.005) << force;
   }
 }
 
@@ -423,12 +423,12 @@ TEST(Retare, FollowsAZeroWithinThreeWindows) {
   loop.tick(1000);
   loop.force_zero = Vec<'F'>(0, 0, -0.05);
   loop.tick(600);  // the window of the change, a whole one, and one in which that one waits
-  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -0.05, 1e-9);
+  EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.xyz[2], -0.05, 1e-9);
   test::Loop once = loop_of(Tare::start);
   once.tick(1000);
   once.force_zero = Vec<'F'>(0, 0, -0.05);
   once.tick(600);
-  EXPECT_NEAR(recall<Commanded>(once.state).force_zero.xyz[2], 0.0, 1e-9);
+  EXPECT_NEAR(recall<CommandState>(once.state).force_zero.xyz[2], 0.0, 1e-9);
 }
 
 // A touch that rises to the 0.1 N of a contact within 0.2 s: less than a window.
@@ -441,7 +441,7 @@ TEST(Retare, KeepsASlowTouchOutOfTheZero) {
   }
   ASSERT_EQ(loop.out.mode, Mode::contact);
   loop.tick(500);
-  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], 0.0, 1e-12);
+  EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.xyz[2], 0.0, 1e-12);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "core/control/safety/passivity/passivity.h"
 #include "core/control/stages/common_state.h"
 #include "core/control/stages/displacing.h"
-#include "core/control/task/render/damping.h"
+#include "core/control/task/admittance/damping.h"
 #include "core/shape/response/response.h"
 #include "core/spec/rendering_rig.h"
 
@@ -16,25 +16,25 @@ namespace enc {
 struct Outputs;
 
 // State of the passivity controller (render.cpp); unused without one.
-struct Spent {
+struct RenderedEnergy {
   Passivity energy;  // energy of the present contact
   // N, along the normal, and tip position: both at the last tick.
   double pressed = 0.0;
   Point<'W'> tip;
 };
 
-struct Rendering : Commanded {
+struct AdmittanceState : CommandState {
   Contact contact;
   ResponseState response;  // the object's response since the first touch
   Swing swing;
-  Spent spent;
+  RenderedEnergy spent;
   Vec<'N'> displacement = Vec<'N'>::zero();
   Stamped<DentSample> dent;
   bool outside_dent = false;  // the tip is outside its deformed surface
 };
 
-struct Render : Displacing {
-  using Memory = Rendering;
+struct AdmittanceTask : Displacing {
+  using Memory = AdmittanceState;
   std::optional<DampingLaw> damping;  // set if the rig asks for a damper
   PassivityForm passivity = PassivityForm::none;
   double hand_stiffness = 0.0;  // N/m, stiffness of the rig's operator model
@@ -51,15 +51,15 @@ void fields(F& f, Swing& s) {
   f("carried", s.carried);
 }
 template <class F>
-void fields(F& f, Spent& s) {
+void fields(F& f, RenderedEnergy& s) {
   if (!s.energy.on) return;
   fields(f, s.energy);
   f("passivity_pressed", s.pressed);
   fields(f, "passivity_tip_W", s.tip);
 }
 template <class F>
-void fields(F& f, Rendering& r) {
-  fields(f, static_cast<Commanded&>(r));
+void fields(F& f, AdmittanceState& r) {
+  fields(f, static_cast<CommandState&>(r));
   fields(f, r.contact);
   f("response_deflection", r.response.deflection);
   f("response_alpha", r.response.alpha);
@@ -72,27 +72,31 @@ void fields(F& f, Rendering& r) {
 }
 
 namespace stages {
-void touch(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
-void act(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
-void guard(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
-void report(const Walk& walk, const Render& task, CommonState& state, const Rendering& now,
-            Outputs& out) noexcept;
+void touch(StepContext& context, const AdmittanceTask& task, CommonState& state,
+           AdmittanceState& now) noexcept;
+void act(StepContext& context, const AdmittanceTask& task, CommonState& state, AdmittanceState& now) noexcept;
+void guard(StepContext& context, const AdmittanceTask& task, CommonState& state,
+           AdmittanceState& now) noexcept;
+void report(const StepContext& context, const AdmittanceTask& task, CommonState& state,
+            const AdmittanceState& now, Outputs& out) noexcept;
 
-void rest(Rendering& now) noexcept;  // resets the object to its unloaded state
+void rest(AdmittanceState& now) noexcept;  // resets the object to its unloaded state
 
 // The stages of act().
-void check_tip(Walk& walk, CommonState& state,
-               Rendering& now) noexcept;  // Is the tip inside the object and the shown surface?
-void mode(Walk& walk, const Render& task, CommonState& state,
-          Rendering& now) noexcept;  // away, follow, contact, restore
-void model(Walk& walk, const Render& task, CommonState& state,
-           Rendering& now) noexcept;  // force in, displacement out
+void check_tip(StepContext& context, CommonState& state,
+               AdmittanceState& now) noexcept;  // Is the tip inside the object and the shown surface?
+void mode(StepContext& context, const AdmittanceTask& task, CommonState& state,
+          AdmittanceState& now) noexcept;  // away, follow, contact, restore
+void model(StepContext& context, const AdmittanceTask& task, CommonState& state,
+           AdmittanceState& now) noexcept;  // force in, displacement out
 // Computes the wanted tip position.
-void target(Walk& walk, CommonState& state, const Rendering& now) noexcept;
+void target(StepContext& context, CommonState& state, const AdmittanceState& now) noexcept;
 // Passivity controller: weigh() updates the energy balance; spare() limits the outward command to the energy
 // left.
-void weigh(const Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
-void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
+void weigh(const StepContext& context, const AdmittanceTask& task, const CommonState& state,
+           AdmittanceState& now) noexcept;
+void spare(StepContext& context, const AdmittanceTask& task, const CommonState& state,
+           AdmittanceState& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

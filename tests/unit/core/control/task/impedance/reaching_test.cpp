@@ -125,7 +125,7 @@ TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
     const double t = 1e-3 * i;
     const double x = i < 1500 ? 0.008 : 0.008 * std::cos(2.0 * M_PI * (t - 1.5) * (1.0 + (t - 1.5)));
     loop.tick(Point<'W'>(x, 0.0, 0.004));
-    const Aim& now = recall<Meeting>(loop.state).aim;
+    const Aim& now = recall<ImpedanceState>(loop.state).aim;
     const Vec3 velocity = (now.target.e() - before) / dt;
     before = now.target.e();
     if (i == 0) speed = now.velocity.e();
@@ -213,7 +213,7 @@ TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
     const double depth = 1e-6 * i;
     bench.press_tip(depth);
     bench.at(depth);
-    const bool now = recall<Meeting>(bench.loop.state).aim.triggered;
+    const bool now = recall<ImpedanceState>(bench.loop.state).aim.triggered;
     clicks += now && !before ? 1 : 0;
     before = now;
     most = std::max(most, std::abs(bench.pushed() - last));
@@ -347,7 +347,7 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   double fastest = 0.0;  // of the target on its way; what is left of it when it arrives, the belt takes out
   for (int i = 0; i < 500; ++i) {
     EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
-    fastest = std::max(fastest, recall<Meeting>(bench.loop.state).aim.velocity.norm());
+    fastest = std::max(fastest, recall<ImpedanceState>(bench.loop.state).aim.velocity.norm());
   }
   EXPECT_GT(fastest, 0.100);
   double x = 0.020;
@@ -406,7 +406,7 @@ Gone meet(const Comes& finger, double until, const std::vector<std::string>& mor
   for (int i = 0; 0.001 * i < until; ++i) {
     i % 50 == 0 ? bench.loop.see(finger.at(0.001 * (i - 50)), std::chrono::milliseconds(50))
                 : bench.loop.tick();
-    const Aim& now = recall<Meeting>(bench.loop.state).aim;
+    const Aim& now = recall<ImpedanceState>(bench.loop.state).aim;
     const double change = (now.velocity.e() - before).norm() / dt;
     before = now.velocity.e();
     double& most = now.hurried ? gone.in_haste : gone.without;
@@ -417,7 +417,7 @@ Gone meet(const Comes& finger, double until, const std::vector<std::string>& mor
   return gone;
 }
 
-TEST(Coming, PicturesThatAreTooVagueForeseeNothing) {
+TEST(ReachPrediction, PicturesThatAreTooVagueForeseeNothing) {
   const auto with_noise = [](double noise, double vaguest) {
     return meet({}, 0.45,
                 {fmt::format("rig.tracker.measurement_noise_mm={}", noise),
@@ -451,19 +451,19 @@ double sent_x(double even, double odd) {
 }
 
 // What a picture says of itself counts, and not what the rig says of pictures.
-TEST(Coming, HowVagueAPictureIsItSaysItself) {
+TEST(ReachPrediction, HowVagueAPictureIsItSaysItself) {
   for (const auto& [noise, x] : {std::pair{0.5e-3, 0.0}, {1.5e-3, -0.005}, {kUnset, 0.0}})
     EXPECT_NEAR(sent_x(noise, noise), x, 1e-3) << noise;
 }
 
-TEST(Coming, WhatIsAboutAsVagueAsMayBeIsNotAskedNowAndThen) {
+TEST(ReachPrediction, WhatIsAboutAsVagueAsMayBeIsNotAskedNowAndThen) {
   // The last of them, at 400 ms, is an even one.
   EXPECT_NEAR(sent_x(1.15e-3, 1.05e-3), 0.0, 1e-3);
   EXPECT_LT(sent_x(1.25e-3, 1.05e-3), -0.003) << "on its way back";
   EXPECT_NEAR(sent_x(1.15e-3, 1.15e-3), -0.005, 1e-3);
 }
 
-TEST(Coming, HowClearOldPicturesWereIsForgottenWithThem) {
+TEST(ReachPrediction, HowClearOldPicturesWereIsForgottenWithThem) {
   const auto from = [](int first, double then) {  // of the new ones, after 50 ms times `first`
     return sent_x([&, then](int i) { return i < 2 ? 1.05e-3 : i < first ? -1.0 : then; });
   };
@@ -472,14 +472,14 @@ TEST(Coming, HowClearOldPicturesWereIsForgottenWithThem) {
   EXPECT_NEAR(from(6, 1.15e-3), -0.005, 1e-3) << "unseen for longer than it is believed to go on";
 }
 
-TEST(Coming, AFingerThatHoversIsMetUnderWhereItIs) {
+TEST(ReachPrediction, AFingerThatHoversIsMetUnderWhereItIs) {
   const Comes hovers{{0.1, 0.0, -0.04}, 0.020};
   EXPECT_LT(meet(hovers, 0.5).foreseen_way, 1.5e-3);
   const Comes comes{{0.1, 0.0, -0.2}, 0.020};  // in 100 ms, 10 mm on
   EXPECT_GT(meet(comes, 0.5).foreseen_way, 5e-3);
 }
 
-TEST(Coming, OnlyToWhereAReachMayTouchTheTargetHurries) {
+TEST(ReachPrediction, OnlyToWhereAReachMayTouchTheTargetHurries) {
   Bench bench("wall");
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
   ASSERT_LT(rig.acceleration, rig.reach_acceleration);
@@ -507,14 +507,14 @@ double key_x(const char* foresight) {
   return bench.loop.scene.objects[static_cast<std::size_t>(bench.loop.out.object)].X_WO.origin().xyz[0];
 }
 
-TEST(Coming, AKeyIsChosenByWhereTheFingerWillTouch) {
+TEST(ReachPrediction, AKeyIsChosenByWhereTheFingerWillTouch) {
   EXPECT_NEAR(key_x("reach"), 0.0, 1e-9);
   EXPECT_NEAR(key_x("carried_on"), -0.020, 1e-9) << "by where it is in 60 ms";
 }
 
 // What haste set in motion it brakes: where the finger that it went to meet has stopped, the target does not
 // shoot past what it may brake within.
-TEST(Coming, HasteBrakesWhatItSetInMotion) {
+TEST(ReachPrediction, HasteBrakesWhatItSetInMotion) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
   const Comes finger{{0.3, 0.0, -0.3}, 0.0};
@@ -523,7 +523,7 @@ TEST(Coming, HasteBrakesWhatItSetInMotion) {
   for (int i = 0; i < 700; ++i) {
     const double t = std::min(0.001 * (i - 50), 0.40);  // it stops in the air
     i % 50 == 0 ? bench.loop.see(finger.at(t), std::chrono::milliseconds(50)) : bench.loop.tick();
-    const Aim& now = recall<Meeting>(bench.loop.state).aim;
+    const Aim& now = recall<ImpedanceState>(bench.loop.state).aim;
     const double change = (now.velocity.norm() - before.norm()) / bench.loop.scene.dt;
     before = now.velocity.e();
     double& most = now.hurried ? braked : slow;
@@ -555,13 +555,13 @@ double pushed_after_rest(const std::vector<std::string>& set, bool slips = false
   return bench.pushed();
 }
 
-TEST(Coming, WhatPushesAnArmThatRestsFades) {
+TEST(ReachPrediction, WhatPushesAnArmThatRestsFades) {
   Bench bench("wall");
   for (int again = 0; again < 2; ++again) {  // after a slip, too, when a finger has come and gone
     bench.press_tip(0.002);
     bench.at(-0.050, 200);
     int ticks = 0;
-    while (!recall<Meeting>(bench.loop.state).aim.stood.finite() && ++ticks < 100) bench.at(-0.150, 1);
+    while (!recall<ImpedanceState>(bench.loop.state).aim.stood.finite() && ++ticks < 100) bench.at(-0.150, 1);
     const double before = bench.pushed();
     EXPECT_GT(before, 0.55) << ticks;
     bench.at(-0.150, 50);

@@ -7,8 +7,8 @@
 
 #include "core/control/safety/following.h"
 #include "core/control/stages/common_state.h"
-#include "core/control/task/meet/impedance.h"
-#include "core/control/task/meet/tamed.h"
+#include "core/control/task/impedance/impedance.h"
+#include "core/control/task/impedance/passivity_control.h"
 #include "core/control/track/reach.h"
 
 namespace enc {
@@ -25,16 +25,16 @@ struct Aim {
   double sunk = 0.0;       // m: depth of the target behind a button's surface
   bool caught_up = false;  // the target has reached the finger's projection
   bool triggered = false;
-  double blind = 0.0;    // s since the machine's last position report
-  Straying straying;     // deviation from the target that only the arm can cause
-  bool stuck = false;    // off the target for too long, until the finger leaves
-  bool hurried = false;  // the velocity uses the raised speed limit
-  Point<'W'> stood;      // resting position of the tip; unset: it moves
-  bool slipped = false;  // the tip did not stay where it rested
+  double blind = 0.0;      // s since the machine's last position report
+  PathDeviation straying;  // deviation from the target that only the arm can cause
+  bool stuck = false;      // off the target for too long, until the finger leaves
+  bool hurried = false;    // the velocity uses the raised speed limit
+  Point<'W'> stood;        // resting position of the tip; unset: it moves
+  bool slipped = false;    // the tip did not stay where it rested
 };
 
 // Pictures of an approaching finger, newest first, and its predicted touch (core/control/track/reach.h).
-struct Coming {
+struct ReachPrediction {
   std::array<Point<'W'>, kSightings> at;
   std::array<Time, kSightings> exposed{};
   std::int32_t count = 0;
@@ -49,16 +49,16 @@ struct Coming {
   std::int32_t object = -1;   // the predicted object; -1: no prediction
 };
 
-struct Meeting {
+struct ImpedanceState {
   Contact contact;
   Aim aim;
-  Coming coming;
+  ReachPrediction coming;
   Heat heat;  // thermal model of the motors
-  Tamed tamed;
+  PassivityControl tamed;
 };
 
-struct Meet : Impedance {
-  using Memory = Meeting;
+struct ImpedanceTask : Impedance {
+  using Memory = ImpedanceState;
 };
 
 template <class F>
@@ -80,7 +80,7 @@ void fields(F& f, Aim& r) {
   f("triggered", r.triggered);
 }
 template <class F>
-void fields(F& f, Coming& r) {
+void fields(F& f, ReachPrediction& r) {
   for (Point<'W'>& p : r.at) fields(f, "coming_at_W", p);
   for (Time& t : r.exposed) f("coming_exposed", t);
   f("coming_count", r.count);
@@ -93,7 +93,7 @@ void fields(F& f, Coming& r) {
   f("coming_object", r.object);
 }
 template <class F>
-void fields(F& f, Meeting& m) {
+void fields(F& f, ImpedanceState& m) {
   fields(f, m.contact);
   fields(f, m.aim);
   fields(f, m.coming);
@@ -103,17 +103,17 @@ void fields(F& f, Meeting& m) {
 }
 
 namespace stages {
-struct Walk;
-void track(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
-void touch(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
-void act(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
-void guard(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
-void report(const Walk& walk, const Impedance& task, CommonState& state, const Meeting& now,
+struct StepContext;
+void track(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void touch(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void act(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void guard(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void report(const StepContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
             Outputs& out) noexcept;
 
 // The stages of act(): place the prop (aim); position in, force out (impede).
-void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
-void impede(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void aim(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void impede(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

@@ -1,4 +1,4 @@
-#include "core/control/task/render/render.h"
+#include "core/control/task/admittance/admittance_task.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/control/safety/inside.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 #include "core/shape/deformation/dent.h"
 
 namespace enc::stages {
@@ -29,18 +29,18 @@ constexpr double kUnit = 1e-3;
 // source).
 constexpr double kWellInside = 0.7;
 
-bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
-  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
-  const Brake brake = brake_of(walk, now);
+bool command_stays(const StepContext& context, CommonState& state, const CommandState& now) {
+  Inside inside(context.scene, state.object, least_depth(context), Vec<'W'>::zero(), state.hints.command);
+  const Brake brake = brake_of(context, now);
   const double here = inside.depth(brake.at);
-  return here >= walk.scene.tip_radius && inside.can_stop(brake, here, brake.velocity);
+  return here >= context.scene.tip_radius && inside.can_stop(brake, here, brake.velocity);
 }
 
 // `distance`: from the tip's outermost point to the undeformed surface, m.
-void check_undeformed(Walk& walk, double distance, CommonState& state, const Commanded& now) {
+void check_undeformed(StepContext& context, double distance, CommonState& state, const CommandState& now) {
   // On its way in, the tip is rightly outside, and so is its command.
-  if (!state.entered && distance <= -kSkin) state.entered = command_stays(walk, state, now);
-  if (state.entered && distance > kPlay) walk.why |= kOutsideObject;
+  if (!state.entered && distance <= -kSkin) state.entered = command_stays(context, state, now);
+  if (state.entered && distance > kPlay) context.why |= kOutsideObject;
 }
 
 bool possible(const Tip<'O'>& tip) {
@@ -50,30 +50,31 @@ bool possible(const Tip<'O'>& tip) {
          tip.length < kLongestTip;
 }
 
-bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
+bool possible(const StepContext& context, const Stamped<DentSample>& sample) {
   const DentSample& dent = sample.value;
-  if (sample.t > walk.tick.t + walk.tick.dt) return false;
+  if (sample.t > context.tick.t + context.tick.dt) return false;
   if (dent.object == -1) return true;
-  return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) &&
+  return dent.object >= 0 && dent.object < static_cast<int>(context.scene.objects.size()) &&
          possible(dent.tip) && dent.depth >= 0.0 && dent.depth < kDeepestDent;
 }
 
 // The seen surface is late: the tip may be outside it by the distance that tool and tip can have moved since
 // [VHMR 3.5].
-void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance,
-                CommonState& state, Rendering& now) {
-  if (walk.in.dent.health == Health::fault ||
-      (walk.in.dent.health == Health::ok && !possible(walk, walk.in.dent))) {
-    walk.why |= kDentWrong;
+void check_dent(StepContext& context, const Object& object, const Point<'O'>& outer, double distance,
+                CommonState& state, AdmittanceState& now) {
+  if (context.in.dent.health == Health::fault ||
+      (context.in.dent.health == Health::ok && !possible(context, context.in.dent))) {
+    context.why |= kDentWrong;
     return;
   }
-  if (walk.in.dent.health == Health::ok && (now.dent.health == Health::absent || walk.in.dent.t > now.dent.t))
-    now.dent = walk.in.dent;
-  const DisplayRig& rig = walk.scene.display;
+  if (context.in.dent.health == Health::ok &&
+      (now.dent.health == Health::absent || context.in.dent.t > now.dent.t))
+    now.dent = context.in.dent;
+  const DisplayRig& rig = context.scene.display;
   // Before the first surface, the time counts from the start of the experiment.
-  const double old = age(walk.tick.t, now.dent.t);
+  const double old = age(context.tick.t, now.dent.t);
   if (old > rig.overdue) {
-    if (state.mode != Mode::away) walk.why |= kDentOverdue;
+    if (state.mode != Mode::away) context.why |= kDentOverdue;
     return;
   }
   if (now.dent.value.object != state.object) {
@@ -88,24 +89,24 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   // decides.
   const bool maybe = state.entered && distance + now.dent.value.depth > margin;
   now.outside_dent =
-      maybe && dented_distance(object.surface, now.dent.value, outer, walk.at_tip.feature) > margin;
-  if (now.outside_dent) walk.why |= kOutsideDent;
+      maybe && dented_distance(object.surface, now.dent.value, outer, context.at_tip.feature) > margin;
+  if (now.outside_dent) context.why |= kOutsideDent;
 }
 
 }  // namespace
 
-void check_tip(Walk& walk, CommonState& state, Rendering& now) noexcept {
-  if (!walk.X_WH.valid() || state.object < 0) return;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const Point<'O'> centre = object.X_OW * walk.X_WH.origin();
+void check_tip(StepContext& context, CommonState& state, AdmittanceState& now) noexcept {
+  if (!context.X_WH.valid() || state.object < 0) return;
+  const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
+  const Point<'O'> centre = object.X_OW * context.X_WH.origin();
   ObjectHint& hint = state.hints.tip;
-  walk.at_tip = object.surface.nearest(centre, hint.object == state.object ? hint.feature : -1);
-  hint = {state.object, walk.at_tip.feature};
+  context.at_tip = object.surface.nearest(centre, hint.object == state.object ? hint.feature : -1);
+  hint = {state.object, context.at_tip.feature};
   // The point of the tip that is nearest to the outside of the object.
-  const Point<'O'> outer = centre + walk.scene.tip_radius * walk.at_tip.normal;
-  const double distance = object.surface.nearest(outer, walk.at_tip.feature).distance;
-  check_undeformed(walk, distance, state, now);
-  if (walk.scene.has_display) check_dent(walk, object, outer, distance, state, now);
+  const Point<'O'> outer = centre + context.scene.tip_radius * context.at_tip.normal;
+  const double distance = object.surface.nearest(outer, context.at_tip.feature).distance;
+  check_undeformed(context, distance, state, now);
+  if (context.scene.has_display) check_dent(context, object, outer, distance, state, now);
 }
 
 // ---- Force in, displacement out [VHMR 3.4], and the tip position that follows from it.
@@ -125,12 +126,13 @@ Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) 
 constexpr double kBelow = 3e-3;
 
 // Part of the pressing force that the object carries; the damper carries the rest.
-double carried(const Walk& walk, const Render& task, const Object& object, Rendering& now, double force,
-               double pressed, double limit) {
+double carried(const StepContext& context, const AdmittanceTask& task, const Object& object,
+               AdmittanceState& now, double force, double pressed, double limit) {
   if (!task.damping) return pressed;
   const DampingLaw& law = *task.damping;
   Swing& swing = now.swing;
-  const double depth = -(now.contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
+  const double depth =
+      -(now.contact.X_WN.inverse() * context.X_WH.origin()).xyz[2] - context.scene.tip_radius;
   if (std::isnan(swing.depth)) {
     const double near = 1e-3 * limit;
     swing = law.begin(object.response.press(near) / near, force, depth);
@@ -142,62 +144,63 @@ double carried(const Walk& walk, const Render& task, const Object& object, Rende
 
 // Beside an edge the tip cannot be right under the tool. It waits at the nearest position with the whole tip
 // inside.
-Point<'W'> inside(const Walk& walk, CommonState& state, std::int32_t object, double margin,
+Point<'W'> inside(const StepContext& context, CommonState& state, std::int32_t object, double margin,
                   const Point<'W'>& wanted) {
-  return Inside(walk.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
+  return Inside(context.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
 }
 
 // Straight under the surface point. Inside round and flat objects that is enough; in a mesh another side may
 // be near.
-Point<'W'> under_surface(const Walk& walk, CommonState& state, double margin) {
-  const Point<'W'> under = walk.surface_point - margin * walk.normal;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+Point<'W'> under_surface(const StepContext& context, CommonState& state, double margin) {
+  const Point<'W'> under = context.surface_point - margin * context.normal;
+  const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   const bool mesh = std::holds_alternative<MeshSurface>(object.surface.shape());
-  return mesh ? inside(walk, state, state.object, margin, under) : under;
+  return mesh ? inside(context, state, state.object, margin, under) : under;
 }
 
 }  // namespace
 
-void model(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
+void model(StepContext& context, const AdmittanceTask& task, CommonState& state,
+           AdmittanceState& now) noexcept {
   const Contact& contact = now.contact;
   if (state.mode != Mode::contact || now.contact.below) {
     rest(now);
     return;
   }
-  if (!walk.force.finite()) return;  // no zero yet: stay at the surface
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
-  const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
-  const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
+  if (!context.force.finite()) return;  // no zero yet: stay at the surface
+  const Object& object = context.scene.objects[static_cast<std::size_t>(contact.object)];
+  const Vec<'N'> force = contact.X_WN.inverse() * context.force;
+  const double pressed = std::max(0.0, -force.xyz[2] - context.scene.force.threshold);
   const double limit = object.limit_at(state.contacts);
   const double deflection = object.response.deflection(
-      now.response, carried(walk, task, object, now, -force.xyz[2], pressed, limit), limit);
-  if (deflection >= limit) walk.why |= kAtLimit;
+      now.response, carried(context, task, object, now, -force.xyz[2], pressed, limit), limit);
+  if (deflection >= limit) context.why |= kAtLimit;
   // The limit keeps the object's request below this (scene.cpp); the target stays in place.
-  if (pressed > walk.scene.strength) walk.why |= kOverload;
+  if (pressed > context.scene.strength) context.why |= kOverload;
   const Vec3 sideways = tangential_give(object, force, limit);
   now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
 
-void target(Walk& walk, CommonState& state, const Rendering& now) noexcept {
-  const double radius = walk.scene.tip_radius;
+void target(StepContext& context, CommonState& state, const AdmittanceState& now) noexcept {
+  const double radius = context.scene.tip_radius;
   switch (state.mode) {
     case Mode::follow:
-      walk.target = under_surface(walk, state, radius + walk.scene.follow.inset);
+      context.target = under_surface(context, state, radius + context.scene.follow.inset);
       break;
     case Mode::contact:
     case Mode::restore: {
-      const double below = now.contact.below ? kBelow + std::max(0.0, -walk.gap) : 0.0;
+      const double below = now.contact.below ? kBelow + std::max(0.0, -context.gap) : 0.0;
       const Vec3 d = now.displacement.e() - below * Vec3::UnitZ();
       // Sideways motion along the tangent plane would lead out of a round object.
-      walk.target = inside(walk, state, now.contact.object, radius + kSkin,
-                           now.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
+      context.target = inside(context, state, now.contact.object, radius + kSkin,
+                              now.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
       break;
     }
     case Mode::away:
     case Mode::hold:
     case Mode::probe:
     case Mode::travel:
-      walk.target = walk.scene.X_WR * now.command;
+      context.target = context.scene.X_WR * now.command;
       break;
   }
 }
@@ -224,94 +227,96 @@ constexpr double kComes = 2.0;  // times the hand's stiffness: the hand moves as
 constexpr double kComesOn = 1.1e-3;
 
 // Outward motion along the normal since the last tick, and the depth and push of the object at the tip.
-Yielded yielded(const Walk& walk, const Rendering& now) {
+PassivityTick yielded(const StepContext& context, const AdmittanceState& now) {
   const Contact& contact = now.contact;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
+  const Object& object = context.scene.objects[static_cast<std::size_t>(contact.object)];
   const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, 1);
-  const double height = (contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2];
-  const double depth = -(height + walk.scene.tip_radius + kSkin);
-  const double moved = now.spent.energy.on ? dot(walk.X_WH.origin() - now.spent.tip, normal) : 0.0;
+  const double height = (contact.X_WN.inverse() * context.X_WH.origin()).xyz[2];
+  const double depth = -(height + context.scene.tip_radius + kSkin);
+  const double moved = now.spent.energy.on ? dot(context.X_WH.origin() - now.spent.tip, normal) : 0.0;
   return {moved, depth, depth > 0.0 ? object.response.press(std::min(depth, object.response.limit())) : 0.0};
 }
 
 // m, outwards: free way of the tip, because the tool is seen farther away.
-double free_way(const Walk& walk, double depth, double push) {
-  if (!walk.tool_known || !walk.tool_fresh || push >= walk.scene.force.contact) return 0.0;
-  return std::max(0.0, walk.gap + depth - kNearHand);
+double free_way(const StepContext& context, double depth, double push) {
+  if (!context.tool_known || !context.tool_fresh || push >= context.scene.force.contact) return 0.0;
+  return std::max(0.0, context.gap + depth - kNearHand);
 }
 
 // N, push of a hand, which cannot pull. If the force is unknown for a moment, the last push holds. If the tip
 // can meet nothing, the force is the sensor's error.
-double pressed(const Walk& walk, const Rendering& now, double depth) {
-  if (!walk.felt.finite()) return now.spent.pressed;
-  const double push = -dot(walk.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
-  return free_way(walk, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
+double pressed(const StepContext& context, const AdmittanceState& now, double depth) {
+  if (!context.felt.finite()) return now.spent.pressed;
+  const double push = -dot(context.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
+  return free_way(context, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
 }
 
 // True in a contact, and on the way back from it until the tip is at its waiting position.
-bool engaged(const Walk& walk, const CommonState& state, const Rendering& now) {
+bool engaged(const StepContext& context, const CommonState& state, const AdmittanceState& now) {
   if (state.mode == Mode::contact || state.mode == Mode::restore) return true;
   return now.spent.energy.on && state.mode == Mode::follow &&
-         now.spent.energy.depth > walk.scene.follow.inset;
+         now.spent.energy.depth > context.scene.follow.inset;
 }
 
 }  // namespace
 
-void weigh(const Walk& walk, const Render&, const CommonState& state, Rendering& now) noexcept {
-  Spent& spent = now.spent;
+void weigh(const StepContext& context, const AdmittanceTask&, const CommonState& state,
+           AdmittanceState& now) noexcept {
+  RenderedEnergy& spent = now.spent;
   if (!spent.energy.on) return;
-  if (!engaged(walk, state, now)) {
-    spent = Spent{};
+  if (!engaged(context, state, now)) {
+    spent = RenderedEnergy{};
     return;
   }
-  if (!walk.X_WH.valid()) return;
-  const Yielded tick = yielded(walk, now);
-  const double push = pressed(walk, now, tick.depth);
+  if (!context.X_WH.valid()) return;
+  const PassivityTick tick = yielded(context, now);
+  const double push = pressed(context, now, tick.depth);
   const auto [least, most] = std::minmax(spent.pressed, push);
   // The hand's force changes linearly between two ticks: the trapezoid rule. The energy is unknown if a touch
   // began or ended within a tick: the hand may have received all of the energy and put in none.
-  const bool whole = least >= walk.scene.force.contact;
+  const bool whole = least >= context.scene.force.contact;
   spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
   // The sensor's error favours neither side: inward motion credits the hand with less, outward motion charges
   // it with more.
-  if (whole) spent.energy.pushed += std::copysign(walk.scene.force.threshold, tick.moved);
+  if (whole) spent.energy.pushed += std::copysign(context.scene.force.threshold, tick.moved);
   observe(spent.energy, tick, 0.0);
   // A deficit ends with its contact: the tip does not wait once no hand pushes it.
-  if (state.mode == Mode::follow && push < walk.scene.force.contact)
+  if (state.mode == Mode::follow && push < context.scene.force.contact)
     spent.energy.left = std::max(0.0, spent.energy.left);
   spent.pressed = push;
-  spent.tip = walk.X_WH.origin();
+  spent.tip = context.X_WH.origin();
 }
 
-void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept {
-  if (task.passivity == PassivityForm::none || !engaged(walk, state, now) || !walk.X_WH.valid()) return;
-  Spent& spent = now.spent;
+void spare(StepContext& context, const AdmittanceTask& task, const CommonState& state,
+           AdmittanceState& now) noexcept {
+  if (task.passivity == PassivityForm::none || !engaged(context, state, now) || !context.X_WH.valid()) return;
+  RenderedEnergy& spent = now.spent;
   if (!spent.energy.on) {
     // The hand has put in no energy yet, and meeting an object deep inside gives no credit.
-    const Yielded tick = yielded(walk, now);
+    const PassivityTick tick = yielded(context, now);
     begin(spent.energy, tick, 0.0);
-    spent.pressed = pressed(walk, now, tick.depth);
-    spent.tip = walk.X_WH.origin();
+    spent.pressed = pressed(context, now, tick.depth);
+    spent.tip = context.X_WH.origin();
   }
   const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
-  const double wanted = dot(walk.target - walk.X_WH.origin(), normal);
+  const double wanted = dot(context.target - context.X_WH.origin(), normal);
   // Noise alone causes a small deficit, too, and no hand can pay it.
-  const bool pushed = spent.pressed >= walk.scene.force.contact;
+  const bool pushed = spent.pressed >= context.scene.force.contact;
   const double comes_on = state.mode == Mode::follow ? 0.0 : kComesOn * task.hand_stiffness;
   const double push = std::max(kMet, spent.pressed) + comes_on;
-  const double most = free_way(walk, spent.energy.depth, spent.pressed) +
+  const double most = free_way(context, spent.energy.depth, spent.pressed) +
                       way_left(spent.energy, pushed ? 0.0 : kForgiven, push, kComes * task.hand_stiffness);
   if (!(wanted > most)) return;
-  walk.why |= kPassive;
+  context.why |= kPassive;
   if (!pushed || spent.energy.left >= 0.0) {
-    walk.target = walk.target - (wanted - most) * normal;
+    context.target = context.target - (wanted - most) * normal;
     return;
   }
   // While the energy balance is negative, hold the tip still in every direction: deep inside a round object,
   // sideways of one normal is outwards of the next. Take back the outward command so far, or the tip would
   // still go there.
-  const double ahead = dot(walk.scene.X_WR * now.command - walk.X_WH.origin(), normal);
-  walk.target = walk.X_WH.origin() - std::max(0.0, ahead) * normal;
+  const double ahead = dot(context.scene.X_WR * now.command - context.X_WH.origin(), normal);
+  context.target = context.X_WH.origin() - std::max(0.0, ahead) * normal;
 }
 
 namespace {
@@ -320,20 +325,21 @@ bool engaged(const CommonState& state) { return state.mode == Mode::contact || s
 
 // True if no tool can touch the tip. A tool that was out of view as its contact ended may press until it is
 // seen clear.
-bool clear_of_object(const Walk& walk, const CommonState& state, Contact& contact) {
+bool clear_of_object(const StepContext& context, const CommonState& state, Contact& contact) {
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
-  if (!walk.scene.has_tracker) return true;
-  const bool clear = walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
+  if (!context.scene.has_tracker) return true;
+  const bool clear =
+      context.tool_known && context.tool_fresh && context.gap > context.scene.force.tare_clearance;
   if (clear && state.tool.value.tool == contact.tool) contact.unseen = false;
   return clear && !contact.unseen;
 }
 
-Walls walls_around(const Walk& walk, CommonState& state, const Rendering& now) {
+Walls walls_around(const StepContext& context, CommonState& state, const AdmittanceState& now) {
   if (state.object < 0 || !state.entered) return {};
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   const NearestInWorld at =
-      nearest(walk.scene, state.object, walk.scene.X_WR * now.command, state.hints.command);
-  const double depth = -(at.distance + walk.scene.tip_radius);
+      nearest(context.scene, state.object, context.scene.X_WR * now.command, state.hints.command);
+  const double depth = -(at.distance + context.scene.tip_radius);
   Walls walls{at.normal.e(), depth - kSkin};
   walls.depth = -at.distance;
   if (state.mode == Mode::contact && !now.contact.below)
@@ -343,41 +349,43 @@ Walls walls_around(const Walk& walk, CommonState& state, const Rendering& now) {
 
 }  // namespace
 
-void rest(Rendering& now) noexcept {
+void rest(AdmittanceState& now) noexcept {
   now.response = ResponseState{};
   now.swing = Swing{};
   now.displacement = Vec<'N'>::zero();
 }
 
-void touch(Walk& walk, const Render&, CommonState& state, Rendering& now) noexcept {
-  nearest_surface(walk, state, {engaged(state) ? &now.contact : nullptr});
+void touch(StepContext& context, const AdmittanceTask&, CommonState& state, AdmittanceState& now) noexcept {
+  nearest_surface(context, state, {engaged(state) ? &now.contact : nullptr});
 }
 
-void act(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
-  grip(walk);
-  sense(walk, state, now, clear_of_object(walk, state, now.contact));  // force on the tip
-  weigh(walk, task, state, now);
-  hold_lost(walk, state, now);
-  check_tip(walk, state, now);
-  if (holding(walk)) return;
-  mode(walk, task, state, now);
-  model(walk, task, state, now);
-  target(walk, state, now);
-  spare(walk, task, state, now);
+void act(StepContext& context, const AdmittanceTask& task, CommonState& state,
+         AdmittanceState& now) noexcept {
+  grip(context);
+  sense(context, state, now, clear_of_object(context, state, now.contact));  // force on the tip
+  weigh(context, task, state, now);
+  hold_lost(context, state, now);
+  check_tip(context, state, now);
+  if (holding(context)) return;
+  mode(context, task, state, now);
+  model(context, task, state, now);
+  target(context, state, now);
+  spare(context, task, state, now);
 }
 
-void guard(Walk& walk, const Render&, CommonState& state, Rendering& now) noexcept {
-  if (state.started) limit_command(walk, state, now, walls_around(walk, state, now));
+void guard(StepContext& context, const AdmittanceTask&, CommonState& state, AdmittanceState& now) noexcept {
+  if (state.started) limit_command(context, state, now, walls_around(context, state, now));
 }
 
-void report(const Walk& walk, const Render&, CommonState& state, const Rendering& now,
+void report(const StepContext& context, const AdmittanceTask&, CommonState& state, const AdmittanceState& now,
             Outputs& out) noexcept {
-  report_common(walk, state, engaged(state) ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),
-                &now.contact, out);
-  report_displaced(walk, now, out);
+  report_common(context, state,
+                engaged(state) ? Quat(now.contact.X_WN.q()) : rotation_z_to(context.normal.e()), &now.contact,
+                out);
+  report_displaced(context, now, out);
   out.deflection = std::max(0.0, -now.displacement.xyz[2]);
   out.first_touch =
-      engaged(state) ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();
+      engaged(state) ? now.contact.X_WN * Point<'N'>(0, 0, -context.scene.tip_radius - kSkin) : Point<'W'>();
 }
 
 }  // namespace enc::stages

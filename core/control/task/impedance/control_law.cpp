@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/walk.h"
-#include "core/control/task/meet/finger.h"
-#include "core/control/task/meet/impedance.h"
-#include "core/control/task/meet/meet.h"
-#include "core/control/task/meet/meet_spec.h"
+#include "core/control/stages/step_context.h"
+#include "core/control/task/impedance/finger.h"
+#include "core/control/task/impedance/impedance.h"
+#include "core/control/task/impedance/impedance_spec.h"
+#include "core/control/task/impedance/impedance_task.h"
 
 namespace enc::stages {
 namespace {
@@ -20,9 +20,9 @@ namespace {
 // round object. The same holds for a normal that turns under a sliding tip.
 struct Tame {
   // Limits the force that the law asks for.
-  Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept;
+  Tame(StepContext& context, const Impedance& law, const CommonState& state, ImpedanceState& memory) noexcept;
   // Stores the push after all limits.
-  void held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept;
+  void held(const StepContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept;
   Vec3 wanted;
   double taken = 0.0;  // N, outward force taken from the law's
 };
@@ -34,36 +34,36 @@ constexpr double kPressed = 2e-3;
 struct Spring {
   double depth, push;
 };
-Spring spring_of(const Walk& walk, const Impedance& law, const CommonState& state, const Meeting& now,
-                 const Object& object) {
-  if (const Moved* ball = hit_now(walk, state)) {
+Spring spring_of(const StepContext& context, const Impedance& law, const CommonState& state,
+                 const ImpedanceState& now, const Object& object) {
+  if (const MoverState* ball = hit_now(context, state)) {
     const double depth = std::isnan(ball->depth) ? 0.0 : std::max(0.0, ball->depth);
     return {depth, object.stiffness * ball->firmness * depth};
   }
-  const double depth = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
+  const double depth = dot(now.aim.target - context.X_WH.origin(), context.normal);
   return {depth, now.aim.gain * law.rig.stiffness * (depth - now.aim.sunk)};
 }
 
 // m: outward motion of the tip relative to its target. The target of a ball moves with the tip, so there it
 // is relative to the ball.
-double moved(const Walk& walk, const CommonState& state, const Meeting& memory) {
-  const Tamed& now = memory.tamed;
-  const double dt = walk.scene.dt;
+double moved(const StepContext& context, const CommonState& state, const ImpedanceState& memory) {
+  const PassivityControl& now = memory.tamed;
+  const double dt = context.scene.dt;
   const bool on = now.energy.on;
-  const Vec3 way = on ? Vec3((walk.X_WH.origin() - now.tip).e()) : Vec3(dt * walk.tip_velocity.e());
-  const Vec3 normal = on ? Vec3(0.5 * (walk.normal.e() + now.normal.e())) : Vec3(walk.normal.e());
+  const Vec3 way = on ? Vec3((context.X_WH.origin() - now.tip).e()) : Vec3(dt * context.tip_velocity.e());
+  const Vec3 normal = on ? Vec3(0.5 * (context.normal.e() + now.normal.e())) : Vec3(context.normal.e());
   Vec3 other = on ? Vec3((memory.aim.target - now.target).e()) : Vec3(dt * memory.aim.velocity.e());
-  if (const Moved* ball = hit_now(walk, state)) other = dt * ball->velocity.e();
+  if (const MoverState* ball = hit_now(context, state)) other = dt * ball->velocity.e();
   return normal.dot(way - other);
 }
 
 // A contact that is lost while the tip is inside, and found again, keeps its remaining energy: a new start
 // gives the law no new credit. Once the tip has been outside, no deficit remains.
-void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
+void lose(const StepContext& context, const ImpedanceState& memory, PassivityControl& now) {
   if (now.energy.on) now.kept = now.energy.left;
   now.energy = Passivity{};
-  const bool known = !holding(walk) && walk.normal.finite() && memory.aim.target.finite();
-  if (known && dot(memory.aim.target - walk.X_WH.origin(), walk.normal) <= 0.0) {
+  const bool known = !holding(context) && context.normal.finite() && memory.aim.target.finite();
+  if (known && dot(memory.aim.target - context.X_WH.origin(), context.normal) <= 0.0) {
     now.kept = 0.0;
     now.pressed = false;
   }
@@ -71,51 +71,53 @@ void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
 
 // A law whose force is not sent gives out no energy. A prop on its way to the touch renders nothing either; a
 // prop that jumps under the finger that presses it has already arrived.
-const Object* tamed_object(const Walk& walk, const CommonState& state, const Meeting& memory) {
-  if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
+const Object* tamed_object(const StepContext& context, const CommonState& state,
+                           const ImpedanceState& memory) {
+  if (state.mode != Mode::contact || context.in.withheld || holding(context)) return nullptr;
   const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
   if (!memory.aim.caught_up && !met) return nullptr;
-  const Object* object = nearest_object(walk, state);
+  const Object* object = nearest_object(context, state);
   const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
-  const bool known = walk.along_mass > 0.0 && walk.wanted_force.finite() && walk.normal.finite();
+  const bool known = context.along_mass > 0.0 && context.wanted_force.finite() && context.normal.finite();
   return renders && known ? object : nullptr;
 }
 
-Tame::Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept
-    : wanted(walk.wanted_force.e()) {
+Tame::Tame(StepContext& context, const Impedance& law, const CommonState& state,
+           ImpedanceState& memory) noexcept
+    : wanted(context.wanted_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
-  Tamed& now = memory.tamed;
-  const Object* object = tamed_object(walk, state, memory);
+  PassivityControl& now = memory.tamed;
+  const Object* object = tamed_object(context, state, memory);
   if (object == nullptr) {
-    lose(walk, memory, now);
+    lose(context, memory, now);
     return;
   }
-  if (now.energy.on && now.object != state.object) lose(walk, memory, now);
-  const Spring spring = spring_of(walk, law, state, memory, *object);
-  const Yielded tick{moved(walk, state, memory), spring.depth, spring.push};
+  if (now.energy.on && now.object != state.object) lose(context, memory, now);
+  const Spring spring = spring_of(context, law, state, memory, *object);
+  const PassivityTick tick{moved(context, state, memory), spring.depth, spring.push};
   if (!now.energy.on) {
     begin(now.energy, tick, now.kept);
     now.kept = 0.0;
   } else {
-    if (dot(walk.normal, now.normal) < MeetSpec::kTurned) renew(now.energy, tick);
+    if (dot(context.normal, now.normal) < MeetSpec::kTurned) renew(now.energy, tick);
     observe(now.energy, tick, law.count);
   }
   now.pressed = (now.pressed && now.object == state.object) || now.energy.stored > kPressed;
   now.object = state.object;
-  now.tip = walk.X_WH.origin();
+  now.tip = context.X_WH.origin();
   now.target = memory.aim.target;
-  now.normal = walk.normal;
-  const double dt = walk.scene.dt, asked = wanted.dot(walk.normal.e());
-  const double given = passive(now.energy, asked, dt * dt / (2.0 * walk.along_mass), law.count);
+  now.normal = context.normal;
+  const double dt = context.scene.dt, asked = wanted.dot(context.normal.e());
+  const double given = passive(now.energy, asked, dt * dt / (2.0 * context.along_mass), law.count);
   if (given == asked) return;
-  walk.why |= kPassive;
-  wanted += (given - asked) * walk.normal.e();
+  context.why |= kPassive;
+  wanted += (given - asked) * context.normal.e();
   taken = std::clamp(asked, -law.rig.peak, law.rig.peak) - std::clamp(given, -law.rig.peak, law.rig.peak);
 }
 
-void Tame::held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept {
+void Tame::held(const StepContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept {
   if (!memory.tamed.energy.on) return;
-  const double push = pushed.dot(walk.normal.e());
+  const double push = pushed.dot(context.normal.e());
   hold(memory.tamed.energy, push, push + taken);
 }
 
@@ -157,27 +159,28 @@ double fading(const Impedance& law, const Aim& now, double dt) {
 // The second derivative of e [eq. 2] is known only for the target: this is the force that the arm needs to
 // follow it. It is no measurement and needs no filter: through the filter of eq. 3 it would come late and
 // overshoot.
-Vec3 going_along(const Walk& walk, const Arm& arm, const Mat3& mass) {
-  if (walk.target_acceleration.isZero()) return Vec3::Zero();
-  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
-  const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(walk.target_acceleration);
-  return (X_WR * arm.force_to_accelerate(walk.jacobian, mass, wanted)).e();
+Vec3 going_along(const StepContext& context, const Arm& arm, const Mat3& mass) {
+  if (context.target_acceleration.isZero()) return Vec3::Zero();
+  const Pose<'W', 'R'>& X_WR = context.scene.X_WR;
+  const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(context.target_acceleration);
+  return (X_WR * arm.force_to_accelerate(context.jacobian, mass, wanted)).e();
 }
 
 }  // namespace
 
-void impede(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory) noexcept {
-  if (!walk.X_WH.valid() || holding(walk)) return;
+void impede(StepContext& context, const Impedance& law, CommonState& state, ImpedanceState& memory) noexcept {
+  if (!context.X_WH.valid() || holding(context)) return;
   Aim& now = memory.aim;
-  const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
-  const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
-  const Vec3 rate = (now.velocity - walk.tip_velocity).e();
+  const Vec3 normal = context.normal.finite() ? Vec3(context.normal.e()) : Vec3(Vec3::UnitZ());
+  const Vec3 error = (now.target - context.X_WH.origin()).e() - now.sunk * normal;
+  const Vec3 rate = (now.velocity - context.tip_velocity).e();
   const bool rests =
-      stays(state, walk.X_WH.origin(), resting(state, now, error, walk.tip_velocity.e()), error, now);
-  const double fade = fading(law, now, walk.scene.dt);
-  const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
-  if (law.rig.passivity == PassivityForm::controlled && walk.normal.finite())
-    walk.along_mass = law.arm.felt_mass(walk.jacobian, mass, walk.scene.X_WR.inverse() * walk.normal);
+      stays(state, context.X_WH.origin(), resting(state, now, error, context.tip_velocity.e()), error, now);
+  const double fade = fading(law, now, context.scene.dt);
+  const Mat3 mass = law.arm.mass(context.in.arm.value.joints, law.prop_mass);
+  if (law.rig.passivity == PassivityForm::controlled && context.normal.finite())
+    context.along_mass =
+        law.arm.felt_mass(context.jacobian, mass, context.scene.X_WR.inverse() * context.normal);
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -185,66 +188,66 @@ void impede(Walk& walk, const Impedance& law, CommonState& state, Meeting& memor
     now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
   // A real object is held in place, sideways as well.
-  const Object* object = nearest_object(walk, state);
+  const Object* object = nearest_object(context, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
-  const Vec3 f = going_along(walk, law.arm, mass) + law.rig.stiffness * now.error.e() +
-                 damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
-  Vec3 wanted = gain_matrix(normal, across, now.gain) * f;                                      // [eq. 7]
-  if (const Moved* ball = hit_now(walk, state)) {
+  const Vec3 f = going_along(context, law.arm, mass) + law.rig.stiffness * now.error.e() +
+                 damping_at(law, law.arm.felt_mass(context.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
+  Vec3 wanted = gain_matrix(normal, across, now.gain) * f;                                         // [eq. 7]
+  if (const MoverState* ball = hit_now(context, state)) {
     const double back = object->stiffness * ball->firmness * std::max(0.0, ball->depth);
     wanted += normal * ((std::isnan(back) ? 0.0 : back) - normal.dot(wanted));
   }
-  walk.wanted_force = Vec<'W'>(wanted);
+  context.wanted_force = Vec<'W'>(wanted);
 }
 
 namespace {
 
 // Gravity compensation, as a force of the tip [VisHap eq. 4, 5].
-Vec<'R'> against_gravity(const Walk& walk, const Impedance& law) {
+Vec<'R'> against_gravity(const StepContext& context, const Impedance& law) {
   if (law.rig.gravity == GravityForm::none) return Vec<'R'>::zero();
   const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
-  const PerJoint& q = walk.in.arm.value.joints;
-  return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
+  const PerJoint& q = context.in.arm.value.joints;
+  return law.arm.force(context.jacobian, law.arm.gravity(q, law.prop_mass, form));
 }
 
 // The law's force, as far as the machine can exert it. Gravity is compensated in full. Each motor adds what
 // it has left, and the force keeps its direction.
-Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& force) {
+Vec3 guarded(StepContext& context, const Impedance& law, const Heat& heat, const Vec3& force) {
   if (!force.allFinite()) {
-    walk.why |= kNotFinite;
+    context.why |= kNotFinite;
     return Vec3::Zero();
   }
-  const PerJoint held = law.arm.torque(walk.jacobian, walk.arm_force);
-  const PerJoint wanted = law.arm.torque(walk.jacobian, walk.scene.X_WR.inverse() * Vec<'W'>(force));
+  const PerJoint held = law.arm.torque(context.jacobian, context.arm_force);
+  const PerJoint wanted = law.arm.torque(context.jacobian, context.scene.X_WR.inverse() * Vec<'W'>(force));
   MotorLimit limit = MotorLimit::none;
   double share = law.motors.share(heat, held, wanted, limit);
   if (share * force.norm() > law.rig.peak) {  // short levers could exceed the data sheet's force
     share = law.rig.peak / force.norm();
     limit = MotorLimit::peak;
   }
-  if (limit == MotorLimit::peak) walk.why |= kOverload;
-  if (limit == MotorLimit::heat) walk.why |= kHot;
+  if (limit == MotorLimit::peak) context.why |= kOverload;
+  if (limit == MotorLimit::heat) context.why |= kHot;
   return share * force;
 }
 
 }  // namespace
 
-void guard(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory) noexcept {
+void guard(StepContext& context, const Impedance& law, CommonState& state, ImpedanceState& memory) noexcept {
   // Without a valid pose, command nothing. A withheld command does not heat the motors either.
   PerJoint torque{};
-  if (walk.X_WH.valid()) {
-    walk.arm_force = against_gravity(walk, law);
-    walk.felt = Vec<'W'>::zero();
-    const Tame tame(walk, law, state, memory);  // between the law and the machine's limits
-    if (!holding(walk)) {
-      const Vec3 pushed = guarded(walk, law, memory.heat, tame.wanted);
-      tame.held(walk, memory, pushed);
-      walk.felt = Vec<'W'>(Vec3(-pushed));
-      walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
+  if (context.X_WH.valid()) {
+    context.arm_force = against_gravity(context, law);
+    context.felt = Vec<'W'>::zero();
+    const Tame tame(context, law, state, memory);  // between the law and the machine's limits
+    if (!holding(context)) {
+      const Vec3 pushed = guarded(context, law, memory.heat, tame.wanted);
+      tame.held(context, memory, pushed);
+      context.felt = Vec<'W'>(Vec3(-pushed));
+      context.arm_force = context.arm_force + context.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
     }
-    state.force = walk.felt;
-    if (!walk.in.withheld) torque = law.arm.torque(walk.jacobian, walk.arm_force);
+    state.force = context.felt;
+    if (!context.in.withheld) torque = law.arm.torque(context.jacobian, context.arm_force);
   }
   law.motors.warm(memory.heat, torque);
 }

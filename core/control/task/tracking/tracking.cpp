@@ -1,5 +1,5 @@
 // The machine carries a clamped tool: it waits until the jaws hold it, then moves from stop to stop.
-#include "core/control/task/carry/travel.h"
+#include "core/control/task/tracking/tracking.h"
 
 #include <cmath>
 #include <string>
@@ -54,12 +54,12 @@ void check_way(const Point<'W'>& from, const Point<'W'>& to, const CommonScene& 
 
 }  // namespace
 
-std::optional<Travel> Travel::asked(const SceneSpec& spec, const CommonScene& scene) {
+std::optional<TrackingTask> TrackingTask::asked(const SceneSpec& spec, const CommonScene& scene) {
   if (!spec.travel) return {};
   const TravelSpec& from = *spec.travel;
   check_parts(spec);
   check_numbers(from, scene);
-  Travel travel;
+  TrackingTask travel;
   travel.acceleration = scene.reach.acceleration;
   travel.tool_held = scene.clamped_tool >= 0;
   Point<'W'> at(0, 0, 0);
@@ -86,7 +86,7 @@ std::optional<Travel> Travel::asked(const SceneSpec& spec, const CommonScene& sc
   return travel;
 }
 
-double Travel::duration() const {
+double TrackingTask::duration() const {
   double total = kClosing;
   for (const TravelLeg& leg : legs)
     total += leg.length / leg.speed + leg.speed / acceleration + kArriving + leg.dwell;
@@ -97,16 +97,16 @@ namespace stages {
 
 namespace {
 
-void go_on(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
+void go_on(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) {
   state.mode = Mode::travel;
-  now.elapsed += walk.scene.dt;
+  now.elapsed += context.scene.dt;
   const auto begin = [&](TravelPhase phase) {
     now.phase = phase;
     now.elapsed = 0.0;
   };
   const auto leg = [&]() -> const TravelLeg& { return travel.legs[static_cast<std::size_t>(now.leg)]; };
-  const Point<'W'> command = walk.scene.X_WR * now.command;
-  if (now.phase == TravelPhase::wait && (!travel.tool_held || walk.in.grip.value.holding)) {
+  const Point<'W'> command = context.scene.X_WR * now.command;
+  if (now.phase == TravelPhase::wait && (!travel.tool_held || context.in.grip.value.holding)) {
     begin(TravelPhase::move);
   } else if (now.phase == TravelPhase::move && (command - leg().to).norm() <= kThere) {
     begin(TravelPhase::dwell);
@@ -116,21 +116,21 @@ void go_on(Walk& walk, const Travel& travel, CommonState& state, Travelling& now
     begin(more ? TravelPhase::move : TravelPhase::done);
   }
   const bool going = now.phase == TravelPhase::move || now.phase == TravelPhase::dwell;
-  walk.target = going ? leg().to : command;
+  context.target = going ? leg().to : command;
 }
 
 // Moves to the pose that a procedure sends. The phase follows the motion, so that the force zero does not
 // change on the way.
-void go_where_sent(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
+void go_where_sent(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) {
   state.mode = Mode::travel;
-  const bool may = walk.carried->valid() && (!travel.tool_held || walk.in.grip.value.holding);
+  const bool may = context.carried->valid() && (!travel.tool_held || context.in.grip.value.holding);
   now.phase = may ? TravelPhase::move : TravelPhase::wait;
-  walk.target = may ? walk.carried->origin() : walk.scene.X_WR * now.command;
+  context.target = may ? context.carried->origin() : context.scene.X_WR * now.command;
 }
 
 // A straight leg has no sideways part, so each is a trapezoid of the leg's speed and the machine's whole
 // acceleration.
-Walls walls_around(const Travel& travel, const Travelling& now) {
+Walls walls_around(const TrackingTask& travel, const TrackingState& now) {
   if (!travel.on_leg(now.leg)) return {};
   const TravelLeg& leg = travel.legs[static_cast<std::size_t>(now.leg)];
   Walls walls{leg.along.e()};
@@ -141,31 +141,33 @@ Walls walls_around(const Travel& travel, const Travelling& now) {
 
 }  // namespace
 
-void touch(Walk&, const Travel&, CommonState&, Travelling&) noexcept {}  // nothing is touched
+void touch(StepContext&, const TrackingTask&, CommonState&, TrackingState&) noexcept {}  // nothing is touched
 
-void act(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) noexcept {
-  grip(walk);
-  sense(walk, state, now, now.phase != TravelPhase::move);
-  hold_lost(walk, state, now);
-  if (holding(walk)) return;
-  walk.carried != nullptr ? go_where_sent(walk, travel, state, now) : go_on(walk, travel, state, now);
+void act(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) noexcept {
+  grip(context);
+  sense(context, state, now, now.phase != TravelPhase::move);
+  hold_lost(context, state, now);
+  if (holding(context)) return;
+  context.carried != nullptr ? go_where_sent(context, travel, state, now)
+                             : go_on(context, travel, state, now);
 }
 
-void guard(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) noexcept {
+void guard(StepContext& context, const TrackingTask& travel, CommonState& state,
+           TrackingState& now) noexcept {
   if (state.started)
-    limit_command(walk, state, now, walk.carried != nullptr ? Walls{} : walls_around(travel, now));
+    limit_command(context, state, now, context.carried != nullptr ? Walls{} : walls_around(travel, now));
 }
 
-void report(const Walk& walk, const Travel&, CommonState& state, const Travelling& now,
+void report(const StepContext& context, const TrackingTask&, CommonState& state, const TrackingState& now,
             Outputs& out) noexcept {
   const Pose<'R', 'H'> sent = out.tip;
-  report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
-  report_displaced(walk, now, out);
-  if (walk.carried == nullptr) return;
+  report_common(context, state, rotation_z_to(context.normal.e()), nullptr, out);
+  report_displaced(context, now, out);
+  if (context.carried == nullptr) return;
   // The tip turns only while it may move; otherwise it keeps its rotation.
-  const bool goes = now.phase == TravelPhase::move && !holding(walk) && walk.carried->valid();
+  const bool goes = now.phase == TravelPhase::move && !holding(context) && context.carried->valid();
   if (goes)
-    out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate() * walk.carried->q(), now.command);
+    out.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate() * context.carried->q(), now.command);
   else if (sent.valid() && out.tip.valid())
     out.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
 }

@@ -1,7 +1,7 @@
-#include "core/control/task/push/push.h"
+#include "core/control/task/dynamic_object/dynamic_object.h"
 
 #include "core/base/rotation.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 namespace {
@@ -36,85 +36,88 @@ struct StrikeSpec {
 // True if the prop, standing at the surface, is struck: pushed in faster and farther than noise explains, and
 // than an arm lags that was just sent somewhere. Vision only shows that a finger may be there. Motion of the
 // arm on its way home is no strike.
-bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
+bool struck(const StepContext& context, const CommonState& state, ImpedanceState& now) {
   using Is = StrikeSpec;
-  const double behind = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
-  const double speed = dot(now.aim.velocity - walk.tip_velocity, walk.normal);
-  const bool there = state.mode == Mode::follow && now.aim.caught_up && walk.tool_known;
+  const double behind = dot(now.aim.target - context.X_WH.origin(), context.normal);
+  const double speed = dot(now.aim.velocity - context.tip_velocity, context.normal);
+  const bool there = state.mode == Mode::follow && now.aim.caught_up && context.tool_known;
   const double fastest = now.aim.straying.fastest;  // of late
   const bool pushed = behind > Is::kFriction + Is::kLate * fastest ||
                       (behind > Is::kMoved && speed > Is::kSpeed + Is::kUneven * fastest);
-  if (!there) now.contact.left = walk.tick.t;
-  return there && age(walk.tick.t, now.contact.left) > Is::kSettled && pushed && walk.gap < Is::kNear;
+  if (!there) now.contact.left = context.tick.t;
+  return there && age(context.tick.t, now.contact.left) > Is::kSettled && pushed && context.gap < Is::kNear;
 }
 
 // The prop shows how a ball is hit, each tick to 0.03 mm; a picture of the finger is 50 ms old, and by then
 // the hit is over. So the depth is that of the prop behind the point of the strike. It ends when they part,
 // when no force was detected for a while, or when the ball is at its waiting position. A ball cannot be hit
 // again before it is back.
-double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& mover, const Moved& now) {
+double hit_depth(StepContext& context, CommonState& state, ImpedanceState& memory, const Mover& mover,
+                 const MoverState& now) {
   Contact& contact = memory.contact;
   const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
   if (!pressed) {
     const bool home = now.shift.e().isZero() && now.velocity.e().isZero();
-    if (!home || !struck(walk, state, memory)) return kUnset;
+    if (!home || !struck(context, state, memory)) return kUnset;
     contact = Contact{};
     contact.object = state.object;
     contact.tool = state.tool.value.tool;
     contact.anchored = true;
-    contact.began = walk.tick.t;
-    contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.X_WH.origin());
+    contact.began = context.tick.t;
+    contact.X_WN = Pose<'W', 'N'>(rotation_z_to(context.normal.e()), context.X_WH.origin());
     state.mode = Mode::contact;
     ++state.contacts;
   }
-  walk.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
-  const double depth = dot(contact.X_WN.origin() + now.shift - walk.X_WH.origin(), walk.normal);
+  context.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double depth = dot(contact.X_WN.origin() + now.shift - context.X_WH.origin(), context.normal);
   const bool felt = mover.stiffness * now.firmness * depth > StrikeSpec::kFelt;
-  contact.clear = felt ? 0.0 : contact.clear + walk.scene.dt;
+  contact.clear = felt ? 0.0 : contact.clear + context.scene.dt;
   const bool gone = now.shift.norm() >= mover.travel * (1.0 - 1e-9);
   const bool apart = depth < -StrikeSpec::kBack || (!(depth > 0.0) && now.deepest > 0.0);
   if (apart || gone || contact.clear > StrikeSpec::kEmpty) {
     contact.anchored = false;
-    contact.left = walk.tick.t;
+    contact.left = context.tick.t;
   }
-  walk.gap = -depth;
+  context.gap = -depth;
   return contact.anchored ? depth : kUnset;
 }
 
 // Time also stands still here in a hold.
-void push(Walk& walk, CommonState& state, Pushing& now) {
-  if (holding(walk)) {
+void push(StepContext& context, CommonState& state, DynamicObjectState& now) {
+  if (holding(context)) {
     now.contact.anchored = false;
     return;
   }
-  double depth = -walk.gap, sinks = 0.0;
+  double depth = -context.gap, sinks = 0.0;
   if (state.object >= 0) {
-    const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+    const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
     if (object.interaction.kind == Interaction::hit)
-      depth = hit_depth(walk, state, now, walk.movers[static_cast<std::size_t>(object.moving)],
-                        walk.moved[static_cast<std::size_t>(object.moving)]);
+      depth = hit_depth(context, state, now, context.movers[static_cast<std::size_t>(object.moving)],
+                        context.moved[static_cast<std::size_t>(object.moving)]);
     if (object.interaction.kind == Interaction::shift && state.mode == Mode::contact)
-      sinks =
-          dot(walk.moved[static_cast<std::size_t>(object.moving)].velocity - walk.tip_velocity, walk.normal);
+      sinks = dot(context.moved[static_cast<std::size_t>(object.moving)].velocity - context.tip_velocity,
+                  context.normal);
   }
-  const double speed = -dot(now.aim.velocity, walk.normal);  // a struck prop: go_with
-  const bool late = age(walk.tick.t, now.contact.left) < walk.scene.tracker.usual_age;
-  const FingerPress press{state.object,     depth, walk.normal, walk.tool_tip,
-                          walk.tool_radius, speed, sinks,       late};
-  move(walk.movers, press, walk.scene.dt, walk.moved);
+  const double speed = -dot(now.aim.velocity, context.normal);  // a struck prop: go_with
+  const bool late = age(context.tick.t, now.contact.left) < context.scene.tracker.usual_age;
+  const FingerPress press{state.object,        depth, context.normal, context.tool_tip,
+                          context.tool_radius, speed, sinks,          late};
+  move(context.movers, press, context.scene.dt, context.moved);
 }
 
 }  // namespace
 
-void track(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept {
-  walk.moved = now.moved;
-  walk.movers = task.movers;
-  track(walk, static_cast<const Impedance&>(task), state, now);
+void track(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+           DynamicObjectState& now) noexcept {
+  context.moved = now.moved;
+  context.movers = task.movers;
+  track(context, static_cast<const Impedance&>(task), state, now);
 }
 
-void act(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept {
-  push(walk, state, now);
-  act(walk, static_cast<const Impedance&>(task), state, now);
+void act(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+         DynamicObjectState& now) noexcept {
+  push(context, state, now);
+  act(context, static_cast<const Impedance&>(task), state, now);
 }
 
 }  // namespace enc::stages

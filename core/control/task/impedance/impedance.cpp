@@ -1,4 +1,4 @@
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/control/task/meet/meet_spec.h"
+#include "core/control/task/impedance/impedance_spec.h"
 
 namespace enc {
 namespace {
@@ -19,7 +19,7 @@ double gradually(double depth, double from, double width) {
 }
 
 // Three springs in series: each force k (d - sunk) takes over gradually from the one before.
-Felt button_at(const InteractionSpec& button, double resistance, double depth) {
+RenderedStiffness button_at(const InteractionSpec& button, double resistance, double depth) {
   // The bottom's spring begins where it carries the force that is already present at d2.
   const double board = button.bottom * (1.0 - button.after / button.floor);
   const double triggered = gradually(depth, button.trigger, button.gradual);
@@ -42,7 +42,7 @@ Mat3 gain_matrix(const Vec3& normal, double across, double along) {
   return across * Mat3::Identity() + (along - across) * (normal * normal.transpose());
 }
 
-Felt felt_at(const InteractionSpec& interaction, double stiffness, double free, double depth) {
+RenderedStiffness felt_at(const InteractionSpec& interaction, double stiffness, double free, double depth) {
   const double touched = gradually(depth, 0.0, interaction.gradual);
   const double first = free + touched * (stiffness - free);
   if (interaction.kind == Interaction::click) return button_at(interaction, first, depth);

@@ -10,7 +10,7 @@ namespace enc {
 
 // The energy that the push along the normal has given out in this contact; unused without a passivity
 // controller.
-struct Tamed {
+struct PassivityControl {
   Passivity energy;
   // J: energy left by a contact that was lost while the tip was inside.
   double kept = 0.0;
@@ -21,7 +21,7 @@ struct Tamed {
 };
 
 template <class F>
-void fields(F& f, Tamed& t) {
+void fields(F& f, PassivityControl& t) {
   if (!t.energy.on && t.kept == 0.0) return;
   fields(f, t.energy);
   f("passivity_kept", t.kept);

@@ -1,4 +1,4 @@
-#include "core/control/task/measure/probe.h"
+#include "core/control/task/indentation/indentation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
-#include "core/control/stages/walk.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc {
 
@@ -73,7 +73,7 @@ void check_sizes(const ProbeSpec& spec, const CommonScene& scene) {
 }
 
 // The path: from the machine's zero straight to above the object, then straight in.
-void check_way(const Probe& probe, const CommonScene& scene) {
+void check_way(const IndentationTask& probe, const CommonScene& scene) {
   const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
   const auto gap = [&](const Point<'W'>& p) {
     return stages::nearest(object, p).distance - scene.tip_radius;
@@ -116,12 +116,12 @@ const ObjectSpec& probed_object(const SceneSpec& spec) {
   return *named;
 }
 
-std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scene) {
+std::optional<IndentationTask> IndentationTask::asked(const SceneSpec& spec, const CommonScene& scene) {
   if (!spec.probe) return {};
   const ProbeSpec& from = *spec.probe;
   check_parts(spec);
   check_sizes(from, scene);
-  Probe probe;
+  IndentationTask probe;
   probe.object = static_cast<std::int32_t>(&probed_object(spec) - spec.objects.data());
   const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
   const Mat3 axes = axes_of(from);
@@ -138,7 +138,7 @@ std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scen
   return probe;
 }
 
-double programme_time(const CommonScene& scene, const Probe& probe) {
+double programme_time(const CommonScene& scene, const IndentationTask& probe) {
   const Reach& reach = scene.reach;
   const double approach =
       probe.at(-probe.clear).e().norm() / reach.speed + 2.0 * reach.speed / reach.acceleration;
@@ -159,16 +159,17 @@ namespace {
 constexpr double kNear = 1e-6;
 
 // True if the set-point is at the programme's position.
-bool arrived(const Walk& walk, const Probing& now, const Point<'W'>& wanted) {
-  return (walk.scene.X_WR * now.command - wanted).norm() <= kNear;
+bool arrived(const StepContext& context, const IndentationState& now, const Point<'W'>& wanted) {
+  return (context.scene.X_WR * now.command - wanted).norm() <= kNear;
 }
 
 // The next phase, once the present one is over.
-ProbePhase next_phase(const Walk& walk, const Probe& probe, const CommonState& state, const Probing& now) {
-  const bool there = arrived(walk, now, probe.at(now.deflection));
+ProbePhase next_phase(const StepContext& context, const IndentationTask& probe, const CommonState& state,
+                      const IndentationState& now) {
+  const bool there = arrived(context, now, probe.at(now.deflection));
   switch (now.phase) {
     case ProbePhase::wait:
-      return now.tared >= walk.scene.force.tare_time ? ProbePhase::approach : now.phase;
+      return now.tared >= context.scene.force.tare_time ? ProbePhase::approach : now.phase;
     case ProbePhase::approach:
       return there ? ProbePhase::rest : now.phase;
     case ProbePhase::rest:
@@ -186,58 +187,62 @@ ProbePhase next_phase(const Walk& walk, const Probe& probe, const CommonState& s
   return ProbePhase::done;
 }
 
-bool at_rest(const Probing& now) {
+bool at_rest(const IndentationState& now) {
   return now.phase == ProbePhase::wait || now.phase == ProbePhase::rest || now.phase == ProbePhase::done;
 }
 
-void go_on(Walk& walk, const Probe& probe, CommonState& state, Probing& now) {
+void go_on(StepContext& context, const IndentationTask& probe, CommonState& state, IndentationState& now) {
   if (state.mode != Mode::probe) now.deflection = -probe.clear;  // the first tick
   state.mode = Mode::probe;
-  now.elapsed += walk.scene.dt;
-  if (const ProbePhase next = next_phase(walk, probe, state, now); next != now.phase) {
+  now.elapsed += context.scene.dt;
+  if (const ProbePhase next = next_phase(context, probe, state, now); next != now.phase) {
     now.phase = next;
     now.elapsed = 0.0;
     if (next == ProbePhase::push) ++state.contacts;
   }
-  const double way = probe.speed * walk.scene.dt;
+  const double way = probe.speed * context.scene.dt;
   if (now.phase == ProbePhase::push) now.deflection = std::min(now.deflection + way, probe.depth);
   if (now.phase == ProbePhase::back) now.deflection = std::max(now.deflection - way, -probe.clear);
-  walk.target = now.phase == ProbePhase::wait ? walk.scene.X_WR * now.command : probe.at(now.deflection);
+  context.target =
+      now.phase == ProbePhase::wait ? context.scene.X_WR * now.command : probe.at(now.deflection);
 }
 
 }  // namespace
 
 // The machine's own probe replaces the tool.
-void touch(Walk& walk, const Probe& probe, CommonState& state, Probing&) noexcept {
+void touch(StepContext& context, const IndentationTask& probe, CommonState& state,
+           IndentationState&) noexcept {
   state.object = probe.object;
-  if (!walk.X_WH.valid()) return;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const NearestInWorld found = nearest(object, walk.X_WH.origin());
-  walk.surface_point = found.point;
-  walk.normal = found.normal;
-  walk.gap = found.distance - walk.scene.tip_radius;
+  if (!context.X_WH.valid()) return;
+  const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
+  const NearestInWorld found = nearest(object, context.X_WH.origin());
+  context.surface_point = found.point;
+  context.normal = found.normal;
+  context.gap = found.distance - context.scene.tip_radius;
 }
 
-void act(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexcept {
-  grip(walk);
-  sense(walk, state, now, at_rest(now) && walk.gap > walk.scene.force.tare_clearance);
-  hold_lost(walk, state, now);
-  if (!holding(walk)) go_on(walk, probe, state, now);
+void act(StepContext& context, const IndentationTask& probe, CommonState& state,
+         IndentationState& now) noexcept {
+  grip(context);
+  sense(context, state, now, at_rest(now) && context.gap > context.scene.force.tare_clearance);
+  hold_lost(context, state, now);
+  if (!holding(context)) go_on(context, probe, state, now);
 }
 
 // The object is real, so the end of the push is the only wall.
-void guard(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexcept {
+void guard(StepContext& context, const IndentationTask& probe, CommonState& state,
+           IndentationState& now) noexcept {
   if (!state.started) return;
   Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
-  walls.in = probe.depth - probe.deflection(walk.scene.X_WR * now.command);
-  limit_command(walk, state, now, walls);
+  walls.in = probe.depth - probe.deflection(context.scene.X_WR * now.command);
+  limit_command(context, state, now, walls);
 }
 
-void report(const Walk& walk, const Probe& probe, CommonState& state, const Probing& now,
-            Outputs& out) noexcept {
-  report_common(walk, state, probe.X_WN.q(), nullptr, out);
-  report_displaced(walk, now, out);
-  out.deflection = probe.deflection(walk.X_WH.origin());
+void report(const StepContext& context, const IndentationTask& probe, CommonState& state,
+            const IndentationState& now, Outputs& out) noexcept {
+  report_common(context, state, probe.X_WN.q(), nullptr, out);
+  report_displaced(context, now, out);
+  out.deflection = probe.deflection(context.X_WH.origin());
 }
 
 }  // namespace enc::stages

@@ -4,8 +4,8 @@
 
 #include "core/base/rotation.h"
 #include "core/control/safety/inside.h"
-#include "core/control/task/meet/finger.h"
-#include "core/control/task/meet/meet_spec.h"
+#include "core/control/task/impedance/finger.h"
+#include "core/control/task/impedance/impedance_spec.h"
 
 namespace enc::stages {
 
@@ -17,7 +17,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 // s, assumed times of the touch after the newest picture was evaluated; denser for an early touch.
-constexpr std::array<double, Coming::kTimes> kAfter{0.0, 0.02, 0.044, 0.074, 0.114, 0.17, 0.25};
+constexpr std::array<double, ReachPrediction::kTimes> kAfter{0.0, 0.02, 0.044, 0.074, 0.114, 0.17, 0.25};
 // s: the weight of a later touch falls e-fold in that time, because the prop can still move there later.
 // Chosen.
 constexpr double kSoon = 0.03;
@@ -30,13 +30,13 @@ constexpr double kFarthest = 0.05;       // m: a predicted touch farther from th
 
 // Earlier pictures are of use as long as no long gap lies between them. If the finger is seen more often than
 // its path needs, the pictures in between are skipped.
-bool take_picture(const Walk& walk, const CommonState& state, Coming& now) {
-  const Time exposed_at = exposed(walk.scene.tracker, state.tool.t);
+bool take_picture(const StepContext& context, const CommonState& state, ReachPrediction& now) {
+  const Time exposed_at = exposed(context.scene.tracker, state.tool.t);
   const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
   const bool another = state.tool.value.tool != now.tool;
   if (!another && gap >= 0.0 && gap < kOften) return false;
   now.tool = state.tool.value.tool;
-  if (another || gap < 0.0 || gap > walk.scene.tracker.longest_prediction) {
+  if (another || gap < 0.0 || gap > context.scene.tracker.longest_prediction) {
     now.count = 0;
     now.clear = false;  // of other pictures
   }
@@ -45,48 +45,50 @@ bool take_picture(const Walk& walk, const CommonState& state, Coming& now) {
     std::shift_right(now.exposed.begin(), now.exposed.end(), 1);
     now.count = std::min<std::int32_t>(now.count + 1, kSightings);
   }
-  now.at[0] = walk.tip_newest;
+  now.at[0] = context.tip_newest;
   now.exposed[0] = exposed_at;
   return true;
 }
 
-double noise_of_newest(const Walk& walk, const CommonState& state) {  // m rms, each axis
-  return std::sqrt(noise_of(walk.scene.tracker, state.tool.value, walk.scene.X_WC).mean_square());
+double noise_of_newest(const StepContext& context, const CommonState& state) {  // m rms, each axis
+  return std::sqrt(noise_of(context.scene.tracker, state.tool.value, context.scene.X_WC).mean_square());
 }
 
 // A hysteresis: pictures whose noise is close to the limit do not switch the prediction on and off.
-bool clear(const Walk& walk, const CommonState& state, const Coming& now) {
-  const double vaguest = walk.scene.tracker.reach.vaguest;
-  return noise_of_newest(walk, state) <= (now.clear ? ComingSpec::kStaysClear * vaguest : vaguest);
+bool clear(const StepContext& context, const CommonState& state, const ReachPrediction& now) {
+  const double vaguest = context.scene.tracker.reach.vaguest;
+  return noise_of_newest(context, state) <=
+         (now.clear ? ReachPredictionSpec::kStaysClear * vaguest : vaguest);
 }
 
 // A reaching hand is never slower than its speed at touch, except for a moment between its movements. No
 // picture shows how a hovering finger moves on, and neither does a picture with too much noise. In both cases
 // the prop meets the finger at its present position.
-bool reaches(const Walk& walk, const Coming& now) {
+bool reaches(const StepContext& context, const ReachPrediction& now) {
   if (now.count < 3 || !now.clear) return false;
   const auto first = static_cast<std::size_t>(now.count - 1);
-  const double down = dot(now.at[first] - now.at[0], walk.normal) / age(now.exposed[0], now.exposed[first]);
-  return down > walk.scene.tracker.reach.touch_slowest;
+  const double down =
+      dot(now.at[first] - now.at[0], context.normal) / age(now.exposed[0], now.exposed[first]);
+  return down > context.scene.tracker.reach.touch_slowest;
 }
 
 // The prediction uses the axes of the surface under the finger.
-void ask(const Walk& walk, const CommonState& state, Coming& now) {
+void ask(const StepContext& context, const CommonState& state, ReachPrediction& now) {
   now.object = state.object;
-  now.told = walk.tick.t;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  now.told = context.tick.t;
+  const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   now.X_WN = object.met_in_its_middle()
                  ? Pose<'W', 'N'>(object.X_WO.q(), object.X_WO.origin())  // of its face
-                 : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+                 : Pose<'W', 'N'>(rotation_z_to(context.normal.e()), context.surface_point);
   const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
-  const TrackerRig& rig = walk.scene.tracker;
-  const double known = std::max(kUnevenLeast, kUneven * noise_of_newest(walk, state));
+  const TrackerRig& rig = context.scene.tracker;
+  const double known = std::max(kUnevenLeast, kUneven * noise_of_newest(context, state));
   const TipMotion& motion = state.tip_motion;
   const bool steady = rig.prediction == Prediction::constant_velocity;
   std::array<Sighting, kSightings> seen;
   const std::span<Sighting> all(seen.data(), static_cast<std::size_t>(now.count));
   for (std::size_t i = 0; i < all.size(); ++i)
-    seen[i].at = (X_NW * now.at[i]).e() - walk.tool_radius * Vec3::UnitZ();
+    seen[i].at = (X_NW * now.at[i]).e() - context.tool_radius * Vec3::UnitZ();
   for (std::size_t k = 0; k < kAfter.size(); ++k) {
     for (std::size_t i = 0; i < all.size(); ++i) seen[i].age = age(now.told, now.exposed[i]) + kAfter[k];
     const double ahead = age(now.told, motion.t) + kAfter[k];
@@ -102,7 +104,7 @@ void ask(const Walk& walk, const CommonState& state, Coming& now) {
 
 // The touch at a time after the newest picture, interpolated between the two nearest of kAfter. Its weight
 // falls as that time approaches one without evidence.
-Vec3 touch_at(const Coming& now, double after) {
+Vec3 touch_at(const ReachPrediction& now, double after) {
   std::size_t i = 0;
   while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
   const Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
@@ -114,7 +116,7 @@ Vec3 touch_at(const Coming& now, double after) {
 
 // The mean over the times that are still to come, weighted by their fit and by how soon they are. Given in
 // the surface's axes; unset if none fits or if passing by is more probable.
-Vec2 expected(const Coming& now, double passed) {
+Vec2 expected(const ReachPrediction& now, double passed) {
   constexpr std::size_t kSteps = 60;
   const double first = std::clamp(passed, kAfter.front(), kAfter.back());
   const double each = (kAfter.back() - first) / kSteps;
@@ -137,52 +139,53 @@ Vec2 expected(const Coming& now, double passed) {
   return sum.head<2>() / sum[2];
 }
 
-Point<'W'> on_surface(const Walk& walk, const CommonState& state, const Coming& now, double passed) {
+Point<'W'> on_surface(const StepContext& context, const CommonState& state, const ReachPrediction& now,
+                      double passed) {
   const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
-  return nearest(walk.scene, state.object, now.X_WN * Point<'N'>(at.x(), at.y(), 0.0), hint).point;
+  return nearest(context.scene, state.object, now.X_WN * Point<'N'>(at.x(), at.y(), 0.0), hint).point;
 }
 
 }  // namespace
 
-Goal foreseen_touch(const Walk& walk, const CommonState& state, Meeting& memory) noexcept {
-  Coming& now = memory.coming;
-  const Object* object = nearest_object(walk, state);
-  const TrackerRig& rig = walk.scene.tracker;
+Goal foreseen_touch(const StepContext& context, const CommonState& state, ImpedanceState& memory) noexcept {
+  ReachPrediction& now = memory.coming;
+  const Object* object = nearest_object(context, state);
+  const TrackerRig& rig = context.scene.tracker;
   const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
-  if (!asked || object == nullptr || !walk.tool_known) {
+  if (!asked || object == nullptr || !context.tool_known) {
     now.object = -1;
     return {};
   }
-  const bool news = take_picture(walk, state, now);
+  const bool news = take_picture(context, state, now);
   if (news) {
     now.object = -1;  // earlier predictions are void
-    now.clear = clear(walk, state, now);
+    now.clear = clear(context, state, now);
   }
   // The prop meets a moving object at the object's position.
-  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
+  const bool comes = context.tool_fresh && object->moving < 0 && reaches(context, now);
   if (!comes || presses(state, memory.contact)) return {};
   // Once for each picture. In the plane of another object the prediction may differ, and so may the first
   // touch on that object.
   if (now.object < 0) {
-    if (!news && age(walk.tick.t, now.told) < kOften) return {};
-    ask(walk, state, now);
+    if (!news && age(context.tick.t, now.told) < kOften) return {};
+    ask(context, state, now);
   }
-  const double passed = age(walk.tick.t, now.told), dt = walk.scene.dt;
-  const Point<'W'> at = on_surface(walk, state, now, passed);
-  const Point<'W'> then = on_surface(walk, state, now, passed + dt);
+  const double passed = age(context.tick.t, now.told), dt = context.scene.dt;
+  const Point<'W'> at = on_surface(context, state, now, passed);
+  const Point<'W'> then = on_surface(context, state, now, passed + dt);
   if (!at.finite() || !then.finite()) return {at, Vec<'W'>::zero(), true};
   return {at, (1.0 / dt) * (then - at), true};
 }
 
-Point<'W'> comes_to(const Walk& walk, const Meeting& memory) noexcept {
-  const Coming& now = memory.coming;
-  const double passed = age(walk.tick.t, now.told);
+Point<'W'> comes_to(const StepContext& context, const ImpedanceState& memory) noexcept {
+  const ReachPrediction& now = memory.coming;
+  const double passed = age(context.tick.t, now.told);
   if (now.object < 0 || passed > kAfter.back()) return {};
   const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
-  return now.X_WN * Point<'N'>(at.x(), at.y(), ComingSpec::kAbove);
+  return now.X_WN * Point<'N'>(at.x(), at.y(), ReachPredictionSpec::kAbove);
 }
 
 // ---- Target of an arm's prop [VisHap 2.2, 2.3].
@@ -197,53 +200,54 @@ bool tells_depth(const Object& object) {
 
 // True if the waiting prop is pushed back. The arm measures that in the tick in which it begins; a camera
 // sees it a picture or more later.
-bool felt_first(const Walk& walk, const CommonState& state, const Meeting& now, const Object& object) {
-  const bool behind = dot(walk.X_WH.origin() - walk.surface_point, walk.normal) < 0.0;
-  return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && behind && !walk.in.withheld &&
-         pushed_back(state, walk.normal) && walk.gap < walk.scene.contact.leave_gap;
+bool felt_first(const StepContext& context, const CommonState& state, const ImpedanceState& now,
+                const Object& object) {
+  const bool behind = dot(context.X_WH.origin() - context.surface_point, context.normal) < 0.0;
+  return now.aim.caught_up && tells_depth(object) && context.tool_fresh && behind && !context.in.withheld &&
+         pushed_back(state, context.normal) && context.gap < context.scene.contact.leave_gap;
 }
 
 // A pressing finger lies on the prop as long as the camera sees it within leave_gap of it. Each tick the arm
 // measures its prop to 0.03 mm, while a camera measures the finger to 0.5 mm, late and seldom. The prop gives
 // the finger's depth, the camera its presence. The finger is never behind the prop. A prediction that says so
 // ran on past the contact.
-void lie_on_prop(Walk& walk, CommonState& state, const Meeting& now) {
-  const Object* object = nearest_object(walk, state);
-  if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
+void lie_on_prop(StepContext& context, CommonState& state, const ImpedanceState& now) {
+  const Object* object = nearest_object(context, state);
+  if (state.mode != Mode::contact || object == nullptr || !context.tool_known) return;
   // The prop is on its way to another position, unless a picture jumps sideways while it is pressed.
-  const bool pressed = presses(state, now.contact) && !walk.in.withheld;
+  const bool pressed = presses(state, now.contact) && !context.in.withheld;
   if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
-  const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
-  const double near = walk.scene.contact.leave_gap;
+  const double prop = dot(context.X_WH.origin() - context.surface_point, context.normal);
+  const double near = context.scene.contact.leave_gap;
   const double slack = pressed ? AimSpec::kSpringsBack * near : near;
-  const double beyond = walk.gap - prop;
+  const double beyond = context.gap - prop;
   // A prop that is lifted off the surface from the side does not carry the finger behind it.
-  walk.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
+  context.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
   // The prop shows how the finger moves on, long before a picture shows that it was stopped. If the picture
   // itself is behind the prop, the finger is beside it or vision is wrong.
-  const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
+  const double shown = dot(context.tip_newest - context.X_WH.origin(), context.normal) - context.tool_radius;
   if (pressed && beyond < slack && shown > -near)
-    correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
+    correct_now(context.scene.tracker, context.tick.t, -beyond * context.normal, state.tip_motion);
 }
 
 // An arm measures no force: the gap decides what is touched, or the pushed prop does. "Prepare" is the motion
 // from away to follow.
-void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
-  const FollowSpec& follow = walk.scene.follow;
-  const Object* object = nearest_object(walk, state);
-  if (object == nullptr || !walk.tool_known) {
+void choose_mode(const StepContext& context, CommonState& state, ImpedanceState& now) {
+  const FollowSpec& follow = context.scene.follow;
+  const Object* object = nearest_object(context, state);
+  if (object == nullptr || !context.tool_known) {
     state.mode = Mode::away;
     return;
   }
-  if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
+  if (state.mode == Mode::away && context.gap < follow.resume) state.mode = Mode::follow;
   if (object->interaction.kind == Interaction::hit) {  // the prop decides when the touch begins and ends
     if (state.mode == Mode::contact && !now.contact.anchored) state.mode = Mode::follow;
-    if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+    if (state.mode == Mode::follow && context.gap > follow.pause) state.mode = Mode::away;
     return;
   }
-  if (state.mode == Mode::contact && walk.gap > walk.scene.contact.leave_gap) state.mode = Mode::follow;
-  if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
-  if (state.mode == Mode::follow && (walk.gap <= 0.0 || felt_first(walk, state, now, *object))) {
+  if (state.mode == Mode::contact && context.gap > context.scene.contact.leave_gap) state.mode = Mode::follow;
+  if (state.mode == Mode::follow && context.gap > follow.pause) state.mode = Mode::away;
+  if (state.mode == Mode::follow && (context.gap <= 0.0 || felt_first(context, state, now, *object))) {
     state.mode = Mode::contact;
     ++state.contacts;
     now.contact = Contact{};
@@ -251,17 +255,17 @@ void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
     now.contact.tool = state.tool.value.tool;
   }
   if (state.mode == Mode::contact)
-    now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+    now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(context.normal.e()), context.surface_point);
 }
 
 // A flying ball is no longer touched. Its prop clears the finger's path and moves to the ball's waiting
 // position.
-Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
+Vec<'W'> rest_of_flight(const StepContext& context, const Object& object) {
   if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
-  const Moved& ball = walk.moved[static_cast<std::size_t>(object.moving)];
+  const MoverState& ball = context.moved[static_cast<std::size_t>(object.moving)];
   const double flown = ball.shift.norm();
   if (!(flown > 0.0)) return Vec<'W'>::zero();
-  return (walk.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
+  return (context.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
 }
 
 bool touches_belt(const CommonState& state, const Object* object) {
@@ -270,28 +274,29 @@ bool touches_belt(const CommonState& state, const Object* object) {
 
 // The finger's projection on the surface moves with the finger and with the object. The surface determines
 // its speed: on a small ball it is slower than the finger, and beyond the edge of a button it stands still.
-Goal goal_of(const Walk& walk, const CommonState& state, Meeting& memory, const Object& object) {
-  const Goal touch = foreseen_touch(walk, state, memory);
+Goal goal_of(const StepContext& context, const CommonState& state, ImpedanceState& memory,
+             const Object& object) {
+  const Goal touch = foreseen_touch(context, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
   if (touch.point.finite()) return touch;
   const Vec<'W'> none = Vec<'W'>::zero();
-  if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
-    return {walk.surface_point + rest};
-  const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
-  const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
+  if (const Vec<'W'> rest = rest_of_flight(context, object); !rest.e().isZero())
+    return {context.surface_point + rest};
+  const bool predicted = context.scene.tracker.prediction != Prediction::hold;
+  const bool known = predicted && context.tool_fresh && state.tip_motion.velocity.finite();
   const Vec<'W'> finger = known ? state.tip_motion.velocity : none;
   // A belt is slower than pictures jump: a running prop moves along at the usual speed limit, and is wide
   // enough.
-  if (touches_belt(state, &object)) return {walk.surface_point};
+  if (touches_belt(state, &object)) return {context.surface_point};
   const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
-  const Vec<'W'> face = shifts ? walk.moved[static_cast<std::size_t>(object.moving)].velocity : none;
-  const Vec<'W'> shift = shifts ? shift_of(object, walk.moved) : none;
-  const double dt = walk.scene.dt;
+  const Vec<'W'> face = shifts ? context.moved[static_cast<std::size_t>(object.moving)].velocity : none;
+  const Vec<'W'> shift = shifts ? shift_of(object, context.moved) : none;
+  const double dt = context.scene.dt;
   ObjectHint hint = state.hints.tool[0];
-  const Point<'W'> now = walk.tool_tip - shift;
-  const Point<'W'> at = nearest(walk.scene, state.object, now, hint).point;
-  const Point<'W'> then = nearest(walk.scene, state.object, now + dt * (finger - face), hint).point;
-  return {walk.surface_point, face + (1.0 / dt) * (then - at)};
+  const Point<'W'> now = context.tool_tip - shift;
+  const Point<'W'> at = nearest(context.scene, state.object, now, hint).point;
+  const Point<'W'> then = nearest(context.scene, state.object, now + dt * (finger - face), hint).point;
+  return {context.surface_point, face + (1.0 / dt) * (then - at)};
 }
 
 // Limits of the target's motion; they are raised where a reach may touch.
@@ -305,11 +310,11 @@ struct Haste {
 // If the nearest point jumps to another part of the object, the straight path may leave a hollow object,
 // where the finger is. Then the target waits at the last point of its path that is inside, or moves along the
 // surface while that is nearer.
-Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, CommonState& state,
+Vec3 not_through_a_hollow(const StepContext& context, double acceleration, double speed, CommonState& state,
                           const Aim& now, const Object& object, const Vec3& wanted) {
-  Inside inside(walk.scene, state.object, -AimSpec::kOutside, shift_of(object, walk.moved),
+  Inside inside(context.scene, state.object, -AimSpec::kOutside, shift_of(object, context.moved),
                 state.hints.command);
-  const Brake brake{now.target, now.velocity.e(), acceleration, speed, walk.scene.dt};
+  const Brake brake{now.target, now.velocity.e(), acceleration, speed, context.scene.dt};
   const double here = inside.depth(brake.at);
   state.entered = state.entered || here >= -AimSpec::kOutside;
   return state.entered ? inside.velocity(brake, here, wanted) : wanted;
@@ -317,9 +322,9 @@ Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, C
 
 // The target always keeps within speed and acceleration. It first moves straight to the goal and then follows
 // it. The goal jumps with each new picture of the finger; `settle` smooths these jumps.
-void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
+void move_target(StepContext& context, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
                  const Object* object) {
-  const double dt = walk.scene.dt;
+  const double dt = context.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
   const double far = way.norm();
   const bool runs = touches_belt(state, object);
@@ -341,31 +346,32 @@ void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, co
   const bool on_its_way = !now.caught_up;
   if (on_its_way) {
     if (object != nullptr)
-      velocity = not_through_a_hollow(walk, haste.acceleration, rig.speed, state, now, *object, velocity);
+      velocity = not_through_a_hollow(context, haste.acceleration, rig.speed, state, now, *object, velocity);
     now.caught_up = far < AimSpec::kThere && change.norm() <= 2.0 * most;
   }
-  walk.target_change = (velocity - now.velocity.e()) / dt;
-  if (on_its_way || now.hurried) walk.target_acceleration = walk.target_change;
+  context.target_change = (velocity - now.velocity.e()) / dt;
+  if (on_its_way || now.hurried) context.target_acceleration = context.target_change;
   // Under a touching finger the raised limits apply sideways only: along the normal the user would feel them.
-  if (!on_its_way && state.mode == Mode::contact && walk.normal.finite())
-    walk.target_acceleration -= walk.normal.e() * walk.normal.e().dot(walk.target_acceleration);
+  if (!on_its_way && state.mode == Mode::contact && context.normal.finite())
+    context.target_acceleration -= context.normal.e() * context.normal.e().dot(context.target_acceleration);
   now.velocity = Vec<'W'>(velocity);
   now.target = now.target + dt * now.velocity;
 }
 
 // Moves the target to a point under the finger. A point out of reach stops the target.
-void go_to(Goal goal, Walk& walk, const Impedance& task, CommonState& state, Aim& now, const Object& object) {
+void go_to(Goal goal, StepContext& context, const Impedance& task, CommonState& state, Aim& now,
+           const Object& object) {
   const Arm& arm = task.arm;
-  PerJoint q = walk.in.arm.value.joints;
-  if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
+  PerJoint q = context.in.arm.value.joints;
+  if (arm.reaches(context.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
     // A machine with fewer than three joints moves to the nearest point that it can reach.
-    if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
-    move_target(walk, task.rig, state, now, goal, &object);
+    if (arm.joints() < kMostJoints) goal.point = context.scene.X_WR * arm.tip(q);
+    move_target(context, task.rig, state, now, goal, &object);
     return;
   }
-  walk.why |= kUnreachable;
+  context.why |= kUnreachable;
   now.caught_up = false;
-  move_target(walk, task.rig, state, now, {now.target}, nullptr);
+  move_target(context, task.rig, state, now, {now.target}, nullptr);
   now.caught_up = false;
 }
 
@@ -373,57 +379,59 @@ void go_to(Goal goal, Walk& walk, const Impedance& task, CommonState& state, Aim
 // finger has pushed it. So there is no step when they part. The target's speed is that of the prop, smoothed,
 // and at most what the distance so far allows: one wrong reading sets nothing in motion. Sideways the target
 // comes to rest.
-void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Aim& now) {
-  const double dt = walk.scene.dt;
+void go_with_prop(const StepContext& context, const ArmRig& rig, const Contact& contact, Aim& now) {
+  const double dt = context.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
-  const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / dt);
-  const double way = normal.dot((walk.X_WH.origin() - contact.X_WN.origin()).e());
+  const double ticks = 1.0 + std::round(age(context.tick.t, contact.began) / dt);
+  const double way = normal.dot((context.X_WH.origin() - contact.X_WN.origin()).e());
   const double most = std::min(rig.speed, 2.0 * std::abs(way) / (ticks * dt));
   const double before = ticks > 1.0 ? normal.dot(now.velocity.e()) : 0.0;
   const double speed =
-      before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, AimSpec::kPropTicks);
+      before + (normal.dot(context.tip_velocity.e()) - before) / std::min(ticks, AimSpec::kPropTicks);
   Vec3 across = now.velocity.e() - normal * normal.dot(now.velocity.e());
   across *= std::max(0.0, 1.0 - rig.acceleration * dt / std::max(across.norm(), 1e-9));
   now.velocity = Vec<'W'>(Vec3(across + std::clamp(speed, -most, most) * normal));
-  now.target =
-      now.target + Vec<'W'>(Vec3(across * dt + normal * normal.dot((walk.X_WH.origin() - now.target).e())));
+  now.target = now.target +
+               Vec<'W'>(Vec3(across * dt + normal * normal.dot((context.X_WH.origin() - now.target).e())));
 }
 
 // Checks that the arm follows its commands. A finger may push the tip away from its target, so the distance
 // is evidence only without a finger nearby. Accepted lag: an even motion lags by K_v / K_p.
-void check_following(Walk& walk, const Impedance& law, Aim& now) {
-  if (walk.in.withheld) {
-    now.straying = Straying{};
+void check_following(StepContext& context, const Impedance& law, Aim& now) {
+  if (context.in.withheld) {
+    now.straying = PathDeviation{};
     return;
   }
   const ArmRig& rig = law.rig;
   const double lag = std::min(rig.damping / rig.stiffness, AimSpec::kLongestLag);
-  const double dt = walk.scene.dt;
+  const double dt = context.scene.dt;
   double near = AimSpec::kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
-    const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
-    near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // the tip hangs below its target
+    const PerJoint weight = law.arm.gravity(context.in.arm.value.joints, law.prop_mass, Payload::exact);
+    near += law.arm.force(context.jacobian, weight).norm() / rig.stiffness;  // the tip hangs below its target
   }
-  const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > AimSpec::kBesideProp;
-  const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
+  const bool free =
+      !context.tool_known || (context.tool_tip - context.X_WH.origin()).norm() > AimSpec::kBesideProp;
+  const bool off = free && (now.target - context.X_WH.origin()).norm() > near;
   if (!now.straying.too_long(off, AimSpec::kPatience, dt)) return;
   now.stuck = true;
-  walk.why |= kNotFollowing;
+  context.why |= kNotFollowing;
 }
 
 // The hold of a stuck arm lasts until the finger has gone: a new attempt would push with full force.
-void hold_stuck(Walk& walk, Aim& now) {
+void hold_stuck(StepContext& context, Aim& now) {
   if (!now.stuck) return;
-  const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
+  const bool gone = !context.tool_known || context.gap > context.scene.follow.pause;
   if (gone)
     now.stuck = false;
   else
-    walk.why |= kNotFollowing;
+    context.why |= kNotFollowing;
 }
 
 // Blends from one stiffness to the next over `gradual_time`, without a step.
-void change_gain(const Walk& walk, double free, const CommonState& state, const Object* object, Aim& now) {
-  Felt felt{free, 0.0};
+void change_gain(const StepContext& context, double free, const CommonState& state, const Object* object,
+                 Aim& now) {
+  RenderedStiffness felt{free, 0.0};
   if (object == nullptr) {
     now.gain = 1.0;
     now.sunk = 0.0;
@@ -431,49 +439,51 @@ void change_gain(const Walk& walk, double free, const CommonState& state, const 
   }
   const InteractionSpec& does = object->interaction;
   if (state.mode == Mode::contact && object->stiffness > 0.0)
-    felt = felt_at(does, object->stiffness, free, std::max(0.0, -walk.gap));
+    felt = felt_at(does, object->stiffness, free, std::max(0.0, -context.gap));
   if (object->moving >= 0 && state.mode == Mode::contact)
-    felt.stiffness *= walk.moved[static_cast<std::size_t>(object->moving)].firmness;
+    felt.stiffness *= context.moved[static_cast<std::size_t>(object->moving)].firmness;
   const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
-  const double share = does.gradual_time > 0.0 ? walk.scene.dt / does.gradual_time : 1e9;
+  const double share = does.gradual_time > 0.0 ? context.scene.dt / does.gradual_time : 1e9;
   const auto towards = [](double from, double to, double most) {
     return from + std::clamp(to - from, -most, most);
   };
   now.gain = towards(now.gain, felt.stiffness / free, whole * share);
   now.sunk = towards(now.sunk, felt.sunk, does.bottom * share);
-  now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && -walk.gap >= does.trigger;
+  now.triggered =
+      does.kind == Interaction::click && state.mode == Mode::contact && -context.gap >= does.trigger;
 }
 
 }  // namespace
 
-void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& memory) noexcept {
+void aim(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& memory) noexcept {
   Aim& now = memory.aim;
-  if (!walk.X_WH.valid()) {  // one missed reading changes nothing; after more of them the tip may be anywhere
-    now.blind += walk.scene.dt;
+  if (!context.X_WH
+           .valid()) {  // one missed reading changes nothing; after more of them the tip may be anywhere
+    now.blind += context.scene.dt;
     if (now.blind > task.rig.stale) now = Aim{};
     return;
   }
   now.blind = 0.0;
-  if (!holding(walk) && now.target.finite()) check_following(walk, task, now);
-  hold_stuck(walk, now);
-  if (holding(walk) || !now.target.finite()) {  // no force is requested, and none jumps afterwards
+  if (!holding(context) && now.target.finite()) check_following(context, task, now);
+  hold_stuck(context, now);
+  if (holding(context) || !now.target.finite()) {  // no force is requested, and none jumps afterwards
     const bool stuck = now.stuck;
     now = Aim{};
-    now.target = walk.X_WH.origin();
+    now.target = context.X_WH.origin();
     now.stuck = stuck;
-    if (holding(walk)) return;
+    if (holding(context)) return;
   }
-  lie_on_prop(walk, state, memory);
-  choose_mode(walk, state, memory);
-  const Object* object = nearest_object(walk, state);
-  if (hit_now(walk, state) != nullptr) {
-    go_with_prop(walk, task.rig, memory.contact, now);
+  lie_on_prop(context, state, memory);
+  choose_mode(context, state, memory);
+  const Object* object = nearest_object(context, state);
+  if (hit_now(context, state) != nullptr) {
+    go_with_prop(context, task.rig, memory.contact, now);
   } else if (state.mode == Mode::away || object == nullptr) {
-    move_target(walk, task.rig, state, now, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
+    move_target(context, task.rig, state, now, {context.sent.finite() ? context.sent : now.target}, nullptr);
   } else {
-    go_to(goal_of(walk, state, memory, *object), walk, task, state, now, *object);
+    go_to(goal_of(context, state, memory, *object), context, task, state, now, *object);
   }
-  change_gain(walk, task.rig.stiffness, state, object, now);
+  change_gain(context, task.rig.stiffness, state, object, now);
 }
 
 }  // namespace enc::stages

@@ -1,4 +1,4 @@
-#include "core/control/task/render/damping.h"
+#include "core/control/task/admittance/damping.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,17 +19,17 @@ struct SceneSpec;
 
 // Phase of the programme of pushes. The programme's time stands still in a hold.
 enum class ProbePhase : std::uint8_t { wait, approach, rest, push, dwell, back, done };
-struct Probing : Commanded {
+struct IndentationState : CommandState {
   ProbePhase phase = ProbePhase::wait;
   double elapsed = 0.0;     // s of this phase
   double deflection = 0.0;  // requested, m; negative: above the surface
 };
 
-struct Probe : Displacing {
-  using Memory = Probing;
+struct IndentationTask : Displacing {
+  using Memory = IndentationState;
   // The programme that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this
   // machine cannot do it: out of reach, an obstacle, no force sensor, too deep.
-  [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const CommonScene& scene);
+  [[nodiscard]] static std::optional<IndentationTask> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::int32_t object = 0;  // index in the scene
   // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
@@ -49,22 +49,25 @@ struct Probe : Displacing {
 // The object that [probe] names, or the first. Throws Error if there is no such object.
 [[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
 // Upper bound of the time from the start to the rest after the last push, s.
-[[nodiscard]] double programme_time(const CommonScene& scene, const Probe& probe);
+[[nodiscard]] double programme_time(const CommonScene& scene, const IndentationTask& probe);
 
 template <class F>
-void fields(F& f, Probing& p) {
-  fields(f, static_cast<Commanded&>(p));
+void fields(F& f, IndentationState& p) {
+  fields(f, static_cast<CommandState&>(p));
   f("probe_phase", p.phase);
   f("probe_elapsed", p.elapsed);
   f("probe_deflection", p.deflection);
 }
 
 namespace stages {
-void touch(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
-void act(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
-void guard(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
-void report(const Walk& walk, const Probe& task, CommonState& state, const Probing& now,
-            Outputs& out) noexcept;
+void touch(StepContext& context, const IndentationTask& task, CommonState& state,
+           IndentationState& now) noexcept;
+void act(StepContext& context, const IndentationTask& task, CommonState& state,
+         IndentationState& now) noexcept;
+void guard(StepContext& context, const IndentationTask& task, CommonState& state,
+           IndentationState& now) noexcept;
+void report(const StepContext& context, const IndentationTask& task, CommonState& state,
+            const IndentationState& now, Outputs& out) noexcept;
 }  // namespace stages
 
 }  // namespace enc

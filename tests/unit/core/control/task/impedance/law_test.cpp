@@ -15,7 +15,7 @@
 
 #include "core/base/rotation.h"
 #include "core/control/safety/certificate/certificate.h"
-#include "core/control/task/meet/impedance.h"
+#include "core/control/task/impedance/impedance.h"
 #include "tests/support/by_hand.h"
 
 namespace enc {
@@ -89,7 +89,7 @@ InteractionSpec button() {
 }
 
 double force_at(const InteractionSpec& spec, double stiffness, double depth) {
-  const Felt felt = felt_at(spec, stiffness, 300.0, depth);
+  const RenderedStiffness felt = felt_at(spec, stiffness, 300.0, depth);
   return felt.stiffness * (depth - felt.sunk);
 }
 
@@ -247,7 +247,7 @@ TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
   bench.at(-0.150, 60);
   bench.put_tip({3.8e-3, 0.0, 1.9e-3});
   bench.at(-0.150, 2000);
-  ASSERT_TRUE(recall<Meeting>(bench.loop.state).aim.slipped);
+  ASSERT_TRUE(recall<ImpedanceState>(bench.loop.state).aim.slipped);
   EXPECT_GT(bench.loop.out.felt.norm(), 1.0);
   EXPECT_LT(strays_by_a_count(bench), 0.02);
 }

@@ -42,11 +42,12 @@ struct Impedance {
 
 // Stiffness at a depth (N/m), and the target's distance behind the surface that gives it (m): the curve of
 // [VisHap Fig 4].
-struct Felt {
+struct RenderedStiffness {
   double stiffness = 0.0, sunk = 0.0;
 };
 // `stiffness`: the object's, at the touched place; `free`: K_p, that of an untouched tip.
-[[nodiscard]] Felt felt_at(const InteractionSpec& interaction, double stiffness, double free, double depth);
+[[nodiscard]] RenderedStiffness felt_at(const InteractionSpec& interaction, double stiffness, double free,
+                                        double depth);
 
 // The loop of an arm's tip as a certificate needs it (core/control/safety/certificate). It has the effective
 // mass, friction and encoder step of a tip that is pushed along a normal and otherwise free. It also has the
@@ -59,7 +60,7 @@ struct Felt {
 struct ArmLoopAt {
   certificate::SampledLoop loop;
   certificate::Steps steps;
-  certificate::Asked asked;
+  certificate::Request asked;
 };
 
 // The loop at joints `q`, along `way` (unit, in R), with `stiffness` (N/m) in that direction. A gain makes

@@ -13,8 +13,8 @@ namespace enc::stages {
 
 // Data of one tick so far. Each stage reads the results of the stages before it; a member's comment names the
 // stage that writes it.
-struct Walk {
-  Walk(const CommonScene& s, const Tick& k, const Inputs& i) : scene(s), tick(k), in(i) {}
+struct StepContext {
+  StepContext(const CommonScene& s, const Tick& k, const Inputs& i) : scene(s), tick(k), in(i) {}
   const CommonScene& scene;
   const Tick& tick;
   const Inputs& in;
@@ -32,7 +32,7 @@ struct Walk {
   double tool_radius = 0.0;
   // track: the tip is firm, so a tool cannot pass through it.
   bool stops_tool = false;
-  std::span<Moved> moved;  // track: objects that move
+  std::span<MoverState> moved;  // track: objects that move
   std::span<const Mover> movers;
   Pose<'W', 'H'> X_WH;  // track: tip pose reported by the machine
 
@@ -55,15 +55,15 @@ struct Walk {
 };
 
 // Query for the surface nearest to a tool.
-struct Asked {
+struct SurfaceQuery {
   const Contact* engaged = nullptr;  // if set, only the object of this contact
   bool touched_first = false;        // prefer any touched object to every untouched one
   // Predicted touch of the tool; unset: extrapolate its motion by follow.ahead.
   Point<'W'> comes_to{};
 };
-void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept;
+void nearest_surface(StepContext& context, CommonState& state, const SurfaceQuery& asked) noexcept;
 // The tracked tool at this tick. `pressing`: a finger that rests on a prop moves slowly.
-void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept;
+void track_tool(StepContext& context, CommonState& state, bool pressing) noexcept;
 
 // Outward normal and distance of a W point to an object.
 struct NearestInWorld {
@@ -83,6 +83,6 @@ inline constexpr double kSideShare = 0.6;
 // Depth inside the surface at which the tip stops at zero deflection: more than the machine's own step, less
 // than a person feels.
 inline constexpr double kSkin = 5e-6;  // m
-[[nodiscard]] inline bool holding(const Walk& walk) { return (walk.why & kHoldReasons) != 0; }
+[[nodiscard]] inline bool holding(const StepContext& context) { return (context.why & kHoldReasons) != 0; }
 
 }  // namespace enc::stages

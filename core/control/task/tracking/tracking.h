@@ -29,17 +29,17 @@ struct TravelLeg {
 
 // Phase of the travel. The travel's time stands still in a hold.
 enum class TravelPhase : std::uint8_t { wait, move, dwell, done };
-struct Travelling : Commanded {
+struct TrackingState : CommandState {
   TravelPhase phase = TravelPhase::wait;
   double elapsed = 0.0;  // s of this phase
-  std::int32_t leg = 0;  // index in Travel::legs
+  std::int32_t leg = 0;  // index in TrackingTask::legs
 };
 
-struct Travel : Displacing {
-  using Memory = Travelling;
+struct TrackingTask : Displacing {
+  using Memory = TrackingState;
   // The travel that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this machine
   // cannot do the travel.
-  [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const CommonScene& scene);
+  [[nodiscard]] static std::optional<TrackingTask> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::vector<TravelLeg> legs;
   double acceleration = kUnset;  // m/s^2
@@ -53,19 +53,19 @@ struct Travel : Displacing {
 };
 
 template <class F>
-void fields(F& f, Travelling& t) {
-  fields(f, static_cast<Commanded&>(t));
+void fields(F& f, TrackingState& t) {
+  fields(f, static_cast<CommandState&>(t));
   f("travel_phase", t.phase);
   f("travel_elapsed", t.elapsed);
   f("travel_leg", t.leg);
 }
 
 namespace stages {
-void touch(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
-void act(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
-void guard(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
-void report(const Walk& walk, const Travel& task, CommonState& state, const Travelling& now,
-            Outputs& out) noexcept;
+void touch(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
+void act(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
+void guard(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
+void report(const StepContext& context, const TrackingTask& task, CommonState& state,
+            const TrackingState& now, Outputs& out) noexcept;
 }  // namespace stages
 
 }  // namespace enc
