@@ -7,6 +7,7 @@
 
 #include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
+#include "sim/spec/twin_spec.h"
 #include "trial/assemble/assemble.h"
 
 namespace enc::app {
@@ -47,7 +48,7 @@ struct MachineWords {
                                      .held_back = "law's force",
                                      .energy_by = "encoders",
                                      .passivity = [](const RigSpec& rig) { return rig.arm.passivity; }};
-  return scene.arm ? kArm : kHexapod;
+  return *sim::PerMachine<const MachineWords*>{&kHexapod, &kArm}.of(scene);
 }
 
 struct Part {

@@ -1,5 +1,7 @@
 #include "trial/family.h"
 
+#include "sim/spec/twin_spec.h"
+
 namespace enc::trial {
 namespace {
 
@@ -46,7 +48,9 @@ constexpr Family kHexapod{
 
 }  // namespace
 
-const Family& family_of(const models::Setup& setup) { return setup.scene.arm ? kArm : kHexapod; }
+const Family& family_of(const models::Setup& setup) {
+  return *sim::PerMachine<const Family*>{&kHexapod, &kArm}.of(setup.scene);
+}
 const Family& family_of(const Scene& scene) { return scene.impedance() != nullptr ? kArm : kHexapod; }
 
 std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene, bool whole) {

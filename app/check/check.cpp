@@ -177,7 +177,7 @@ std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
 
 // An arm has no deflection limit: its motors limit its force.
 std::string arm_limits(const models::Setup& setup, const Scene& scene) {
-  const Impedance& law = *scene.impedance();
+  const Impedance& law = trial::impedance_of(scene);
   Said said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];

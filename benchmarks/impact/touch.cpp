@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "sim/hand/user.h"
 #include "trial/assemble/assemble.h"
+#include "trial/family.h"
 #include "trial/trial.h"
 
 namespace enc::bench::impact {
@@ -110,7 +111,7 @@ Watched watch_touch(const models::Setup& setup, std::uint64_t seed) {
   try {
     Listener listener;
     trial::Trial trial(setup, {.seed = seed});
-    const Ear ear(listener, trial.world().physics(), setup.scene.arm.has_value());
+    const Ear ear(listener, trial.world().physics(), trial::family_of(setup).takes_force);
     const double start = thread_seconds();
     double touched = kUnset;
     while (trial.tick()) {

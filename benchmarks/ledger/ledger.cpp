@@ -11,6 +11,7 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
 #include "core/base/error.h"
+#include "trial/family.h"
 
 namespace enc::bench::ledger {
 namespace {
@@ -118,7 +119,7 @@ std::optional<models::Setup> with_controller(const BenchContext& context, const 
 Pair pair_of(const BenchContext& context, const std::string& scene) {
   Pair pair{scene, {}, {}, 0.0, false};
   const models::Setup without = load_scene(context, scene);
-  pair.arm = without.scene.arm.has_value();
+  pair.arm = trial::family_of(without).takes_force;
   const std::optional<models::Setup> controlled = with_controller(context, scene, pair.arm);
   if (controlled) pair.controlled.emplace();
   for (int i = 0; i < (context.quick ? 1 : kSeeds); ++i) {

@@ -10,6 +10,7 @@
 #include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/model.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::app {
 namespace {
@@ -271,7 +272,9 @@ constexpr MachineLook kArmLook{.force_scale = 0.015,
 
 }  // namespace
 
-const MachineLook& look_of(const models::Setup& setup) { return setup.scene.arm ? kArmLook : kHexapodLook; }
+const MachineLook& look_of(const models::Setup& setup) {
+  return *sim::PerMachine<const MachineLook*>{&kHexapodLook, &kArmLook}.of(setup.scene);
+}
 
 void shift_objects(const Moment& m, mjData* data) {
   for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
