@@ -104,14 +104,14 @@ struct Carried {
   double second = 0.0, third = 0.0;  // inertia without a body, on the joints of motors 2 and 3, kg m^2
 };
 
-// The parallelogram without its loop (docs/reference/phantom_twin.md). The link stays parallel to the upper
-// arm and the crank to the forearm, so their own inertias are added to those.
-// A mass m at a u2 + b u3 contributes m a^2, m a b and m b^2, with u2 along the upper arm and u3 along the
-// forearm. A mass m / 4 at twice a and b contributes as much. So the link's middle, at l1 / 2 and l3, becomes
-// a point of the forearm, 2 l3 from the elbow. The crank has a = 0 and is inertia alone.
-// Weight depends on m a and m b, which this changes. Gravity compensation corrects the weight of the forearm,
-// the centre of mass that of the upper arm. The upper arm's mass is free, because it turns about a fixed
-// point. It is large enough for its inertia.
+// The parallelogram without its loop (docs/reference/phantom_twin.md, sources/twin 5). The link stays
+// parallel to the upper arm and the crank to the forearm, so their own inertias are added to those. A mass m
+// at a u2 + b u3 contributes m a^2, m a b and m b^2, with u2 along the upper arm and u3 along the forearm. A
+// mass m / 4 at twice a and b contributes as much. So the link's middle, at l1 / 2 and l3, becomes a point of
+// the forearm, 2 l3 from the elbow. The crank has a = 0 and is inertia alone. Weight depends on m a and m b,
+// which this changes. Gravity compensation corrects the weight of the forearm, the centre of mass that of the
+// upper arm. The upper arm's mass is free, because it turns about a fixed point. It is large enough for its
+// inertia.
 Carried carried(const PhantomGeometry& g) {
   check_about_hinge(g.m_be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
   check_about_hinge(g.m_df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");
