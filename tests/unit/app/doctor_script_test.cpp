@@ -1,5 +1,5 @@
-// `encounter doctor` before anything is built: on a sound bare system, and on that system broken in one place
-// at a time. Each break has to give its own remedy.
+// `encounter doctor` before anything is built: on a sound bare system, and on that system with one defect at
+// a time. Each defect must produce its own remedy.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-// A clone that was never built, and a PATH of its own: tools of the machine that do not matter, and stand-ins
-// for those that say what the machine is like.
+// A clone that was never built, with its own PATH: tools that do not depend on the machine, and stubs for the
+// tools that describe the machine.
 class BareSystem {
  public:
   BareSystem() {
@@ -56,7 +56,7 @@ class BareSystem {
     std::ofstream(bin() + "/" + tool) << "#!/bin/bash\n" << script << "\n";
     fs::permissions(bin() + "/" + tool, fs::perms::all);
   }
-  // `broken`: lines of shell in the clone, with PATH as it is here; then the doctor is asked.
+  // Run the shell lines `broken` in the clone, with PATH as it is here, and then run the doctor.
   [[nodiscard]] Result doctor(const std::string& broken = "") const {
     return run({"/usr/bin/env", "-i", "DISPLAY=:0", "PATH=" + bin(), bin() + "/bash", "-c",
                 "cd '" + clone().string() + "'\n" + broken + "\n./encounter doctor"});

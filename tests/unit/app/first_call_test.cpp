@@ -1,4 +1,4 @@
-// The script `encounter` in a clone that was never built, and the commit that a build is made from.
+// The script `encounter` in a clone that was never built, and the commit that a build records.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr, testing::MatchesRegex;
 
-// As much of a clone as the script reads.
+// The part of a clone that the script reads.
 class FirstCall : public testing::Test {
  protected:
   FirstCall() {
@@ -34,7 +34,7 @@ class FirstCall : public testing::Test {
     EXPECT_EQ(r.code, 0) << r.err;
     return r.out;
   }
-  // False where there is no git.
+  // Return false if git is missing.
   [[nodiscard]] bool git(const std::string& words, const fs::path& in) const {
     const Result r = run({"bash", "-c",
                           "cd '" + in.string() +
@@ -68,7 +68,7 @@ TEST_F(FirstCall, EachSubjectOfCalibrateInstallsWhatItNeeds) {
   EXPECT_EQ(packages("camera vishap --through-images"), "vision\n");
 }
 
-// The script prints a file. The program prints the same.
+// The script prints a file; the program must print the same text.
 TEST_F(FirstCall, TheHelpOfTheScriptIsThatOfTheProgram) {
   EXPECT_EQ(run_program({"--help"}).out, call("--help").out)
       << "build/release/encounter --help >app/command_line/help.txt makes it anew";
@@ -87,7 +87,7 @@ TEST_F(FirstCall, TheCommitIsThatOfTheRepositoryAndSaysWhereCodeWasChanged) {
   EXPECT_EQ(commit(), clean.substr(0, 12) + "-dirty" + clean.substr(12));
 }
 
-// A tarball that was unpacked within somebody's repository has not that one's commit.
+// An unpacked tarball inside somebody's repository must not take that repository's commit.
 TEST_F(FirstCall, ARepositoryAroundItIsAnotherOne) {
   if (!git("init -q . && git -c user.name=x -c user.email=x@y.z commit -q --allow-empty -m x",
            folder_.path()))
@@ -95,7 +95,7 @@ TEST_F(FirstCall, ARepositoryAroundItIsAnotherOne) {
   EXPECT_EQ(commit(), "unknown unknown\n");
 }
 
-// A build that finds the same commit compiles nothing anew.
+// A second build of an unchanged commit compiles nothing.
 TEST_F(FirstCall, TheFileOfTheCommitIsWrittenOnlyWhereItChanges) {
   const fs::path file = at() / "commit.cpp";
   const auto write = [&] { return run({"bash", (at() / "cmake/commit.sh").string(), file.string()}).code; };
@@ -110,7 +110,7 @@ TEST_F(FirstCall, TheFileOfTheCommitIsWrittenOnlyWhereItChanges) {
   EXPECT_THAT(test::bytes_of(file), HasSubstr("unknown"));
 }
 
-// The program has the commit of its sources.
+// The program reports the commit of its sources.
 TEST_F(FirstCall, TheProgramSaysItsCommit) {
   EXPECT_THAT(
       run_program({"--version"}).out,

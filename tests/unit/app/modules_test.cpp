@@ -1,4 +1,4 @@
-// Modules that are wrong are refused in one line that says what to do.
+// The loader refuses a faulty module with one line that says what to do.
 #include "app/modules/modules.h"
 
 #include <filesystem>
@@ -77,13 +77,13 @@ TEST_F(ModulesTest, AFileThatIsNoLibrary) {
               AllOf(HasSubstr(file("text") + ": cannot be loaded"), HasSubstr("build it again")));
 }
 
-// Wherever a copy stopped. The loader would end the program where a part is not there.
+// A copy may stop at any byte. Loading an incomplete file would end the program.
 TEST_F(ModulesTest, AFileThatIsCutOff) {
   const std::string whole = bytes_of(fs::path(tests::module_folder()) / "encounter_sample.so");
   std::uint64_t at = 1;
   for (; at < whole.size(); at += 1 + at / 3) {
     std::ofstream(file("sample"), std::ios::binary) << whole.substr(0, at);
-    if (app::cut_off(file("sample")).empty() && at > 64) break;  // of what is loaded nothing is missing
+    if (app::cut_off(file("sample")).empty() && at > 64) break;  // the loaded part is complete
     EXPECT_THAT(refusal("sample"),
                 AllOf(HasSubstr(file("sample") + ": cannot be loaded"), HasSubstr("again")));
   }
@@ -91,7 +91,7 @@ TEST_F(ModulesTest, AFileThatIsCutOff) {
   EXPECT_EQ(app::cut_off(whole, whole.size()), "");
 }
 
-// Whatever stands in its header.
+// The header may contain any value.
 TEST_F(ModulesTest, AHeaderThatPromisesMoreThanThereIs) {
   const std::string whole =
       bytes_of(fs::path(tests::module_folder()) / "encounter_sample.so").substr(0, 4096);
@@ -124,7 +124,7 @@ TEST_F(ModulesTest, AnotherInterfaceVersionOrName) {
   EXPECT_THAT(refusal("renamed"), HasSubstr("calls itself 'first'"));
 }
 
-// A struct that crosses the border has changed, and nobody raised a number.
+// A struct that crosses the border has changed, but its version number was not raised.
 TEST_F(ModulesTest, OtherDeclarationsAreAnotherBorder) {
   const std::string text = fmt::format("{}u, {}u, \"{}\", \"stale\", 0, 0", kModuleInterface,
                                        ENCOUNTER_BORDER ^ 1U, ENCOUNTER_VERSION);
@@ -133,7 +133,7 @@ TEST_F(ModulesTest, OtherDeclarationsAreAnotherBorder) {
               AllOf(HasSubstr("other declarations"), HasSubstr("build program and modules together")));
 }
 
-// The number is that of the declarations alone: what they say, not how they are commented.
+// The number depends on the declarations alone and not on their comments.
 TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   const fs::path root = folder_ / "tree";
   const auto hash = [&] {
@@ -162,7 +162,7 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   edit("core/base/sample.h", "// N, N m.", "// newton");
   EXPECT_EQ(hash(), before);
   edit("core/base/sample.h", "Vec<'F'> force;",
-       "Vec<'F'> pull;");  // far inside: module.h, rig.h, devices, sample.h
+       "Vec<'F'> pull;");  // deep inside the file: module.h, rig.h, devices, sample.h
   const std::string other = hash();
   EXPECT_NE(other, before);
   const std::vector<std::array<const char*, 3>> contract{

@@ -1,4 +1,4 @@
-// The text of reports and of faults: what the app prints, and what it reads.
+// The text of reports and of faults: the lines that the app prints and reads.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,7 +25,7 @@ using certificate::Class, certificate::Row;
 using testing::AllOf, testing::ContainsRegex, testing::HasSubstr, testing::Not;
 using trial::Certified;
 
-// A percentile is printed where there are enough values for it, and the largest value always.
+// The report prints a percentile if there are enough values for it, and always prints the largest value.
 
 std::string of(std::size_t count) {
   std::vector<double> values(count);
@@ -54,7 +54,7 @@ TEST(Percentiles, AreKnownOnBothSides) {
   EXPECT_FALSE(models::has_percentile(0, 1.0));
 }
 
-// Text and JSON of a run of so many ticks.
+// Text and JSON report of a run with this many ticks.
 std::pair<std::string, nlohmann::json> reports_of(double ticks) {
   const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/plane.toml", "sim");
   trial::TrialOptions options{.seconds = 1e-3 * (ticks - 1.0)};
@@ -86,7 +86,7 @@ TEST(Percentiles, OfALongRunAreAllThere) {
   EXPECT_TRUE(json.at("step_ns").at("p99_9").is_number());
 }
 
-// How fast a run went, as its report prints it.
+// The report's line about a run's speed.
 
 TEST(SpeedText, ASlowRunHasTwoDigits) {
   EXPECT_EQ(speed_text(1.0, 12.5), "0.08");
@@ -95,7 +95,7 @@ TEST(SpeedText, ASlowRunHasTwoDigits) {
   EXPECT_EQ(speed_text(1.0, 0.0), "0");
 }
 
-// How often a run held: the first three are said, and how many more there were.
+// The report's lines about holds: it lists the first three and counts the rest.
 
 // The force sensor is at fault this many times, for 5 ms each.
 struct Held {
@@ -142,7 +142,7 @@ TEST(HoldLines, TheFirstThreeAreSaidAndTheOthersCounted) {
   }
 }
 
-// Whose bounds `check` shows, and how: the same every time, whatever is equal.
+// The owners of the bounds that `check` shows. The order is always the same, also if bounds are equal.
 
 Certified one(const std::string& object, Class verdict, double margin,
               const std::string& row = "exact_with_hand") {
@@ -210,7 +210,7 @@ TEST(StabilityText, WhatIsNotKnownIsNotSaidToBeBeyond) {
   EXPECT_THAT(said("what a release does: too slow to be simulated"), HasSubstr("make it stiffer"));
 }
 
-// What a fake is to suffer, as it is written.
+// The faults of a fake in their text form.
 
 using Kind = Trouble::Kind;
 

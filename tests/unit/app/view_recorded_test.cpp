@@ -1,4 +1,4 @@
-// A record is shown as its run was: the twin beside the replayed core is in the same places.
+// `view` shows a record as its run was: the twin beside the replayed core is in the same places.
 #include <filesystem>
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace {
 
 class Recorded : public testing::Test {
  protected:
-  // A steered run of 4 s with a change of tools, and what was true at every 400th tick.
+  // A steered run of 4 s with a change of tools, and the ground truth at every 400th tick.
   void SetUp() override {
     const std::string scene = tests::source_dir() + "/models/scenes/session.toml";
     const models::Setup setup = models::load(scene, {}, {});
@@ -69,7 +69,8 @@ TEST_F(Recorded, TheTwinIsWhereItWas) {
   EXPECT_EQ(doubt_, "");
 }
 
-// The end part, which says how the hand was steered, is lost. The twin's own hand must not be shown instead.
+// The end part, which holds the steering of the hand, is lost. The view must not show the twin's own hand
+// instead.
 TEST_F(Recorded, WithoutItsEndTheDevicesSayWhereThingsAre) {
   std::filesystem::resize_file(record_, std::filesystem::file_size(record_) * 3 / 4);
   EXPECT_GT(difference(record_), 1e-3) << "the scene's own hand does something else";

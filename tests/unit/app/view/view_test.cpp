@@ -20,8 +20,8 @@ using testing::AllOf, testing::HasSubstr;
 
 const std::string kScene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
-// Mesa and LLVM keep some bytes at exit, which the leak checker of the dev build would make ours. All else
-// stays checked.
+// Mesa and LLVM keep some bytes at exit, which the leak checker of the dev build would report as ours. It
+// still checks everything else.
 const tests::Environment kNotOurLeaks{{"ASAN_OPTIONS", "detect_leaks=0"}};
 
 unsigned big_endian(const std::string& bytes, std::size_t at) {
@@ -49,7 +49,7 @@ TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
   EXPECT_LT(png.size(), 300'000U);
 }
 
-// A pipe whose reader has gone stays. The picture is larger than the 64 KiB that a pipe holds.
+// A pipe whose reader has gone is kept. The picture is larger than the 64 KiB that a pipe holds.
 TEST(View, ADeviceThatCannotTakeThePictureStays) {
   if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const TemporaryFolder folder;
@@ -64,7 +64,7 @@ TEST(View, ADeviceThatCannotTakeThePictureStays) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-// A ball that is hit is not held: what is shown is the blow, not the finger before it sets out.
+// A ball that is hit is not held: the picture shows the blow and not the finger before it starts.
 TEST(View, ABlowIsShownAtItsTouch) {
   if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const fs::path shot = fs::path(testing::TempDir()) / ("blow_" + std::to_string(getpid()) + ".png");
@@ -107,10 +107,10 @@ TEST(View, WithoutTheModuleItIsADeviceThatIsMissing) {
   EXPECT_THAT(result.err, HasSubstr("/nowhere/encounter_view.so"));
 }
 
-// The loader's own account: what `run` maps, at start and later.
+// The loader's own list of the libraries that `run` maps, at start and later.
 TEST(View, RunLoadsNoGraphics) {
   const tests::Result result = tests::run_program({"run", kScene, "--for-s", "0.2"}, {{"LD_DEBUG", "files"}});
-  ASSERT_THAT(result.err, HasSubstr("libmujoco"));  // the account is there
+  ASSERT_THAT(result.err, HasSubstr("libmujoco"));  // the list is there
   for (const char* heavy : {"opencv", "libGL", "libEGL", "glfw", "libX11", "wayland", "encounter_"})
     EXPECT_THAT(result.err, testing::Not(HasSubstr(heavy)));
 }
@@ -124,13 +124,13 @@ class Film : public testing::Test {
   void SetUp() override {
     if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   }
-  // With no other programs in PATH than those of `programs`. Mesa and LLVM keep some bytes at exit.
+  // PATH contains only `programs`. Mesa and LLVM keep some bytes at exit.
   [[nodiscard]] tests::Result view(Words words, const std::string& programs = "/nowhere") const {
     words.insert(words.begin(), {"view", ball_});
     return tests::run_program(words, {{"PATH", programs}, {"ASAN_OPTIONS", "detect_leaks=0"}}, 300.0);
   }
   [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  // A folder with a program `ffmpeg`, which is this script.
+  // A folder with a program `ffmpeg` that is this script.
   [[nodiscard]] std::string ffmpeg(const std::string& script) const {
     fs::create_directories(folder_.path() / "bin");
     const fs::path program = folder_.path() / "bin" / "ffmpeg";
@@ -169,8 +169,8 @@ TEST_F(Film, WithoutAnEndingIsAFolderOfFrames) {
   EXPECT_GT(frame.size(), 30'000U) << "more than a backdrop";
 }
 
-// The ball is dented in all frames, and each is restored before the next: the third of a film and the first
-// of another film are the same.
+// The ball is dented in all frames, and each frame restores it before the next. The third frame of one film
+// equals the first frame of another film.
 TEST_F(Film, AFrameDoesNotDependOnThoseBefore) {
   ASSERT_EQ(view({"--video", path("a"), "--at-s", "12.9", "--for-s", "0.1"}).code, 0);
   ASSERT_EQ(view({"--video", path("b"), "--at-s", "12.967", "--for-s", "0.03"}).code, 0);
@@ -187,7 +187,7 @@ TEST_F(Film, WhatIsThereStaysWithoutForce) {
   ASSERT_EQ(view(again).code, 0);
   EXPECT_EQ(names_in(path("film")), (std::set<std::string>{"frame_00000.png", "frame_00001.png"}));
   EXPECT_EQ(bytes_of(path("film") + "/frame_00000.png"), before);
-  // A folder with something else in it is not replaced, whatever is said.
+  // Encounter does not replace a folder with other content, whatever the options.
   std::ofstream(path("film") + "/thesis.tex") << "mine";
   EXPECT_THAT(tests::one_line(view(again)), HasSubstr("thesis.tex"));
   EXPECT_EQ(names_in(path("film")).size(), 3U);
@@ -204,7 +204,8 @@ TEST_F(Film, WithoutFfmpegAnyNameIsAFolder) {
   EXPECT_EQ(names_in(path("film.mp4")), kThree);
 }
 
-// ffmpeg gets every frame through its standard input, and what it writes is put in place when it is whole.
+// ffmpeg gets every frame through its standard input. Encounter moves its output into place when it is
+// complete.
 TEST_F(Film, FfmpegGetsTheFramesAndTheFormat) {
   const std::string programs = ffmpeg(
       "file=${@: -1}; file=${file#file:}; [[ $file == *film.mp4.part ]] || exit 3\n"
@@ -242,7 +243,7 @@ TEST_F(Film, BadWordsAreOneLine) {
   EXPECT_TRUE(names_in(folder_.path().string()).empty());
 }
 
-// Ctrl-C ends the film, which is whole up to there.
+// Ctrl-C ends the film, which is complete up to that frame.
 TEST_F(Film, ASignalEndsTheFilm) {
   const tests::Result r =
       tests::run({"bash", "-c",

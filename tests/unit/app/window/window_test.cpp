@@ -138,7 +138,7 @@ TEST_F(WindowControls, TheOtherButtonsTurnAndShiftTheView) {
   move(100, 0);
   button(WindowEvent::kRight, false, 100, 0);
   EXPECT_NEAR(controls_->camera().azimuth, -0.6, 1e-12);
-  move(0, 10'000);  // not over the top
+  move(0, 10'000);  // the camera stops at the top
   button(WindowEvent::kRight, true, 0, 10'000);
   move(0, -10'000);
   EXPECT_LE(std::abs(controls_->camera().elevation), 1.5);
@@ -196,7 +196,7 @@ TEST_F(WindowControls, TimeOfASimulatedRunIsTheUsers) {
   EXPECT_FALSE(controls_->take_wishes().restarts) << "it would replace the record";
 }
 
-// Space stops the machine instead of pausing time.
+// Space stops a real machine instead of pausing time.
 TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
   around_.real = true;
   key(' ');
@@ -212,7 +212,7 @@ TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
               !wishes.restarts);
 }
 
-// Back in time by a key, or by the mouse on the bar at the bottom; space returns to the present.
+// A key, or the mouse on the bar at the bottom, goes back in time. Space returns to the present.
 TEST_F(WindowControls, EarlierMomentsOfARun) {
   key(',');
   key(',');
@@ -324,7 +324,7 @@ TEST_F(WindowControls, ChartsHelpAndEnd) {
   EXPECT_TRUE(other.take_wishes().ends) << "escape";
 }
 
-// MuJoCo writes at most 500 characters at once; the page is written in two halves.
+// MuJoCo writes at most 500 characters at once, so the page is written in two halves.
 TEST_F(WindowControls, TheHelpPageFits) {
   for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record}) {
     const auto lines = Controls::help_lines(of);
@@ -336,7 +336,7 @@ TEST_F(WindowControls, TheHelpPageFits) {
   }
 }
 
-// A key that is added to the page must be added to a test above, and to this list.
+// A new key on the page also needs a test above and an entry in this list.
 TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
   const std::set<std::string_view> tested{
       "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",     "C",       "H", "Q",
@@ -347,13 +347,13 @@ TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
       EXPECT_TRUE(tested.contains(line.key)) << line.key;
 }
 
-// The run's side of a window: a change of mode that it waits for stops time there, whatever is wished.
+// The run's side of a window: a change of mode that the run waits for stops time, whatever the user wishes.
 
 constexpr double kTick = 1e-3;  // s
 
 class WindowLink : public testing::Test {
  protected:
-  // Whether the run goes on by a tick within 20 asks.
+  // Return true if the run advances by a tick within 20 calls.
   bool goes_on() {
     for (int i = 0; i < 20; ++i)
       if (!link_.waits(kTick)) return true;
@@ -389,7 +389,7 @@ TEST_F(WindowLink, StandsAtTheEventUntilTheWindowKnows) {
   EXPECT_TRUE(goes_on());
   tick(Mode::follow);
   EXPECT_FALSE(goes_on());
-  link_.wish({.to_event = true});  // of a picture that was begun before
+  link_.wish({.to_event = true});  // a picture that was begun earlier
   EXPECT_FALSE(goes_on());
   EXPECT_TRUE(link_.take_event());
   EXPECT_FALSE(link_.take_event());
@@ -413,7 +413,7 @@ TEST_F(WindowLink, ThePlaceOfTheHandIsNewsOnce) {
   EXPECT_FALSE(link_.hand());
 }
 
-// A change of tool is asked for once, also when nobody listened to the first wish; faults last.
+// The window requests a change of tool once, also if the run missed the first wish. Faults come last.
 TEST_F(WindowLink, ToolAndFaultsReachTheRun) {
   link_.wish({.changes_tool = true, .faults = 2});
   link_.wish({.faults = 2});
@@ -442,7 +442,8 @@ TEST_F(WindowLink, ARunWithoutItsWindowIsRefused) {
   EXPECT_FALSE(link_.begin(false));
 }
 
-// Earlier moments of a run: kept up to a number, and shown until somebody returns to the present.
+// Earlier moments of a run: the window keeps a limited number and shows them until the user returns to the
+// present.
 
 class WindowTimeline : public testing::Test {
  protected:

@@ -40,7 +40,7 @@ concept IsFrame = requires {
   typename Point<A>;
 };
 
-// A chain that fits, and what it is; chains that do not.
+// A chain that fits and its type; chains that do not fit.
 static_assert(std::same_as<decltype(Pose<'W', 'R'>{} * Pose<'R', 'H'>{}), Pose<'W', 'H'>>);
 static_assert(std::same_as<decltype(Pose<'W', 'R'>{}.inverse()), Pose<'R', 'W'>>);
 static_assert(!Multiplies<Pose<'W', 'R'>, Pose<'H', 'N'>>);
@@ -49,7 +49,8 @@ static_assert(!Multiplies<Pose<'W', 'R'>, Point<'W'>>);
 static_assert(!Multiplies<Pose<'W', 'F'>, Vec<'N'>>);
 static_assert(!std::convertible_to<Vec<'W'>, Vec<'F'>> &&
               !std::convertible_to<Pose<'W', 'R'>, Pose<'R', 'W'>>);
-// A point is no vector: two places do not add, their difference is a vector, and turning is not moving.
+// A point is no vector: two points cannot be added, their difference is a vector, and turning a point is not
+// moving it.
 static_assert(!std::convertible_to<Point<'W'>, Vec<'W'>> && !std::convertible_to<Vec<'W'>, Point<'W'>>);
 static_assert(!Adds<Point<'W'>, Point<'W'>> && Adds<Point<'W'>, Vec<'W'>> && !Adds<Point<'W'>, Vec<'R'>>);
 static_assert(std::same_as<decltype(Point<'W'>{} - Point<'W'>{}), Vec<'W'>> &&
@@ -66,7 +67,8 @@ struct RandomPose {
   }
 };
 
-// Where every frame of [VHMR Fig 4] is, as plain matrices; the edges of the graph are read off them.
+// Ground truth: every frame of [VHMR Fig 4] as a plain matrix. The edges of the graph are computed from
+// these.
 class Truth {
  public:
   explicit Truth(RandomPose& random) {
@@ -82,7 +84,7 @@ class Truth {
     const Eigen::Matrix4d M = matrix(A, B);
     return {Quat(Mat3(M.topLeftCorner<3, 3>())), Vec3(M.topRightCorner<3, 1>())};
   }
-  // Where a chain that somebody composed ends, against where it must.
+  // Difference between the end of a composed chain and its true pose.
   template <char A, char B>
   [[nodiscard]] double apart(const Pose<A, B>& X) const {
     const Eigen::Matrix4d said = (Eigen::Translation3d(X.p()) * X.q()).matrix();
@@ -105,13 +107,13 @@ TEST(Frames, ChainsCloseTo1e9) {
     const auto X_WO = truth.edge<'W', 'O'>();
     const auto X_ON = truth.edge<'O', 'N'>();
     const auto X_LT = truth.edge<'L', 'T'>();
-    // The tool by the tracker, by the headset and the hand tracker, and by what the machine would see of it.
+    // The tool as located by the tracker, by headset and hand tracker, and by the machine.
     const auto X_WL = truth.edge<'W', 'S'>() * truth.edge<'S', 'G'>() * truth.edge<'G', 'L'>();
     const Pose<'F', 'T'> X_FT = truth.edge<'F', 'T'>();
     EXPECT_LT(truth.apart(X_WC * X_CT), 1e-9);
     EXPECT_LT(truth.apart(X_WL * X_LT), 1e-9);
     EXPECT_LT(truth.apart(X_WR * X_RH * X_HF * X_FT), 1e-9);
-    // The tip as the tracker and as the object's surface would see it, against the flow of half the edges.
+    // The tip as located by the tracker and by the object's surface, against the direction of half the edges.
     EXPECT_LT(truth.apart(X_CT.inverse() * X_WC.inverse() * X_WR * X_RH), 1e-9);
     EXPECT_LT(truth.apart((X_WO * X_ON).inverse() * (X_WR * X_RH)), 1e-9);
     EXPECT_LT(truth.apart(X_HF.inverse() * X_RH.inverse() * X_WR.inverse() * X_WC), 1e-9);
@@ -139,7 +141,7 @@ TEST(Frames, WhatIsNotSetIsNaNAndNotValid) {
   EXPECT_TRUE(std::isnan(Point<'W'>{}.xyz[1]) && std::isnan(Vec<'W'>{}.xyz[2]));
   EXPECT_TRUE((Pose<'W', 'R'>::identity().valid()));
   Pose<'W', 'R'> X = Pose<'W', 'R'>::identity();
-  X.xyzw[3] = 1.0 + 2e-6;  // no rotation any more
+  X.xyzw[3] = 1.0 + 2e-6;  // no longer a rotation
   EXPECT_FALSE(X.valid());
 }
 
@@ -160,8 +162,8 @@ TEST(Frames, PoseOfTurnsAboutFixedXThenYThenZ) {
   EXPECT_LT((X * Point<'C'>(0, 0, 1) - Point<'W'>(2, 2, 3)).norm(), 1e-12);
 }
 
-// The least rotation between two directions, also where these are opposite and any axis at right angles would
-// do: there it is always the same one, or a record of a ceiling would not replay.
+// The least rotation between two directions. Opposite directions always give the same axis: otherwise a
+// record of a ceiling would not replay.
 
 TEST(Rotation, BetweenTwoDirections) {
   std::mt19937_64 random(1);
@@ -172,7 +174,7 @@ TEST(Rotation, BetweenTwoDirections) {
     const Vec3 to = i % 3 == 0 ? Vec3(-2.0 * from + (i % 2) * 0.05 * any()) : any();
     const Quat turn = rotation_between(from, to);
     const double cosine = std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0);
-    // Nearly opposite, rounding of the cosine counts in full; from 1e-12 on, Eigen takes its SVD.
+    // Nearly opposite: rounding of the cosine counts in full. From 1e-12 on, Eigen uses its SVD.
     const double rounding = 1e-12 + (cosine > -1.0 + 1e-12 ? 1e-15 / (1.0 + cosine) : 0.0);
     ASSERT_NEAR(turn.norm(), 1.0, rounding) << i;
     ASSERT_LT(((turn * from).normalized() - to.normalized()).norm(), 1e-7) << i;
@@ -247,7 +249,7 @@ TEST(Seconds, AreTheNearestDoubleOfTheDecimal) {
   EXPECT_EQ(from_seconds(-0.0000000014), Duration(-1));
 }
 
-// The newest value of one thread for one other; what two threads make of it is in tests/threads.
+// The newest value of one thread for one reader thread. tests/threads tests the use from two threads.
 
 TEST(Latest, NothingIsReadBeforeSomethingIsWritten) {
   Latest<int> latest;
@@ -268,9 +270,9 @@ TEST(Latest, TheNewestIsReadOnceHoweverManyWereWritten) {
   }
 }
 
-// The words of the enums that a file can name: they are the names of the values, all of them and no more.
+// The words of the enums that a file can name are exactly the names of the values.
 
-// As the compiler spells it: "plate" of PropKind::plate; "(enc::PropKind)3" has no name.
+// The compiler's spelling: "plate" for PropKind::plate; "(enc::PropKind)3" has no name.
 template <auto Value>
 std::string_view spelled() {
   std::string_view text = __PRETTY_FUNCTION__;

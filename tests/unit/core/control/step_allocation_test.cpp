@@ -31,7 +31,7 @@ void* operator new(std::size_t size, std::align_val_t a) {
 void* operator new[](std::size_t size, std::align_val_t a) {
   return counted(size, static_cast<std::size_t>(a));
 }
-// What the library's algorithms take for their buffers.
+// Buffers that the library's algorithms allocate.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size);
@@ -89,7 +89,7 @@ TEST(Loop, AllocatesNothing) {
   EXPECT_EQ(modes & (1 << static_cast<int>(Mode::contact)), 1 << static_cast<int>(Mode::contact));
 }
 
-// Nor does asking a tracker in a thread of its own, nor that thread.
+// A query of a tracker in its own thread allocates nothing, nor does that thread.
 TEST(Loop, ATrackerInAThreadAllocatesNothing) {
   class Still final : public PoseTracker {
     bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {

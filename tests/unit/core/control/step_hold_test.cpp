@@ -1,4 +1,4 @@
-// step() driven by hand: each reason to hold, and the way out of it.
+// step() driven by hand: each reason to hold, and the end of each hold.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -30,7 +30,7 @@ void hold_tool(Inputs& in, const Loop& loop) {
   in.grip = {{GripPhase::closed, 0.006, 100.0, true}, loop.now(), Health::ok};
 }
 
-// Calls spoil for one tick and expects hold with all of `why`; the next good tick must go on as before.
+// Call `spoil` for one tick and expect hold with all of `why`; the next good tick must continue as before.
 void expect_hold(Loop& loop, std::uint32_t why, const std::string& name,
                  const std::function<void(Inputs&)>& spoil) {
   const Mode before = loop.out.mode;
@@ -48,7 +48,7 @@ void expect_hold(Loop& loop, std::uint32_t why, const std::string& name,
   EXPECT_EQ(loop.out.mode, before) << name << " did not recover: " << why_text(loop.out.why);
 }
 
-// The n-th leaf of Inputs that is a double is set; false when there are no more.
+// Sets the n-th double among the leaves of Inputs; false if there are no more.
 struct SetLeaf {
   int wanted;
   double value;
@@ -69,7 +69,7 @@ TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
   loop.spoil = [&](Inputs& in) {
     draw(in, loop);
     hold_tool(in, loop);
-    in.tool.value.along = in.tool.value.across = 0.1e-3;  // a tracker that tells none says nothing wrong
+    in.tool.value.along = in.tool.value.across = 0.1e-3;  // a tracker that reports no noise is valid
   };
   to_contact(loop);
   int leaves = 0;
@@ -107,7 +107,7 @@ TEST(Hold, WhenTheGripperLosesItsToolOrSaysNothing) {
   to_contact(loop);
   const auto expect = [&](const std::function<void(Stamped<GripSample>&)>& spoil, const char* name) {
     expect_hold(loop, kToolNotHeld, name, [&](Inputs& in) { spoil(in.grip); });
-    EXPECT_TRUE(loop.out.grip.closed) << name;  // in hold, too: to let go would drop the tool
+    EXPECT_TRUE(loop.out.grip.closed) << name;  // also in hold: an open gripper would drop the tool
   };
   expect([](auto& s) { s.value.holding = false; }, "empty");
   expect([](auto& s) { s.health = Health::fault; }, "fault");
@@ -131,7 +131,7 @@ TEST(Hold, ForIndicesAndStampsThatCannotBe) {
   expect_hold(loop, kForceInvalid, "force from the future", [&](Inputs& in) { in.wrench.t = future; });
   expect_hold(loop, kTipInvalid, "tip from the future", [&](Inputs& in) { in.tip.t = future; });
   expect_hold(loop, kDentWrong, "dent from the future", [&](Inputs& in) { in.dent.t = future; });
-  // Stamps as old as a stamp can be: lost, without overflow (UBSan looks on).
+  // Stamps as old as a stamp can be count as lost, without overflow (UBSan checks).
   const Time oldest = Time::min();
   expect_hold(loop, kForceLost, "oldest force", [&](Inputs& in) { in.wrench.t = oldest; });
   expect_hold(loop, kTipLost, "oldest tip", [&](Inputs& in) { in.tip.t = oldest; });
@@ -232,7 +232,7 @@ TEST(Hold, TipOutsideTheSeenSurface) {
   Loop loop = make(with_display());
   loop.spoil = [&](Inputs& in) { draw(in, loop); };
   to_contact(loop);
-  // The eye is shown a dent of 5 mm where the hand is at 2 mm: margin 0.8 mm + 20 ms * 50 mm/s = 1.8 mm < 3
+  // The display shows a dent of 5 mm while the hand is at 2 mm: margin 0.8 mm + 20 ms * 50 mm/s = 1.8 mm < 3
   // mm.
   const Object& ball = loop.scene.objects[0];
   expect_hold(loop, kOutsideDent, "dent of 5 mm", [&](Inputs& in) {

@@ -1,4 +1,4 @@
-// step() driven by hand: each mode and each change between them, which object it is about, forces, the state.
+// step() driven by hand: each mode and each change of mode, the object in question, forces, the state.
 #include "core/control/step.h"
 
 #include <random>
@@ -72,7 +72,7 @@ TEST(Contact, BeginsByGapAtTheNearestPoint) {
 TEST(Contact, BeginsByForceWhereTheTrackerSaysThereIsNone) {
   Loop loop = make(test::ball_scene());
   wait_under(loop, 0.003);
-  // The tracker errs by +0.3 mm: the tool touches while the gap says 0.3 mm.
+  // The tracker errs by +0.3 mm: the tool touches while the measured gap is 0.3 mm.
   loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + 0.3e-3);
   loop.tick(10);
   EXPECT_EQ(loop.out.mode, Mode::follow);
@@ -115,7 +115,7 @@ TEST(Contact, IsOneForEachPressUnderNoiseAndBias) {
         // True tool tip: 10 mm above the surface, down to 2 mm below within 1 s, stays 1 s, goes back.
         const double down = i < 1000 ? i / 1000.0 : i < 2000 ? 1.0 : 1.0 - (i - 2000) / 1000.0;
         const double z = kTop + kToolRadius + 0.010 - 0.012 * down;
-        // The hand is a spring of 700 N/m against the tip that is where it is; only what touches presses.
+        // The hand is a spring of 700 N/m against the real tip; it presses only while it touches.
         const double overlap = loop.tip().xyz[2] + kTipRadius + kToolRadius - z;
         loop.force = Vec<'W'>(0, 0, overlap > 0 ? -700.0 * overlap : 0.0) +
                      0.0125 * Vec<'W'>(normal(random), normal(random), normal(random));
@@ -135,8 +135,8 @@ TEST(Restore, GoesBackToTheBufferedPoint) {
   wait_under(loop, 0.001);
   loop.tool_tip = Point<'W'>(0.003, 0, kTop + kToolRadius - 0.0005);
   loop.force = Vec<'W'>(0, 0, -4.05);
-  loop.tick(2000);  // the tip was still elsewhere when the gap closed: the anchor has moved to where force
-                    // was felt, once
+  loop.tick(2000);  // the tip was still elsewhere when the gap closed: the anchor has moved to the place
+                    // of the one felt force
   const Point<'W'> touched = loop.out.first_touch;
   EXPECT_GT((loop.tip() - touched).norm(), 1e-3);
   loop.force = Vec<'W'>::zero();
@@ -167,7 +167,7 @@ TEST(Restore, PressedAgainOnTheWayIsANewContact) {
   if (loop.out.mode != Mode::restore) GTEST_FAIL() << "never restored";
   loop.force = Vec<'W'>(0, 0, -10.0);
   for (int i = 0; i < 50 && loop.out.mode == Mode::restore; ++i) loop.tick();
-  // Either it was back already, and follow began the contact, or restore did: there are two now.
+  // Either the tip was back already and follow began the contact, or restore did: there are two contacts now.
   loop.tick(5);
   EXPECT_EQ(loop.out.mode, Mode::contact);
   EXPECT_EQ(loop.out.contacts, 2);
@@ -195,7 +195,7 @@ TEST(Contact, EndsWhereTheToolIsFarAwayWhateverTheForceSays) {
   loop.force = Vec<'W'>(0, 0, -2.0);
   loop.tick(1000);
   ASSERT_EQ(loop.out.mode, Mode::contact);
-  // The sensor's zero has moved by 0.3 N meanwhile; no tracker errs by 80 mm.
+  // The sensor's zero has moved by 0.3 N meanwhile; a tracker does not err by 80 mm.
   loop.force = Vec<'W'>(0, 0, -0.3);
   loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + 0.080);
   loop.tick(5000);
@@ -209,7 +209,7 @@ TEST(Contact, SlidingOffTheTipEndsItWithoutAGap) {
   loop.force = Vec<'W'>(0, 0, -2.0);
   loop.tick(1000);
   ASSERT_EQ(loop.out.mode, Mode::contact);
-  // 10 mm aside, more than both radii (7 mm), below the undeformed surface, and nothing presses.
+  // 10 mm aside, which is more than both radii (7 mm), below the undeformed surface, and without a press.
   const double a = 10.0 / 33.0;
   loop.tool_tip = Point<'W'>(0.0335 * std::sin(a), 0, kTop - kBallRadius + 0.0335 * std::cos(a));
   loop.force = Vec<'W'>::zero();
@@ -217,8 +217,8 @@ TEST(Contact, SlidingOffTheTipEndsItWithoutAGap) {
   EXPECT_NE(loop.out.mode, Mode::contact);
 }
 
-// 0.1 to 20.0 mm, written as a scene does, of responses that end there or go on to 6 or 20 mm: a press that
-// is held at the limit says so, and its deflection is the limit to the bit.
+// 0.1 to 20.0 mm, written as in a scene, for responses that end there or go on to 6 or 20 mm. A press held at
+// the limit reports it, and its deflection equals the limit to the bit.
 TEST(Contact, EveryLimitIsReached) {
   Scene scene = prepare(test::ball_scene(), test::exact_rig());
   Object& object = scene.objects[0];
@@ -285,7 +285,8 @@ TEST(Objects, TheNearerOneTakesOverWithHysteresis) {
   std::int32_t last = -1;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> noise(-0.4e-3, 0.4e-3);
-  // Along x through the middle with +-0.4 mm of noise: distances differ by less than the hysteresis of 1 mm.
+  // Along x through the middle with +-0.4 mm of noise: the distances differ by less than the hysteresis of 1
+  // mm.
   for (int i = -400; i <= 400; ++i) {
     loop.tool_tip = Point<'W'>(1e-4 * i + noise(random), 0, 0.05);
     loop.tick();
@@ -307,13 +308,13 @@ TEST(Objects, AContactIsNotTakenAwayByANeighbour) {
   loop.force = Vec<'W'>(Vec3(-2.0 * n));
   loop.tick(100);
   ASSERT_EQ(loop.out.mode, Mode::contact);
-  loop.tool_tip = Point<'W'>(0.035, 0, 0.04);  // the tracker jumps to the other ball, the force stays
+  loop.tool_tip = Point<'W'>(0.035, 0, 0.04);  // the tracker jumps to the second ball, the force stays
   loop.tick(20);
   EXPECT_EQ(loop.out.object, 0);
   EXPECT_EQ(loop.out.mode, Mode::contact);
 }
 
-// step() driven by hand: what is felt, and what a force moves.
+// step() driven by hand: the measured force and the motion that a force causes.
 
 TEST(Force, ZeroErrorAndWeightAreTaredAway) {
   Loop loop = make(test::ball_scene());
@@ -338,7 +339,7 @@ void oblique(Tangential tangential) {
   loop.force_zero = Vec<'F'>(0.7, -0.4, 1.3);
   loop.tool_tip = Point<'W'>(0.006, 0.004, 0.030);
   loop.tick(1500);
-  // Touch there, where the normal is oblique in W as well.
+  // Touch at a place with a normal that is oblique in W as well.
   const Vec3 centre(0, 0, kTop - kBallRadius);
   const Vec3 n = (loop.tool_tip.e() - centre).normalized();
   loop.tool_tip = Point<'W'>(Vec3(centre + (kBallRadius + kToolRadius - 1e-4) * n));
@@ -362,7 +363,7 @@ TEST(Force, InertiaOfWhatMovesIsNoContact) {
   wait_under(loop, 0.020);
   double felt = 0.0;
   for (int i = 0; i < 3000;
-       ++i) {  // the tip is driven to and fro at its limits; 0.91 kg * 0.41 m/s^2 = 0.37 N
+       ++i) {  // the tip moves to and fro at its limits; inertia 0.91 kg * 0.41 m/s^2 = 0.37 N
     const double a = i % 1000 < 500 ? 0.4 : -0.4;
     loop.tool_tip = Point<'W'>(0.06 * std::sin(a), 0, kTop - kBallRadius + 0.06 * std::cos(a));
     felt = std::max(felt, loop.tick().force.norm());
@@ -387,7 +388,7 @@ int leaves_of() {
   return count.leaves;
 }
 
-// What other tasks remember is neither there nor hashed.
+// The state holds and hashes only the memory of its own task.
 TEST(State, ATickHashesWhatItsTaskHas) {
   Count shared;
   State state;
@@ -410,7 +411,7 @@ TEST(State, AStateHasTheMemoryOfItsScenesTask) {
   EXPECT_TRUE(recall<CommandState>(loop.state).command.finite()) << "what several tasks share";
 }
 
-// A state goes on in a scene of another task as one that knows nothing of it.
+// A state from another task's scene continues as a new state.
 TEST(State, OfAnotherTaskBeginsAnew) {
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
   loop.tick(500);
@@ -428,7 +429,7 @@ TEST(State, ABallsSceneRemembersItsPart) {
       "State %zu bytes; of a scene that renders %zu, meets %zu, pushes %zu, probes %zu, travels %zu\n",
       sizeof(State), remembered<AdmittanceTask>(), remembered<ImpedanceTask>(),
       remembered<DynamicObjectTask>(), remembered<IndentationTask>(), remembered<TrackingTask>());
-  EXPECT_LT(remembered<AdmittanceTask>(), 1200U);  // 96 of them of its passivity controller
+  EXPECT_LT(remembered<AdmittanceTask>(), 1200U);  // 96 bytes belong to the passivity controller
   EXPECT_GT(sizeof(State), remembered<AdmittanceTask>() + 500U) << "what only other tasks need";
 }
 

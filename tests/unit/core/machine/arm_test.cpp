@@ -15,7 +15,7 @@
 namespace enc {
 namespace {
 
-constexpr double kStall = 0.129, kContinuous = 0.0286;  // of a motor, N m (sources/arm 3)
+constexpr double kStall = 0.129, kContinuous = 0.0286;  // motor torque, N m (sources/arm 3)
 
 // The model 1.5, whose numbers are published (sources/arm 2, sources/arm 3: Cavusoglu's set).
 ArmMachine model_15() {
@@ -39,14 +39,14 @@ ArmMachine model_15() {
   return m;
 }
 
-// What the tip can push with along x, y, z of R at q = 0, N: there each joint moves it along one axis.
+// Tip force along x, y, z of R at q = 0, N: each joint moves the tip along one axis there.
 Vec3 push(const Arm& arm, double motor_torque) {
   PerJoint torque;
   for (std::size_t i = 0; i < 3; ++i) torque[i] = motor_torque * arm.machine().drives[i].ratio;
   return arm.force(arm.jacobian({}), torque).e();
 }
 
-// What the tip weighs there, kg.
+// Effective mass of the tip there, kg.
 Vec3 tip_mass(const Arm& arm) {
   const Mat3 J = arm.jacobian({});
   return (J * arm.mass({}, 0.0).inverse() * J.transpose()).inverse().diagonal();
@@ -61,7 +61,7 @@ TEST(Phantom, AtZeroTheForearmHangsFromTheLevelUpperArm) {
   EXPECT_DOUBLE_EQ(home.z(), -0.1130);
   // Turret a quarter to the left, upper arm straight up, forearm level: r = l2, z = l1.
   EXPECT_LT((arm.tip({M_PI / 2, M_PI / 2, M_PI / 2}).e() - Vec3(0, 0.1130, 0.1397)).norm(), 1e-15);
-  // At zero q1 moves the tip to the left, q2 up, q3 forwards.
+  // At q = 0 q1 moves the tip to the left, q2 up, q3 forwards.
   const Mat3 J = arm.jacobian({});
   EXPECT_LT((J - (Mat3() << 0, 0, 0.1130, 0.1397, 0, 0, 0, 0.1397, 0).finished()).norm(), 1e-15);
 }
@@ -82,7 +82,7 @@ TEST(Phantom, WeighsAtItsTipWhatIsPrinted) {
   EXPECT_LT((published.mass({}, 0.0).diagonal() - printed).cwiseAbs().maxCoeff(), 0.005e-3);
   // y is 3.76e-3, rounded, over l1^2 there.
   EXPECT_LT((tip_mass(published) - Vec3(0.0367, 0.0813, 0.0553)).cwiseAbs().maxCoeff(), 0.0001);
-  // A prop at the tip weighs there what it weighs.
+  // A prop at the tip adds exactly its own mass there.
   const Mat3 J = published.jacobian({});
   const Vec3 laden = (J * published.mass({}, 0.020).inverse() * J.transpose()).inverse().diagonal();
   EXPECT_LT((laden - tip_mass(published) - Vec3::Constant(0.020)).norm(), 1e-12);
@@ -166,7 +166,7 @@ TEST(Phantom, RefusesWhatItCannotReach) {
   for (const double joint : q) EXPECT_NEAR(joint, 0.0, 1e-14);
 }
 
-// A column along z and a stage along x on it: what a two-axis machine is.
+// A column along z with a stage along x on it, as in a two-axis machine.
 ArmMachine stage() {
   ArmMachine m;
   m.kind = ArmKind::chain;
@@ -192,14 +192,14 @@ TEST(Chain, TwoSlidesAreAStage) {
   EXPECT_NEAR(M(0, 0), 0.81, 1e-12);
   EXPECT_NEAR(M(1, 1), 0.34, 1e-12);
   EXPECT_NEAR(M(0, 1), 0.0, 1e-12);
-  // Sideways it can neither push nor be pushed.
+  // The machine can neither push nor be pushed sideways.
   const PerJoint torque = arm.torque(arm.jacobian({}), Vec<'R'>(3, 7, 5));
   EXPECT_LT((arm.force(arm.jacobian({}), torque).e() - Vec3(3, 0, 5)).norm(), 1e-12);
   PerJoint q{};
   ASSERT_TRUE(arm.inverse(Point<'R'>(0.15, 0.05, 0.21), q));
   EXPECT_NEAR(q[0], 0.01, 1e-8);
   EXPECT_NEAR(q[1], 0.02, 1e-8);
-  ASSERT_TRUE(arm.inverse(Point<'R'>(0.15, 0.06, 0.21), q));  // beside its plane: the nearest in it
+  ASSERT_TRUE(arm.inverse(Point<'R'>(0.15, 0.06, 0.21), q));  // beside its plane: the nearest point in it
   EXPECT_NEAR(q[0], 0.01, 1e-8);
   EXPECT_NEAR(q[1], 0.02, 1e-8);
   EXPECT_FALSE(arm.inverse(Point<'R'>(0.30, 0.05, 0.21), q));  // beyond its limit
@@ -238,7 +238,7 @@ TEST(Arm, RefusesWhatCannotBe) {
   refused([](ArmMachine& m) { m = {}, m.phantom.l1 = kUnset; });
 }
 
-// The shape of an arm against its kinematics: it ends where the tip is, and its links join.
+// The shape of an arm against its kinematics: it ends at the tip, and its links join.
 
 const Pose<'W', 'R'> kBase(Quat(Eigen::AngleAxisd(0.4, Vec3(0.2, -0.5, 1.0).normalized())),
                            Vec3(0.1, -0.2, 0.3));
@@ -248,7 +248,7 @@ Vec3 end_of(const ArmPart& part, double end) {
   return part.middle.e() + end * part.half.z() * part.axes.col(2);
 }
 
-// Whether a rod of that radius has an end there.
+// Return true if a rod of that radius has an end there.
 bool ends_at(const std::vector<ArmPart>& parts, const Point<'W'>& at, double radius) {
   for (const ArmPart& part : parts)
     for (const double end : {-1.0, 1.0})
@@ -265,7 +265,7 @@ TEST(ArmShape, APhantomsForearmEndsAtTheTipAndBeginsAtTheElbow) {
     const Vec3 elbow = g.l1 * (std::cos(q[1]) * ahead + std::sin(q[1]) * Vec3::UnitZ());
     const Vec3 fore = std::sin(q[2]) * ahead - std::cos(q[2]) * Vec3::UnitZ();
     EXPECT_TRUE(ends_at(parts, kBase * arm.tip(q), 0.0045));                    // forearm
-    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(elbow), 0.0045));             // likewise
+    EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(elbow), 0.0045));             // forearm, at the elbow
     EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(elbow), 0.0055));             // upper arm
     EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(Vec3(g.l3 * fore)), 0.005));  // crank
     EXPECT_TRUE(ends_at(parts, kBase * Point<'R'>(Vec3(g.l3 * fore)), 0.003));  // link of the parallelogram,
@@ -323,9 +323,9 @@ TEST(LoopModel, AgreesWithRouthByHand) {
   EXPECT_NEAR(lowest_stable_stiffness(loop), 100.0, 1e-6);
 }
 
-// The same with a damper b: k_h w^3 becomes (b s + k_h) w^3. With B = b w / k, K = k_h / k:
-//   s^3 + 2 w s^2 + (2 + B) w^2 s + (1 + K) w^3 = 0, stable for 2 (2 + B) > 1 + K  <=>  3 k > k_h - 2 b w.
-// k_h = 300 N/m, b = 1 N s/m, w = 30 rad/s: k > (300 - 60) / 3 = 80 N/m.
+// Hand with a damper b: k_h w^3 becomes (b s + k_h) w^3. With B = b w / k, K = k_h / k: s^3 + 2 w s^2 + (2 +
+// B) w^2 s + (1 + K) w^3 = 0, stable for 2 (2 + B) > 1 + K  <=>  3 k > k_h - 2 b w. k_h = 300 N/m, b = 1 N
+// s/m, w = 30 rad/s: k > (300 - 60) / 3 = 80 N/m.
 TEST(LoopModel, HandDampingHelpsAsByHand) {
   constexpr double kHz = 30.0 / (2.0 * 3.14159265358979323846);
   const LoopModel loop{.hand_stiffness = 300.0,
@@ -337,7 +337,7 @@ TEST(LoopModel, HandDampingHelpsAsByHand) {
   EXPECT_NEAR(lowest_stable_stiffness(loop), 80.0, 1e-6);
 }
 
-// Without a damper and without mass the characteristic equation holds k_h / k only.
+// Without a damper and without mass the characteristic equation contains only k_h / k.
 TEST(LoopModel, ScalesWithAPureSpringHand) {
   LoopModel loop{.hand_stiffness = 130.0, .hand_damping = 0.0};
   const double once = lowest_stable_stiffness(loop);
@@ -360,7 +360,7 @@ TEST(LoopModel, GivesTheLinearBoundaryOfTheFidelityBaseline) {
   EXPECT_NEAR(lowest_stable_stiffness(loop), 22.0, 0.5);
 }
 
-// Without delay the grip's damper (4 N s/m) keeps the loop stable at every stiffness; with delay it cannot.
+// Without delay the grip's damper (4 N s/m) keeps the loop stable at every stiffness; delay ends that.
 TEST(LoopModel, MoreDelayNeedsAStifferObject) {
   LoopModel loop{.delay = 0.0};
   double before = lowest_stable_stiffness(loop);

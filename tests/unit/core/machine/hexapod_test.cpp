@@ -1,4 +1,4 @@
-// The geometry of sources/hexapod 2, against the numbers printed there; and what the machine cannot carry.
+// The geometry of sources/hexapod 2, against the numbers printed there; and the load limit of the machine.
 #include "core/machine/hexapod.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ HexapodGeometry published() {
   return g;
 }
 
-// H as the platform is moved by `shift` and turned by `turn` about the catalogue's pivot, 30 mm above the
+// H for a platform that is moved by `shift` and turned by `turn` about the catalogue's pivot, 30 mm above the
 // platform joints.
 Pose<'R', 'H'> about_pivot(const Vec3& shift, const Quat& turn = Quat::Identity()) {
   return {turn, Vec3(Vec3(0, 0, 0.180) + shift + turn * Vec3(0, 0, 0.160))};
@@ -184,7 +184,7 @@ TEST(Hexapod, OwnGeometryReachesEveryCatalogueTravel) {
   }
 }
 
-// What the machine cannot carry is not rendered, and a hand that pushes harder finds it standing still.
+// The machine does not render a load beyond its limit: it stands still under a harder push.
 
 RigSpec weak(double payload) {
   RigSpec rig;

@@ -1,4 +1,4 @@
-// What the motors of an arm give, against the simulated ones.
+// The force that the motors of an arm can give, against the simulated motors.
 #include "core/machine/motors.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Pose3 {
   Vec<'R'> way;
 };
 
-// Seeded poses that the arm works in, and ways to be pushed.
+// Seeded poses of the arm's workspace, and directions of push.
 Pose3 drawn(std::mt19937_64& random, const Arm& arm) {
   const auto in = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -36,7 +36,7 @@ Pose3 drawn(std::mt19937_64& random, const Arm& arm) {
   }
 }
 
-// The plant, thermal alone: the joints are held where they are.
+// The plant, thermal alone: the joints are held in place.
 bool clips(const Arm& arm, const Pose3& pose, double force, double tick, int ticks) {
   sim::ArmTruth truth;
   truth.velocity_window = tick;
@@ -77,7 +77,7 @@ TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
   }
 }
 
-// Until it gives less than is asked, tick by tick, and not until it is warm.
+// Tick by tick, the motor gives the full force until it is warm and less afterwards.
 TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
   const Thermal thermal;
   constexpr double kPeak = 4.5, kStep = 0.01;
@@ -105,7 +105,7 @@ TEST(Motors, PressesWithTooLittleRestGiveWayInALaterOne) {
   EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 0.1, 1}), 0);
   EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 0.1, 4}), 2);
   EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 100.0, 2}), 0);
-  // For ever is for ever.
+  // A load that the motor holds continuously gives infinity.
   EXPECT_TRUE(std::isinf(motors.holds_for(arm, q, {}, up, 0.999 * motors.strength(arm, q, {}, up).lasting)));
 }
 

@@ -1,4 +1,4 @@
-// The record: what is written is read, whatever is damaged is named, and a replay gives the same bits.
+// The record: a reader reads what a writer wrote and names any damage, and a replay gives the same bits.
 #include "core/record/record.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class RecordTest : public ::testing::Test {
   static void write_bytes(const std::string& path, std::string_view bytes) {
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  // Where the header, each chunk, what is said at the end, and the seal begin.
+  // Offsets of the header, each chunk, the end texts and the seal.
   static std::vector<std::size_t> parts_of(const std::string& record) {
     const auto word = [&](std::size_t byte) {
       std::uint64_t value = 0;
@@ -82,7 +82,7 @@ std::vector<std::uint64_t> leaves_of(T value) {
 
 TEST_F(RecordTest, GivesBackEveryLeaf) {
   const std::string path = file("all");
-  // Each leaf another value; the first tick has them all unset (NaN), the third has what a double can do.
+  // Each leaf has another value; the first tick has them all unset (NaN), the third has extreme doubles.
   RecordedTick set;
   std::uint64_t n = 0;
   auto number = [&](std::string_view, auto& x) {
@@ -176,7 +176,7 @@ TEST_F(RecordTest, EveryFlippedByteIsFound) {
   ASSERT_GE(parts.size(), 4U);
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < all.size(); i += 997) places.push_back(i);
-  for (const std::size_t border : parts)  // of a part: its head and the checksum before it, byte by byte
+  for (const std::size_t border : parts)  // each part: its head and the checksum before it, byte by byte
     for (std::size_t i = border - std::min<std::size_t>(border, 24); i < border + 24; ++i)
       if (i < all.size()) places.push_back(i);
   for (const std::size_t i : places) {
@@ -186,13 +186,13 @@ TEST_F(RecordTest, EveryFlippedByteIsFound) {
     const std::string said = refusal(file("bad"));
     const std::size_t at = said.find(": byte ");
     ASSERT_NE(at, std::string::npos) << "byte " << i << " was changed unnoticed";
-    // The part that was changed is named, not a later one whose sum is wrong, too.
+    // The error names the changed part, not a later one whose checksum is also wrong.
     const std::size_t part = *(std::upper_bound(parts.begin(), parts.end(), i) - 1);
     if (part != 0) {
       EXPECT_EQ(std::stoul(said.substr(at + 7)), part) << "byte " << i << ": " << said;
     }
   }
-  // And what the line says: magic, format, a tick, behind the end.
+  // The error line states the damage: magic, format, a tick, bytes behind the end.
   const auto with = [&](std::size_t i, char c) {
     std::string bad = all;
     bad[i] = c;
@@ -219,7 +219,7 @@ TEST_F(RecordTest, SaysAtItsEndWhatWasKnownThen) {
     EXPECT_EQ(read, 600);
     EXPECT_EQ(reader.end_texts(), said);
   }
-  // Of a run that did not end nobody said anything.
+  // A run that did not end has no end texts.
   const std::string all = bytes_of(file("whole"));
   const std::vector<std::size_t> parts = parts_of(all);
   const std::size_t texts = parts[parts.size() - 2], seal = parts.back();
@@ -227,13 +227,13 @@ TEST_F(RecordTest, SaysAtItsEndWhatWasKnownThen) {
   RecordReader part(file("cut"), Partial::yes);
   EXPECT_EQ(part.ticks(), 600);
   EXPECT_TRUE(part.end_texts().empty());
-  // It is said once, and last.
+  // The end texts appear once, and last.
   const std::string_view whole(all);
   write_bytes(file("twice"), std::string(whole.substr(0, seal)) + std::string(whole.substr(texts)));
   EXPECT_NE(refusal(file("twice")).find("neither a chunk nor the seal"), std::string::npos);
 }
 
-// As it was before anything was said at the end: format 1, with sums of its own.
+// Format 1, before there were end texts: with its own checksums.
 std::string of_format_1(const std::string& record, const std::vector<std::size_t>& parts) {
   std::vector<std::uint64_t> words(record.size() / 8);
   std::memcpy(words.data(), record.data(), record.size());
@@ -334,7 +334,7 @@ TEST_F(RecordTest, AReplayGivesTheSameBits) {
   for (reader.rewind(); reader.next(last);) {
   }
   EXPECT_EQ(result.hash, last.hash);
-  EXPECT_GT(last.out.contacts, 0);  // it was a run with something in it
+  EXPECT_GT(last.out.contacts, 0);  // the run was not empty
 }
 
 TEST_F(RecordTest, AChangedInputIsFoundAndNamed) {
@@ -389,8 +389,8 @@ TEST(LayoutHash, IsTheSameEveryTimeAndAnotherForEachTask) {
   EXPECT_EQ(all.size(), std::variant_size_v<Tasks::Any>);
 }
 
-// A record is a file that anybody may have written: each number of it is within the range that its reader
-// states, or the file is refused with the byte.
+// Anybody may have written a record: each number is within the range that its reader states, or the reader
+// refuses the file and names the byte.
 
 using Spoil = std::function<void(RecordedTick&)>;
 
@@ -409,7 +409,7 @@ class RecordRanges : public ::testing::Test {
     record.close();
     return path;
   }
-  // What its reader says of it, or nothing.
+  // The reader's message, or an empty text.
   [[nodiscard]] std::string refusal(const Spoil& spoil) const { return enc::refusal(written(spoil)); }
   test::TemporaryFolder folder_;
 };
@@ -461,7 +461,7 @@ TEST_F(RecordRanges, WhatIsWithinThemIsRead) {
             "");
 }
 
-// What stands before it is whole.
+// The part before it is complete.
 TEST_F(RecordRanges, APartialRecordEndsBeforeTheChunkAndSaysWhy) {
   RecordReader reader(written([](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); }), Partial::yes);
   EXPECT_THAT(reader.damage(), HasSubstr("'mode' of a tick is 200"));
@@ -473,13 +473,13 @@ TEST_F(RecordRanges, APartialRecordEndsBeforeTheChunkAndSaysWhy) {
   EXPECT_EQ(ticks, reader.ticks());
 }
 
-// A record whose chunks another thread puts into the file: the same bytes, and never a gap.
+// A record whose chunks another thread writes into the file: identical bytes, and never a gap.
 
 void write_tick(RecordWriter& record, std::int64_t i) {
   record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, static_cast<std::uint64_t>(i));
 }
 
-// Another puts it into the file, or nobody does until the end: the bytes are the same.
+// Another thread drains the chunks, or they stay until the end: the bytes are the same.
 TEST(RecordChunks, WhoeverDrainsTheBytesAreTheSame) {
   const test::TemporaryFolder folder;
   const std::uint64_t layout = layout_hash(Scene());
@@ -501,7 +501,8 @@ TEST(RecordChunks, WhoeverDrainsTheBytesAreTheSame) {
   }
 }
 
-// Nobody drains: it ends when all chunks are whole, says so, and the file has all that it took.
+// No thread drains: the record ends when all chunks are full and reports it, and the file has all ticks so
+// far.
 TEST(RecordChunks, ADiskThatDoesNotKeepUpEndsTheRecordAndLeavesNoGap) {
   const test::TemporaryFolder folder;
   constexpr std::int64_t kChunks = 3;

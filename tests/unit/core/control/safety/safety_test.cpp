@@ -1,5 +1,5 @@
-// The energy that a law gives out, by hand: what is observed, left and given. And machines that do not
-// follow.
+// The energy that a law gives out, worked by hand: observed, remaining and delivered energy. Also machines
+// that do not follow.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,7 +20,7 @@ namespace {
 
 using test::Loop;
 
-// Of what may be given out: g = 1 mm/N, so a kilogram in sqrt(2e-3) s.
+// The law may give out g = 1 mm/N, so it moves a kilogram in sqrt(2e-3) s.
 constexpr double kG = 1e-3;
 
 Passivity with(double left, double moved = 0.0) {
@@ -41,7 +41,7 @@ TEST(Passivity, AHeldPushDoesItsWork) {
   EXPECT_DOUBLE_EQ(now.stored, 4e-3);
   EXPECT_DOUBLE_EQ(now.left, 2e-3);
   hold(now, 3.0, 5.0);
-  observe(now, {0.5e-3, 0.5e-3, 4.0}, 0.0);  // back by half: 1.5 mJ out, 1 mJ less than was asked for
+  observe(now, {0.5e-3, 0.5e-3, 4.0}, 0.0);  // back by half: 1.5 mJ out, 1 mJ less than requested
   EXPECT_DOUBLE_EQ(now.given, -0.5e-3);
   EXPECT_DOUBLE_EQ(now.left, 0.5e-3);
   EXPECT_DOUBLE_EQ(now.stored, 1e-3);
@@ -49,7 +49,8 @@ TEST(Passivity, AHeldPushDoesItsWork) {
   EXPECT_DOUBLE_EQ(now.most, 2.0);
 }
 
-// A long press puts much into the law's damper. That does not come back, and hides nothing.
+// A long press puts much energy into the law's damper. That energy does not come back, and must not hide a
+// deficit.
 TEST(Passivity, WhatADamperTookIsNotLeft) {
   Passivity now;
   begin(now, {0.0, 0.0, 0.0}, 0.0);
@@ -75,7 +76,8 @@ TEST(Passivity, NoMoreIsGivenThanIsLeftAfterThePeriod) {
   EXPECT_DOUBLE_EQ(given(2e-3, -1e-3, -9.0), -1.0) << "a pull likewise";
 }
 
-// A push is lessened, never turned round: the person would be pulled where the law pushes.
+// The controller reduces a push but never reverses it: a reversed push would pull the person towards the
+// object.
 TEST(Passivity, WhatIsOwedIsNotGivenAgain) {
   EXPECT_DOUBLE_EQ(given(-0.75e-3, 2e-3, 9.0), 0.0);
   EXPECT_DOUBLE_EQ(given(-1.0, 2e-3, 9.0), 0.0);
@@ -100,8 +102,8 @@ TEST(Passivity, NoMoreIsKeptThanTheSpringHolds) {
   EXPECT_DOUBLE_EQ(now.left, -5e-3) << "what is owed stays";
 }
 
-// An encoder that counts by 1 mm: it is half a count farther in, for all that is known, and a reading that
-// turns by one count is no way.
+// An encoder with a count of 1 mm: the true position may be half a count deeper, and a reading that changes
+// by one count is no motion.
 TEST(Passivity, ACountIsNoMotion) {
   constexpr double kCount = 1e-3;
   EXPECT_DOUBLE_EQ(given(0.0, 0.0, 9.0, kCount), 0.5) << "half a count farther in, for all that is known";
@@ -109,7 +111,7 @@ TEST(Passivity, ACountIsNoMotion) {
   EXPECT_DOUBLE_EQ(given(-0.04e-3, 0.0, 9.0, kCount), 0.0) << "but no more";
   Passivity now = with(1e-3);
   for (int i = 0; i < 100; ++i) {
-    const double push = i % 2 == 0 ? 2.0 : 1.0;  // 1 mJ each time, if it were a way
+    const double push = i % 2 == 0 ? 2.0 : 1.0;  // 1 mJ each time, if it were a motion
     hold(now, push, push);
     observe(now, {i % 2 == 0 ? kCount : -kCount, 1.0, 1.0}, kCount);
   }
@@ -142,14 +144,14 @@ TEST(Passivity, OneThatIsOffIsNotRemembered) {
   EXPECT_EQ(leaves, 12);
 }
 
-// A mass of 0.1 kg at 1 kHz, whatever the law asks for. What pushes it besides is not foreseen: only by its
-// work may the energy pass what there was.
+// A mass of 0.1 kg at 1 kHz under any law. The controller cannot foresee other pushes: only their work may
+// take the energy beyond the start.
 TEST(Passivity, AnyLawOnAnyWalkStaysWithinWhatThereWas) {
   constexpr double kPerNewton = 5e-6;
   std::mt19937_64 draw(20);
   std::normal_distribution<double> normal;
   for (int walk = 0; walk < 300; ++walk) {
-    const double pushes = walk % 3 == 0 ? 0.0 : std::exp(normal(draw) - 10.0);  // m, what is not foreseen
+    const double pushes = walk % 3 == 0 ? 0.0 : std::exp(normal(draw) - 10.0);  // m, the unforeseen part
     const double stiffness = std::exp(8.0 + 3.0 * normal(draw)), wild = walk % 2 == 0 ? 0.0 : 8.0;
     double depth = 1e-3, u = 1e-4 * normal(draw), out = 0.0, excused = 0.0, most = 0.0;
     Passivity now;
@@ -172,7 +174,7 @@ TEST(Passivity, AnyLawOnAnyWalkStaysWithinWhatThereWas) {
   }
 }
 
-// Of a machine that is sent to places.
+// A machine that takes positions.
 TEST(Passivity, TheWayOutTakesWhatIsLeft) {
   constexpr double kHand = 700.0;
   const auto out = [](double left, double push, double stiffness) {
@@ -190,7 +192,8 @@ TEST(Passivity, TheWayOutTakesWhatIsLeft) {
   EXPECT_LT(out(1e-3, 3.0, kHand), out(1e-3, 2.9, kHand));
 }
 
-// A machine that does not follow its commands is found out, one that is only slower than the rig says is not.
+// The check detects a machine that does not follow its commands, and accepts one that is only slower than the
+// rig states.
 
 // A servo of second order, x'' = w^2 (c - x) - 2 z w x', `delay` ticks late.
 struct Servo {
@@ -212,7 +215,8 @@ struct Servo {
   }
 };
 
-// s after which a machine is found not to follow an even motion of 50 mm/s over 10 mm; -1: it follows.
+// Time until the check finds that a machine does not follow an even motion of 50 mm/s over 10 mm, s; -1: it
+// follows.
 double found_out(Servo servo) {
   const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004, 1e-3};
   Following state;
@@ -253,7 +257,7 @@ TEST(Following, AMachineAtAnotherScaleIsFoundOut) {
   EXPECT_FALSE(follows_still);
 }
 
-// A machine that stays where it is first heard of, whatever it is told.
+// A machine that stays at its first position, whatever the command.
 std::function<void(Inputs&)> standing(bool withheld) {
   return [withheld, stands = Stamped<TipSample>{}](Inputs& in) mutable {
     if (stands.health == Health::absent) stands = in.tip;
@@ -276,7 +280,7 @@ TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
   EXPECT_NE(loop.out.why & kNotFollowing, 0U) << why_text(loop.out.why);
   EXPECT_LT(farthest, 0.008);
   EXPECT_LT(loop.tip().e().norm(),
-            1e-4);  // the command has come back to it: nothing leaps when it is free again
+            1e-4);  // the command has returned to the machine, so it does not leap when released
   EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
   EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
   loop.spoil = {};
@@ -291,7 +295,7 @@ TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
   EXPECT_NEAR(loop.tip().xyz[0], 0.02, 1e-6);
 }
 
-// No belief of the rig switches it off.
+// No assumption of the rig switches the check off.
 TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
   for (const double hz : {1e-6, 0.01, 1.0}) {
     const ServoModel believed{2.0 * M_PI * hz, 0.8, 0.004, 1e-3};
@@ -306,7 +310,7 @@ TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
   }
 }
 
-// What is withheld cannot be followed.
+// A machine cannot follow a command that is withheld.
 TEST(Following, ADryRunIsNotHeld) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
@@ -327,7 +331,7 @@ TEST(Following, ATwinWithADeadServoEndsInHold) {
   EXPECT_TRUE(run("tennis_ball", {}, 10.0).holds.empty());
 }
 
-// An arm that stays at home, whatever it is told; the finger is at another place of the wall.
+// An arm that stays at home, whatever the command; the finger is at another place of the wall.
 TEST(Following, AnArmThatIsStuckIsFoundOutUnderATouchToo) {
   const std::vector<std::string> exact{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   trial::FingerLoop loop(trial::prepare_setup(test::shipped("wall", exact)));

@@ -1,5 +1,5 @@
-// prepare(): what is made ready, and what is refused before anything moves. Which objects stand still under a
-// hand.
+// prepare(): the parts that it prepares, and the scenes that it refuses before anything moves. The objects
+// that stand still under a hand.
 #include "core/control/scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(Chains, CloseOverTrackerMachineForceAndObjects) {
     EXPECT_LT(chain_residual(spec, turned_rig(), prepare(spec, turned_rig())), 1e-9);
 }
 
-// A frame that is off by a micrometre or turned by a microradian shows, and so do two that are swapped.
+// A frame that is off by a micrometre or turned by a microradian shows up, and so do two swapped frames.
 TEST(Chains, AWrongFrameShows) {
   const SceneSpec spec = test::mesh_scene(test::box(0.06, 0.05, 0.04), -0.012, {0.1, -0.2, 0.3});
   const RigSpec rig = turned_rig();
@@ -110,7 +110,7 @@ TEST(Prepare, RefusesAPressOutOfReach) {
   SceneSpec spec = test::ball_scene();
   spec.user.emplace();
   EXPECT_NO_THROW((void)prepare(spec, {}));
-  spec.user->polar = M_PI;  // from below: 66 mm deeper
+  spec.user->polar = M_PI;  // pressed from below: 66 mm deeper
   expect_refused(spec, "the user presses where the machine does not reach", "user.polar");
 }
 
@@ -132,7 +132,7 @@ TEST(Prepare, RefusesALimitAboveTheResponses) {
   EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.006);
 }
 
-// What a file may not ask for, a scene made in code may not either: it is one rule.
+// A scene made in code obeys the same limits as a file: one rule checks both.
 TEST(Prepare, RefusesTheLimitsThatAFileMayNotHave) {
   const auto refused = [](LimitFault fault, double limit, std::vector<double> limits, double radius = 0.033) {
     SceneSpec spec = test::ball_scene();
@@ -219,7 +219,7 @@ TEST(PressPointOf, IsOnTheSurfaceUnderTheUser) {
   EXPECT_LT((press.normal - Vec<'W'>(0, 1, 0)).norm(), 1e-15);
 }
 
-// Whether an object stands still under a hand, of the loop with its limits.
+// Stability of an object under a hand, from the loop with its limits.
 
 Response limited_spring(double k, double limit) { return {{{k, 0, 0, 0}, {k, 0, 0, 0}, limit}, 0.0}; }
 

@@ -1,5 +1,5 @@
-// Beside an edge, in a corner and in a hollow: the whole tip is inside of the object, on each tick, from each
-// side; and what has no room for it is refused.
+// The whole tip stays inside the object beside an edge, in a corner and in a hollow, on each tick and from
+// each side. prepare() refuses an object without room for it.
 #include <cmath>
 #include <random>
 
@@ -24,10 +24,10 @@ using testing::HasSubstr;
 
 constexpr double kGuard = 50e-6;  // m
 constexpr double kTip = 0.005;    // m
-constexpr double kHigh = -0.022;  // m, of the middle of a cube of 60 mm: its top is 8 mm above W's origin
+constexpr double kHigh = -0.022;  // m, middle of a cube of 60 mm: its top is 8 mm above W's origin
 
-// The tool glides along straight ways over the surface of the object, in and out of it by a little, at 11
-// mm/s and at a hand's pace. No force: the tip is led by the tool alone.
+// The tool glides along straight lines over the object, slightly in and out of it, at 11 mm/s and at a hand's
+// speed. No force: the tool alone leads the tip.
 void glide(Loop& loop, double speed, int ticks, std::uint64_t seed, double reach_xy, double z_low,
            double z_high) {
   std::mt19937_64 random(seed);
@@ -86,7 +86,7 @@ TEST(Edges, TheWholeTipStaysInsideOfAGroove) {
   }
 }
 
-// The straight way from wall to wall leads through the groove: the tip waits inside.
+// The straight line from wall to wall leads through the groove, so the tip waits inside.
 TEST(Edges, WhereTheNearestPointLeapsAcrossAGrooveTheTipWaitsInside) {
   Loop loop = loop_of(test::mesh_scene(test::groove(), -0.01));
   loop.tool_tip = Point<'W'>(0.004, 0, 0.012);
@@ -97,7 +97,7 @@ TEST(Edges, WhereTheNearestPointLeapsAcrossAGrooveTheTipWaitsInside) {
   loop.tick(3000);
   EXPECT_LE(loop.worst_outside, kGuard);
   EXPECT_NE(loop.out.mode, Mode::hold) << why_text(loop.out.why);
-  EXPECT_LT(recall<CommandState>(loop.state).command_velocity.norm(), 1e-4);  // and there it stands
+  EXPECT_LT(recall<CommandState>(loop.state).command_velocity.norm(), 1e-4);  // and it stands there
   loop.tool_tip = Point<'W'>(0.004, 0, 0.012);
   loop.tick(1500);
   EXPECT_NEAR(loop.tip().xyz[0], right, 1e-5);
@@ -110,8 +110,8 @@ TEST(Edges, TheWholeTipStaysInsideOfAHare) {
   }
 }
 
-// Where one plane is near, the place is straight under the surface; beside an edge as near as it may be, and
-// exactly so.
+// Near one plane the place is straight under the surface. Beside an edge it is exactly the nearest possible
+// place.
 TEST(Edges, ThePlaceInsideIsTheNearestOne) {
   const Scene scene = prepare(test::mesh_scene(test::box(0.06, 0.06, 0.06), kHigh), test::exact_rig());
   ObjectHint hint;
@@ -123,7 +123,8 @@ TEST(Edges, ThePlaceInsideIsTheNearestOne) {
     const Vec3 p(unit(random), unit(random), unit(random));
     const Vec3 exact = p.cwiseMin(in).cwiseMax(-in);
     const Vec3 found = inside.nearest_to(Point<'W'>(Vec3(p + Vec3(0, 0, kHigh)))).e() - Vec3(0, 0, kHigh);
-    // From outside beyond an edge the nearest face is not the nearest wall; then it is inside all the same.
+    // For a point outside beyond an edge the nearest face is not the nearest wall. The place found is still
+    // inside.
     EXPECT_LE(found.cwiseAbs().maxCoeff(), in + 1e-6);
     if (p.cwiseAbs().maxCoeff() <= 0.03) {
       EXPECT_LT((found - exact).norm(), 1e-6) << p.transpose();
@@ -151,7 +152,7 @@ class Gliding : public PoseTracker {
   Every frame_{120.0};
 };
 
-// With the lag, the delay and the steps of the simulated machine.
+// The machine has the lag, the delay and the steps of the simulated machine.
 TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
   models::Setup setup = test::shipped("hare");
   ObjectSpec& object = setup.scene.objects[0];
@@ -180,7 +181,7 @@ TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
   EXPECT_TRUE(result.holds.empty()) << why_text(result.holds.front().second);
 }
 
-// A press beside an edge: the buffered point is out of the tip's reach, and restoring ends all the same.
+// A press beside an edge: the tip cannot reach the buffered point, but restoring ends.
 TEST(Edges, APressBesideAnEdgeEnds) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> beside(-0.004, 0.0045);
@@ -214,11 +215,11 @@ TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
   const std::string slab = refusal(test::mesh_scene(test::box(0.06, 0.06, 0.008), 0.004));
   EXPECT_THAT(slab, HasSubstr("object 'mesh' is thinner than the haptic-tip"));
   EXPECT_THAT(slab, HasSubstr("it is 8.0 mm; expected at least 11.0 mm"));
-  EXPECT_THAT(slab, HasSubstr(", 4.0) mm"));  // in the middle of the slab
+  EXPECT_THAT(slab, HasSubstr(", 4.0) mm"));  // the middle of the slab
   const std::string needle = refusal(test::mesh_scene(test::box(0.004, 0.004, 0.06), -0.022));
   EXPECT_THAT(needle, HasSubstr("it is 4.0 mm"));
   EXPECT_EQ(refusal(test::mesh_scene(test::box(0.06, 0.06, 0.012), 0.002)), "");
-  for (const double side : {0.0115, 0.012, 0.016, 0.0165})  // however coarse the mesh
+  for (const double side : {0.0115, 0.012, 0.016, 0.0165})  // for meshes of any coarseness
     EXPECT_EQ(refusal(test::mesh_scene(test::box(side, side, side), 0.0)), "") << side;
   EXPECT_THAT(refusal(test::mesh_scene(test::box(0.0105, 0.03, 0.03), 0.0)), HasSubstr("it is 10.5 mm"));
   SceneSpec ball = test::ball_scene();
@@ -256,9 +257,9 @@ TEST(Room, APartThatIsTooThinIsFound) {
   EXPECT_EQ(room_in(cube.objects[0], room_margin(cube), true).thin, 0.0);  // an edge is not thin
 }
 
-// The last word before a machine that takes positions: whoever is at the edge of the reach comes back.
+// The last check before a machine that takes positions: a tip at the edge of the reach comes back.
 
-// A ball on a floor. The reach is not convex: from much of its edge the straight way to the ball leads out.
+// A ball on a floor. The reach is not convex: from much of its edge the straight line to the ball leads out.
 Loop ball_on_a_floor() {
   SceneSpec scene = test::ball_scene();
   scene.objects.front().radius = 0.012;
@@ -279,7 +280,7 @@ TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
     loop.tool_tip = Point<'W'>(0, 0, 0.05);
     loop.tick(500);
     const Point<'W'> aside(r * std::cos(a), r * std::sin(a), high(random));
-    for (int i = 1; i <= 500; ++i) {  // slower than what is taken for a leap
+    for (int i = 1; i <= 500; ++i) {  // slower than a motion that counts as a leap
       loop.tool_tip = Point<'W'>(0, 0, 0.05) + (i / 500.0) * (aside - Point<'W'>(0, 0, 0.05));
       loop.tick();
     }
@@ -299,8 +300,8 @@ TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
   }
 }
 
-// At the machine's greatest speed rounding is no reason to brake: the tip goes on evenly, whichever way the
-// target goes.
+// At the machine's greatest speed rounding must not brake the tip: it moves evenly in every direction of the
+// target.
 TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> turn(0.0, 2.0 * M_PI), up(-0.2, 0.4);
@@ -331,9 +332,9 @@ TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
   EXPECT_GT(seen, 1000);
 }
 
-// A tip that comes to the edge of the machine's reach inside of an object goes on along that edge.
+// A tip at the edge of the machine's reach, inside an object, goes on along that edge.
 
-// Seed 24 of the session: the way to the tool leads through the ball, down to the shortest legs.
+// Seed 24 of the session: the line to the tool leads through the ball, down to the shortest legs.
 TEST(EdgeOfReach, IsLeftInsideOfAnObject) {
   TrialOptions options{.seed = 24, .seconds = 64.4};
   Trial trial(test::shipped("session"), options);

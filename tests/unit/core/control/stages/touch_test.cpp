@@ -1,5 +1,4 @@
-// Which surface point is under the tool: objects, meshes, where the search begins, jumps; and a change of
-// tool.
+// The surface point under the tool: objects, meshes, the start of the search, jumps; and a change of tool.
 #include <cmath>
 #include <memory>
 
@@ -36,7 +35,7 @@ SceneSpec balls(int count) {
 
 Loop loop_over(const SceneSpec& spec) { return Loop(prepare(spec, RigSpec{})); }
 
-// A path over all objects, with presses between.
+// A path over all objects, with presses in between.
 Point<'W'> along(int k) {
   const double t = 1e-3 * k;
   return {0.1 * std::sin(0.9 * t), 0.02 * std::sin(2.3 * t), 0.020 + 0.015 * std::cos(3.1 * t)};
@@ -48,7 +47,7 @@ TEST(Touch, WhereTheSearchBeginsChangesNothing) {
   for (int k = 0; k < 4000; ++k) {
     warm.tool_tip = cold.tool_tip = along(k);
     cold.state.hints = Hints{};
-    if (k % 3 == 0) cold.state.hints.tool[0] = {2, 100 + k % 500};  // or begins somewhere else
+    if (k % 3 == 0) cold.state.hints.tool[0] = {2, 100 + k % 500};  // or the search begins somewhere else
     warm.tick();
     cold.tick();
     ASSERT_EQ(warm.out.gap, cold.out.gap) << k;
@@ -58,7 +57,7 @@ TEST(Touch, WhereTheSearchBeginsChangesNothing) {
   EXPECT_GE(warm.state.hints.tool[0].feature, 0);
 }
 
-// All objects are asked, and the nearest is taken: the same as asking each by hand.
+// The search takes the nearest of all objects: the result equals a query of each by hand.
 TEST(Touch, ObjectsThatAreNotAskedCouldNotBeNearest) {
   Loop loop = loop_over(balls(5));
   for (int k = 0; k < 3000; ++k) {
@@ -73,7 +72,7 @@ TEST(Touch, ObjectsThatAreNotAskedCouldNotBeNearest) {
       const Object& object = loop.scene.objects[i];
       const auto index = static_cast<std::int32_t>(i);
       const double d = object.surface.nearest(object.X_WO.inverse() * loop.tool_tip).distance -
-                       (index == before ? 1e-3 : 0.0);  // the one of before is favoured by 1 mm
+                       (index == before ? 1e-3 : 0.0);  // the previous object is favoured by 1 mm
       if (d < least) nearest = index;
       least = std::min(least, d);
     }
@@ -81,7 +80,7 @@ TEST(Touch, ObjectsThatAreNotAskedCouldNotBeNearest) {
   }
 }
 
-// Inside of a cube of 50 mm the middle plane is as near to the left face as to the right one.
+// Inside a cube of 50 mm the middle plane is equally near to the left and to the right face.
 TEST(Touch, AJumpOfTheNearestPointIsTold) {
   SceneSpec spec = test::ball_scene();
   const double top = 0.008;
@@ -93,14 +92,15 @@ TEST(Touch, AJumpOfTheNearestPointIsTold) {
   loop.tool_tip = {-0.0004, 0, top - 0.025};
   loop.tick();
   EXPECT_EQ(loop.out.why & kSurfaceJump, 0U);
-  loop.tool_tip = {0.0004, 0, top - 0.025};  // now the other side is nearer, 50 mm away
+  loop.tool_tip = {0.0004, 0, top - 0.025};  // the opposite side is nearer now, 50 mm away
   loop.tick();
   EXPECT_NE(loop.out.why & kSurfaceJump, 0U);
   loop.tick();
   EXPECT_EQ(loop.out.why & kSurfaceJump, 0U) << "once";
 }
 
-// A tool that goes along the row at an even 0.1 m/s: where the next ball takes over from the first.
+// A tool goes along the row at an even 0.1 m/s. Return the place where the next ball takes over from the
+// first.
 double takes_over_at(double ahead, double height) {
   SceneSpec spec = balls(2);
   spec.follow.ahead = ahead;
@@ -109,7 +109,7 @@ double takes_over_at(double ahead, double height) {
     loop.tool_tip = {-0.05 + 1e-4 * k, 0, height};
     loop.tick();
     const Object& object = loop.scene.objects[static_cast<std::size_t>(loop.out.object)];
-    // Whichever it is, the gap is the one of now.
+    // The gap is the present one, whichever object it is.
     const double gap = object.surface.nearest(object.X_WO.inverse() * loop.tool_tip).distance -
                        loop.scene.tools[0].tip.radius;
     EXPECT_NEAR(loop.out.gap, gap, 1e-4) << k;
@@ -123,14 +123,15 @@ TEST(Touch, LooksAheadByAsMuchAsTheToolWillGo) {
   EXPECT_NEAR(now - ahead, 0.1 * 0.060, 1e-3);
 }
 
-// Half a second ahead it would be 50 mm farther, behind both balls; but not beyond the gap that it has now.
+// Half a second ahead the tool would be 50 mm farther, behind both balls; but prediction ends at the present
+// gap.
 TEST(Touch, DoesNotLookThroughASurface) {
   const double now = takes_over_at(0.0, 0.0105), ahead = takes_over_at(0.5, 0.0105);
   EXPECT_GT(now - ahead, 0.002);
   EXPECT_LT(now - ahead, 0.006);  // the gap half way between the balls
 }
 
-// Over a smooth ball nothing jumps, however the tool goes.
+// Nothing jumps over a smooth ball, however the tool moves.
 TEST(Touch, OnABallNothingJumps) {
   Loop loop = loop_over(balls(1));
   for (int k = 0; k < 3000; ++k) {
@@ -140,7 +141,7 @@ TEST(Touch, OnABallNothingJumps) {
   }
 }
 
-// A hand changes its tool [VHMR 3.2, 3.3]: the overlay follows at once, nothing is felt of it. And a contact
+// A hand changes its tool [VHMR 3.2, 3.3]: the overlay follows at once, without a change in force. A contact
 // that was expected too early is still one contact.
 
 constexpr double kOtherRadius = 0.004;  // m
@@ -155,13 +156,13 @@ Scene two_tools(const RigSpec& rig) {
   return prepare(spec, rig);
 }
 
-// Tool 0 over the ball's top, with its tip's surface `gap` above the ball, until the tip waits under it.
+// Tool 0 over the ball's top, its tip's surface `gap` above the ball, until the tip waits under it.
 void hover(Loop& loop, double gap) {
   loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + gap);
   loop.tick(1500);
 }
 
-// Presses with 3 N until all has settled.
+// Press with 3 N until everything has settled.
 void press(Loop& loop) {
   hover(loop, 0.005);
   loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius - 0.001);
@@ -188,7 +189,7 @@ TEST(ToolChange, TheOverlayAndTheRadiusAreThoseOfTheToolInView) {
   }
 }
 
-// The first tool was fast; of the second nothing is known but where it is.
+// The first tool was fast; the tracker has only the position of the second.
 TEST(ToolChange, PredictionStartsAnew) {
   Loop loop(two_tools(RigSpec{}));
   hover(loop, 0.060);
@@ -217,7 +218,7 @@ TEST(ToolChange, ANewToolCloseToTheSurfaceIsNoContact) {
   EXPECT_LT(loop.worst_outside, 0.0);
 }
 
-// The tracker takes the pressing tool for the other one, whose tip would be 30 mm higher or 15 mm deeper.
+// The tracker takes the pressing tool for the second tool, whose tip would be 30 mm higher or 15 mm deeper.
 void swap_while_pressing(double leap) {
   Loop loop(two_tools(exact_rig()));
   press(loop);
@@ -245,7 +246,7 @@ TEST(EarlyContact, IsKeptUntilTheToolComes) {
   loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius - 0.0001);  // predicted too far
   loop.tick(5);
   EXPECT_EQ(loop.out.mode, Mode::contact);
-  loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + 0.003);  // where it really is
+  loop.tool_tip = Point<'W'>(0, 0, kTop + kToolRadius + 0.003);  // its true position
   loop.tick(200);
   EXPECT_EQ(loop.out.mode, Mode::contact);
   loop.force = Vec<'W'>(0, 0, -1.0);

@@ -16,7 +16,7 @@ using test::Loop, test::rig_scene;
 
 // A machine that a procedure sends from pose to pose, driven by hand.
 
-// A scene with [travel], whose jaws hold their tool from tick `grips` on.
+// A scene with [travel]; its jaws hold their tool from tick `grips` on.
 struct Sent {
   explicit Sent(int grips = 0) : loop(made()) {
     for (int i = 0; i < 3; ++i) next({});
@@ -84,7 +84,7 @@ TEST(Carry, WaitsForTheJawsAndWhereNothingIsAsked) {
   EXPECT_GT(sent.at().p().norm(), 5e-3);
 }
 
-// Turned by a little more in each tick, as whoever turns it slowly asks.
+// Turned by a little more in each tick, as in a slow manual rotation.
 Pose<'W', 'H'> a_little_turned(int i) {
   return {Quat(Eigen::AngleAxisd(1e-4 * i, Vec3::UnitX())), Vec3(kTo.p())};
 }
@@ -118,7 +118,7 @@ TEST(Carry, ToolThatIsLostHoldsTheMachine) {
   EXPECT_TRUE(sent.out.grip.closed);
 }
 
-// The travel programme, driven by hand: a machine that is where it was told to be.
+// The travel programme, driven by hand with a machine that is always at its commanded place.
 
 SceneSpec travel_scene() {
   SceneSpec spec = test::ball_scene();
@@ -188,7 +188,7 @@ TEST(Travel, WaitsForTheJawsThenMovesInTrapezoids) {
   EXPECT_LT(loop.tip().e().norm(), 1e-12);
   until(loop, TravelPhase::move, 2);  // 10 to 40 mm
   const double top = 0.040, a = loop.scene.reach.acceleration;
-  // Half a ramp, where it has its whole acceleration; then even; 30 mm in 30 / 40 + 40 / 410 s.
+  // Half a ramp, with the whole acceleration; then even; 30 mm in 30 / 40 + 40 / 410 s.
   loop.tick(49);
   EXPECT_NEAR(recall<CommandState>(loop.state).command_velocity.norm(), a * 0.050, 1e-9);
   loop.tick(200);
@@ -253,12 +253,12 @@ TEST(Travel, RefusesWhatTheMachineCannotDo) {
   EXPECT_EQ(changed([](SceneSpec& s) { s.display.emplace(); }), "display");
 }
 
-// The programme of the test rig, driven by hand: a machine that is where it was told to be.
+// The programme of the test rig, driven by hand with a machine that is always at its commanded place.
 
 constexpr double kProbeRadius = 0.010;  // m
 constexpr double kCentre = 0.052;       // m, of the ball above W: first touch at 52 - 33 - 10 = 9 mm
 
-// Ticks until the programme is in a phase; gives how many.
+// Tick until the programme reaches a phase; return the number of ticks.
 int until(Loop& loop, ProbePhase phase) {
   int ticks = 0;
   while (recall<IndentationState>(loop.state).phase != phase && ticks < 60'000) {
@@ -305,12 +305,12 @@ TEST(IndentationTask, WalksThroughItsPhases) {
   EXPECT_EQ(loop.out.contacts, 0);
   EXPECT_NEAR(until(loop, ProbePhase::push), 2000, 2);
   EXPECT_EQ(loop.out.contacts, 1);
-  // 10 mm at 4 mm/s, and a little for speeding up and stopping.
+  // 10 mm at 4 mm/s, and a little for acceleration and braking.
   loop.tick(1250);
   const double middle = depth(loop);
   loop.tick(100);
   EXPECT_NEAR((depth(loop) - middle) / 0.1, 0.004, 1e-6);
-  EXPECT_NEAR(loop.out.deflection, depth(loop), 5e-6);  // of the tip as measured, one tick ago
+  EXPECT_NEAR(loop.out.deflection, depth(loop), 5e-6);  // depth of the measured tip, one tick ago
   const int rest_of_push = until(loop, ProbePhase::dwell);
   EXPECT_NEAR(1350 + rest_of_push, 2500, 30);
   EXPECT_NEAR(depth(loop), 0.006, 1.1e-6);
@@ -334,7 +334,7 @@ TEST(IndentationTask, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   EXPECT_LE(ticks * 1e-3, longest);
   EXPECT_GT(ticks * 1e-3, 0.95 * longest);
   EXPECT_EQ(loop.out.contacts, 3);
-  EXPECT_LE(deepest, 0.006 + 0.1e-6);  // the machine itself goes in steps of 3 um
+  EXPECT_LE(deepest, 0.006 + 0.1e-6);  // the machine itself moves in steps of 3 um
   loop.tick(1000);
   EXPECT_EQ(loop.out.contacts, 3);
   EXPECT_NEAR(depth(loop), -0.004, 1.1e-6);
@@ -343,7 +343,7 @@ TEST(IndentationTask, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   EXPECT_TRUE(loop.always_reachable);
 }
 
-// The programme stands still with the machine: it does not catch up by pushing faster.
+// The programme pauses with the machine: it does not catch up by pushing faster.
 TEST(IndentationTask, AHoldInAPushIsOnlyAPause) {
   Loop loop(made(rig_scene()));
   until(loop, ProbePhase::push);
@@ -363,7 +363,7 @@ TEST(IndentationTask, AHoldInAPushIsOnlyAPause) {
     before = depth(loop);
   }
   EXPECT_EQ(loop.out.mode, Mode::probe);
-  EXPECT_LT(fastest, 1.1 * 0.004);  // as when a push starts from rest
+  EXPECT_LT(fastest, 1.1 * 0.004);  // as for a push that starts from rest
   EXPECT_GT(depth(loop), stopped + 0.0015);
 }
 
@@ -382,7 +382,7 @@ TEST(IndentationTask, MeasuresForceAlongItsAxisWithoutLag) {
   EXPECT_NEAR(loop.out.force.xyz[2], 7.0, 1e-6);
 }
 
-// While the probe is near the object the force zero stays what it was, whatever is measured.
+// While the probe is near the object the force zero stays, whatever the measurement.
 TEST(IndentationTask, FindsItsForceZeroOnlyClearOfTheObject) {
   Loop loop(made(rig_scene()));
   until(loop, ProbePhase::push);
@@ -441,7 +441,7 @@ TEST(IndentationTask, RefusesWhatCannotBe) {
   expect_refused(spec, "user", "either the machine presses");
 }
 
-// A real thing is for the probe alone.
+// Only the probe accepts a real object.
 TEST(IndentationTask, AnObjectWithoutABehaviourIsRefusedWhereItWouldBeRendered) {
   SceneSpec spec = rig_scene();
   spec.probe.reset();

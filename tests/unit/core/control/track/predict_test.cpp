@@ -1,5 +1,5 @@
-// The prediction of the tool's tip: the filter against matrices and against gains worked by hand, its limits,
-// and what it makes of late, repeated, lost and impossible poses.
+// The prediction of the tool's tip: the filter against matrices and hand-worked gains, its limits, and late,
+// repeated, lost and impossible poses.
 #include "core/control/track/predict.h"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ const TrackerRig kHold = rig_of(Prediction::hold);
 const TrackerRig kVelocity = rig_of(Prediction::constant_velocity);
 const TrackerRig kAcceleration = rig_of(Prediction::constant_acceleration);
 
-// By a tracker that knows all ways alike.
+// A tracker with equal noise in all directions.
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
              bool calm = false) {
   enc::observe(rig, tool, t, tip, {rig.measurement_noise, rig.measurement_noise}, motion, calm);
 }
 
-// A pose every 10 ms until `end`, each there at once.
+// A pose every 10 ms until `end`, each without latency.
 template <class Way>
 TipMotion tracked(const TrackerRig& rig, const Way& way, int end) {
   TipMotion motion;
@@ -106,7 +106,7 @@ TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
   }
 }
 
-// As a hand is seen at 20 Hz with 0.5 mm.
+// A hand as vision sees it: 20 Hz, 0.5 mm.
 TrackerRig seen_hand(double surprise) {
   TrackerRig rig = kVelocity;
   rig.measurement_noise = 0.5e-3;
@@ -126,13 +126,13 @@ TipMotion stopped(const TrackerRig& rig, bool calm) {
 TEST(Predict, ASurpriseMakesUpForASpeedThatChanges) {
   const double without = stopped(seen_hand(0.0), false).velocity.xyz[0];
   const double with = stopped(seen_hand(1.0), false).velocity.xyz[0];
-  EXPECT_GT(without, 0.10);  // believes in its 200 mm/s
-  EXPECT_LT(with, 0.05);     // 10 mm off where 0.5 mm is usual: the hand has stopped
-  EXPECT_EQ(stopped(seen_hand(1.0), true).velocity.xyz[0], without);  // on a prop nothing surprises
+  EXPECT_GT(without, 0.10);  // assumes its 200 mm/s
+  EXPECT_LT(with, 0.05);     // 10 mm off with a sigma of 0.5 mm: the hand has stopped
+  EXPECT_EQ(stopped(seen_hand(1.0), true).velocity.xyz[0], without);  // on a prop: no surprise
 }
 
-// 10 mm off, S = xx + r^2 before: the noise is raised by what makes S a third of the square of 10 mm (three
-// axes), so that the velocity's variance grows by q h and its gain with it.
+// 10 mm off, S = xx + r^2 before. The noise rises until S is a third of the square of 10 mm (three axes), so
+// the velocity's variance grows by q h and its gain with it.
 TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
   const TrackerRig rig = seen_hand(100.0);
   TipMotion motion;
@@ -148,8 +148,8 @@ TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
   EXPECT_NEAR(motion.velocity.xyz[0], gain * 0.01, 1e-9);
 }
 
-// Along its view a camera knows less: there the filter is that of the greater noise, to the sides that of the
-// lesser, and how the view lies in W makes no difference.
+// A camera is less accurate along its view: the filter uses the greater noise there and the lesser one to the
+// sides. The direction of the view in W makes no difference.
 TEST(Predict, EachWayIsFilteredByItsOwnNoise) {
   constexpr double kAlong = 1.5e-3, kAcross = 0.3e-3;
   const TrackerRig rig = seen_hand(0.3);
@@ -175,7 +175,7 @@ TEST(Predict, EachWayIsFilteredByItsOwnNoise) {
   EXPECT_LT((oblique.position.e() - turned * motion.position.e()).norm(), 1e-12);
 }
 
-// Of a pose that tells it, along the view from C, in W; of one that does not, as the rig believes, any way.
+// The noise along the view from C, in W, if the pose states it; otherwise the rig's noise in every direction.
 TEST(Predict, TheNoiseOfAPoseIsToldOrBelieved) {
   const Quat turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
   const Pose<'W', 'C'> X_WC(turned, Vec3(0.1, -0.2, 0.3));
@@ -192,7 +192,7 @@ TEST(Predict, TheNoiseOfAPoseIsToldOrBelieved) {
   EXPECT_EQ(believed.view.norm(), 0.0);
 }
 
-// 5 mm off is four sigma and more across the view, and usual along it.
+// 5 mm off is at least four sigma across the view, and usual along it.
 TEST(Predict, WhatSurprisesDependsOnTheWay) {
   const auto speed_after = [](const Vec3& off) {
     TipMotion motion;
@@ -225,7 +225,7 @@ TEST(Predict, EachModelEndsUpExactOnItsOwnMotion) {
   EXPECT_NEAR(x_at(kVelocity, tracked(kVelocity, even, 2000), 2020), even(2.020), 1e-9);
   EXPECT_NEAR(x_at(kAcceleration, tracked(kAcceleration, even, 2000), 2020), even(2.020), 1e-9);
   EXPECT_NEAR(x_at(kAcceleration, tracked(kAcceleration, speeding, 2000), 2020), speeding(2.020), 1e-9);
-  // Hold is behind by the age, constant velocity never learns the acceleration.
+  // Hold lags by the age; constant velocity never learns the acceleration.
   EXPECT_EQ(x_at(kHold, tracked(kHold, even, 2000), 2020), even(2.0));
   EXPECT_GT(std::abs(x_at(kVelocity, tracked(kVelocity, speeding, 2000), 2020) - speeding(2.020)), 1e-5);
 }
@@ -347,7 +347,7 @@ TEST(PredictInTheCore, OldAndRepeatedPosesChangeNothing) {
   }
 }
 
-// Down at 100 mm/s onto the haptic-tip, where it stops. Poses are 20 ms old: it would go 2 mm on.
+// Down at 100 mm/s onto the haptic-tip, where it stops. Poses are 20 ms old: the tool would go 2 mm on.
 TEST(PredictInTheCore, TheToolIsNotSeenToGoThroughTheHapticTip) {
   test::Loop loop(prepare(test::plane_scene(), RigSpec{}));
   const double touch = test::kTop + test::kToolRadius;
@@ -366,7 +366,7 @@ TEST(PredictInTheCore, TheToolIsNotSeenToGoThroughTheHapticTip) {
   }
   EXPECT_EQ(loop.out.mode, Mode::contact);
   EXPECT_LT(nearest, 0.0071);        // they met: 5 mm and 2 mm
-  EXPECT_GT(nearest, 0.007 - 2e-4);  // less than what the filter itself goes too far
+  EXPECT_GT(nearest, 0.007 - 2e-4);  // less than the filter's own overshoot
 }
 
 TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
@@ -389,7 +389,7 @@ TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
   EXPECT_TRUE(out.view.tip.finite());
 }
 
-// What something that knows better than pictures makes of a prediction.
+// A correction of the prediction by a source that is better than pictures.
 
 Time at_ms(int ms) { return Time(Duration(1'000'000) * ms); }
 
@@ -408,7 +408,7 @@ TipMotion seen(const TrackerRig& rig) {
   return motion;
 }
 
-// It is stopped: place and velocity say so, their doubt stays, and to the sides nothing changes.
+// The tip is stopped: place and velocity follow, their uncertainty stays, and the sides do not change.
 TEST(CorrectNow, WhatIsKnownNowIsWhatIsPredictedNow) {
   for (const Prediction how : {Prediction::constant_velocity, Prediction::constant_acceleration}) {
     const TrackerRig rig = rig_with(how);
@@ -439,11 +439,11 @@ TEST(CorrectNow, NothingIsPredictedWhereNothingIsKnownOrAllIsHeld) {
   EXPECT_TRUE(motion.position.finite());
 }
 
-// Tools by their markers: which one it is, how it stands, and which cannot be told apart.
+// Tools by their markers: identity, orientation, and tools that look alike.
 
 using Markers = std::vector<Vec3>;
 
-// Those that ship (models/scenes/session.toml).
+// The shipped marker sets (models/scenes/session.toml).
 const Markers kStylus{{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.017, -0.030, 0.012}};
 const Markers kProbe{{0, 0, 0}, {0.061, 0, 0}, {0, 0.034, 0}, {-0.025, -0.022, 0.008}};
 const std::vector<Markers> kBoth{kStylus, kProbe};
@@ -455,7 +455,7 @@ struct Drawn {
     const Quat q = Quat(normal(), normal(), normal(), normal()).normalized();
     return {q, Vec3(0.2 * normal(), 0.2 * normal(), 1.0 + 0.1 * normal())};
   }
-  // As a tracker sees them, in any order.
+  // The markers as a tracker sees them, in any order.
   Markers seen(const Markers& tool, const Pose<'C', 'T'>& X_CT, double noise) {
     Markers all;
     for (const Vec3& marker : tool)
@@ -480,7 +480,7 @@ TEST(Markers, AToolIsRecognisedWithItsPoseInWhateverOrderTheyAreSeen) {
   }
 }
 
-// At 0.3 mm on each axis of each marker no tool is missed or taken for the other.
+// Noise of 0.3 mm on each axis of each marker causes no missed and no confused tool.
 TEST(Markers, NoiseOfATrackerConfusesNone) {
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 20'000; ++seed) {
@@ -504,7 +504,7 @@ TEST(Markers, WhatIsNoneOfThemIsNotRecognised) {
   EXPECT_EQ(recognise(Markers(17, Vec3::Zero()), kBoth).tool, -1);
 }
 
-// A mirror image has the same distances: it fits badly, and is refused where a scene names both.
+// A mirror image has the same distances: it fits badly, and prepare() refuses a scene that names both.
 TEST(Markers, AMirrorImageIsAlikeAndFitsBadly) {
   Markers mirrored = kStylus;
   for (Vec3& marker : mirrored) marker.z() = -marker.z();
@@ -517,7 +517,8 @@ TEST(Markers, AMirrorImageIsAlikeAndFitsBadly) {
               which);
 }
 
-// Alone it is not taken for the tool either: its best fit is 4.9 mm off the stylus, 3.3 mm off the probe.
+// A mirror image alone does not pass as the tool either: its best fit is 4.9 mm off the stylus, 3.3 mm off
+// the probe.
 TEST(Markers, AMirrorImageAloneIsNone) {
   for (const Markers& tool : kBoth) {
     Markers mirrored = tool;
@@ -530,7 +531,8 @@ TEST(Markers, AMirrorImageAloneIsNone) {
   }
 }
 
-// Each distance is off by less than 4 mm, and so is each marker: by 5 % of its way to the middle, 1.8 mm rms.
+// Each distance is off by less than 4 mm, and so is each marker: by 5 % of its distance from the middle, 1.8
+// mm rms.
 TEST(Markers, AToolOfWhichAllDistancesAreALittleOffIsNone) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& marker : kStylus) middle += marker / static_cast<double>(kStylus.size());
@@ -556,7 +558,7 @@ TEST(Markers, AToolThatLooksTheSameInAnotherOrderHasTwoPoses) {
   EXPECT_FALSE(has_two_poses(Markers{{0, 0, 0}, {side, 0, 0}, {0, side + 1.1 * kMarkersApart, 0}}));
 }
 
-// As many as a scene may have, all within 3 mm: there are 16! orders, and two are enough.
+// As many markers as a scene may have, all within 3 mm: there are 16! orders, and two are enough.
 TEST(Markers, ManyThatLookAlikeAreFoundAtOnce) {
   Drawn drawn(5);
   Markers many;

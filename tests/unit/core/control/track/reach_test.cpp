@@ -1,6 +1,6 @@
-// Where a reaching hand will touch: exact where nothing is noisy, alike whichever way the surface is turned,
-// better than an even motion where hands reach, as good where they do come evenly, and foreseeing a
-// correction that no picture shows.
+// The place where a reaching hand will touch: exact without noise, independent of the surface's orientation,
+// better than an even motion for reaches, as good for even motions. It foresees a correction that no picture
+// shows.
 #include "core/control/track/reach.h"
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 using Pictures = std::vector<Sighting>;
 
-// A reach of two movements from 0.18 m, drawn as sim/hand/session_plan.h describes it; touches at z = 0.
+// A reach of two movements from 0.18 m, drawn as in sim/hand/session_plan.h; touches at z = 0.
 struct Reach {
   Vec3 start, first, second;
   double time, corrects, takes, touches;
@@ -25,7 +25,7 @@ struct Reach {
   }
 };
 
-// How first movements end, in shares of the way, and how far off the normal they come.
+// End of the first movements, as shares of the way, and their angle to the normal.
 struct Hands {
   double share = 0.93, scatter = 0.045, aside = 0.018;
   double least_tilt = 0.0, most_tilt = 0.7;  // rad
@@ -54,7 +54,7 @@ Reach drawn(sim::Stream& stream, const Hands& hands = {}) {
   return r;
 }
 
-// At 20 Hz, the newest so old when it touches, s.
+// Pictures at 20 Hz, the newest this old at the touch, s.
 Pictures pictures(const Reach& r, double age, double noise, sim::Stream& stream, int count = 5) {
   Pictures all;
   for (int i = 0; i < count; ++i) {
@@ -95,7 +95,7 @@ TEST(Reach, IsBetterThanAnEvenMotionWhereHandsReach) {
     ours += (touch_then(hand, seen, 0.7e-3).place - where).norm() < 2e-3 ? 1 : 0;
     even += (straight_on(seen) - where).norm() < 2e-3 ? 1 : 0;
   }
-  EXPECT_GT(ours, 0.50 * kReaches);  // 62 % is what an ideal predictor can do (benchmarks/reaching/ideal.h)
+  EXPECT_GT(ours, 0.50 * kReaches);  // an ideal predictor reaches 62 % (benchmarks/reaching/ideal.h)
   EXPECT_GT(ours, even + 0.05 * kReaches);
 }
 
@@ -119,16 +119,16 @@ TEST(Reach, KnowsAHandThatComesEvenly) {
   EXPECT_LT(off[190], 2.0e-3);
 }
 
-// When a hand touches it has made s = 0.84 of the rest of its way along the surface, so the line on which the
-// first movement comes leads (1 - s) of that rest too far. No picture shows any of it: how long the rest is,
-// the belief alone says. These hands are so alike that little else is unknown.
+// A hand at its touch has made s = 0.84 of the rest of its way along the surface, so the line of the first
+// movement leads (1 - s) of that rest too far. No picture shows that rest: only the prior gives its length.
+// These hands are so alike that little else is unknown.
 TEST(Reach, ForeseesTheRestOfTheWayBeforeItIsSeen) {
   const double s = MinimumJerk(0.7).x;
   sim::Stream stream(13, "reach");
   const Hands hands{.share = 0.9, .scatter = 0.005, .aside = 0.001, .least_tilt = 0.4};
   ReachBelief hand{.share = hands.share, .scatter = hands.scatter, .aside = hands.aside};
   constexpr int kReaches = 200;
-  std::vector<double> ours, straight;  // off, in what the line leads too far
+  std::vector<double> ours, straight;  // errors, as shares of the line's overshoot
   for (int i = 0; i < kReaches; ++i) {
     const Reach r = drawn(stream, hands);
     const double age =
@@ -143,15 +143,15 @@ TEST(Reach, ForeseesTheRestOfTheWayBeforeItIsSeen) {
   std::sort(ours.begin(), ours.end());
   std::sort(straight.begin(), straight.end());
   EXPECT_NEAR(straight[kReaches / 2], 1.0, 0.1);
-  // What a first movement ends aside, of which s is made up, has a sigma of s aside / ((1 - s) (1 - share)
+  // The sideways end of a first movement, which contains s, has a sigma of s aside / ((1 - s) (1 - share)
   // sin(tilt)) = 0.10 on each axis: 0.12 and 0.21 for 50 % and 90 % of the hands. About twice that leaves
-  // room for the noise and for times that nobody knows.
+  // room for the noise and for unknown times.
   EXPECT_LT(ours[kReaches / 2], 0.25);
   EXPECT_LT(ours[kReaches * 9 / 10], 0.45);
 }
 
-// Worked out by another way of solving the same equations (nine unknowns at once): a hand that slows down and
-// one that is nearly there. Of the evidence only what differs from the first time's.
+// Another way to solve the equations (nine unknowns at once), for a hand that slows down and one that is
+// nearly there. The evidence is compared relative to the first time.
 TEST(Reach, IsWhatAnotherWayOfSolvingGives) {
   const std::array<std::array<Vec3, 5>, 2> at{{{{{-0.011, 0.004, 0.021},
                                                  {-0.020, 0.007, 0.034},
@@ -182,8 +182,8 @@ TEST(Reach, IsWhatAnotherWayOfSolvingGives) {
   }
 }
 
-// Pictures so bad that it may or may not have come by then. The line through them leads 10.53 mm above the
-// surface, known to 44.8 mm, and to 133.6 mm, known to 113.3 mm, a second before (least squares).
+// Pictures so bad that the hand may or may not have come by then. The line through them leads 10.53 mm above
+// the surface (sigma 44.8 mm), a second before to 133.6 mm (sigma 113.3 mm; least squares).
 TEST(Reach, HowSurelyItPassesByDependsOnHowWellItIsSeen) {
   Pictures seen;
   for (int i = 0; i < 5; ++i) seen.push_back({Vec3(0.0, 0.0, 0.035 + 0.005 * i), 0.05 * i});
@@ -191,7 +191,7 @@ TEST(Reach, HowSurelyItPassesByDependsOnHowWellItIsSeen) {
   EXPECT_NEAR(share, 0.5986 / 0.8816, 1e-3);
 }
 
-// All times at which it could touch within 0.25 s together, against that it does not.
+// All times of a touch within 0.25 s together, against no touch.
 double touches_rather(const Pictures& seen) {
   constexpr double kEach = 0.01, kUntil = 0.25;
   double touches = 0.0;
@@ -229,7 +229,7 @@ TEST(Reach, AFingerThatPassesByIsToldFromOneThatComes) {
   EXPECT_EQ(passes_by({}, 0.7e-3, 0.25), -HUGE_VAL);
 }
 
-// Where all pictures together say that an even hand goes counts as much as it is one.
+// The place where all pictures carry an even hand counts as much as the hand is even.
 TEST(Reach, WhereAnEvenHandIsCarriedToCountsForThatAlone) {
   sim::Stream stream(19, "reach");
   const ReachBelief hand;
@@ -269,7 +269,7 @@ TEST(Reach, TurnsWithItsPictures) {
   const Vec3 shift(0.3, -0.2, 0.0);
   for (Sighting& one : seen) one.at = turn * one.at + shift;
   const Eigen::Vector2d after = touch_then(hand, seen, 0.7e-3).place;
-  // Where a hand is, is not known beforehand within a metre: that is all that a shift may change.
+  // The prior knows the place of a hand only to a metre: a shift may change the result by no more than that.
   EXPECT_LT((after - (turn * Vec3(before.x(), before.y(), 0.0) + shift).head<2>()).norm(), 0.05e-3);
 }
 
@@ -297,7 +297,7 @@ TEST(Reach, SaysNothingOfWhatItCannotKnow) {
   Pictures leaves = seen;
   for (Sighting& one : leaves) one.at.z() = -one.at.z();
   EXPECT_FALSE(known(leaves));
-  // All at one place, or one time: whatever is told is finite, or nothing.
+  // All pictures at one place, or at one time: the result is finite or empty.
   Pictures still = seen;
   for (Sighting& one : still) one.at = {0.01, 0.02, 0.1};
   EXPECT_FALSE(known(still));

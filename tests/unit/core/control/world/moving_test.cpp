@@ -1,5 +1,5 @@
-// Objects that a finger moves, with a finger whose way is given: restitution, momentum, tiles, a surface that
-// runs.
+// Objects that a finger moves, with a finger on a given path: restitution, momentum, tiles, a running
+// surface.
 #include "core/control/world/moving.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct World {
   }
   void make() { movers = make_movers(specs, objects); }
 
-  // A tick with a finger (a point) at p, which is nearest to object `index`. Gives the force on it, N.
+  // A tick with a finger (a point) at p, which is nearest to object `index`. Return the force on it, N.
   double tick(std::int32_t index, const Point<'W'>& p) {
     const Object& object = objects[static_cast<std::size_t>(index)];
     const Nearest at = object.surface.nearest(object.X_WO.inverse() * (p - shift_of(object, moved)));
@@ -81,7 +81,7 @@ TEST(Bounce, IsTheRootOfItsLaw) {
     const double c = bounce_of(e);
     EXPECT_GT(c, 0.0);
     EXPECT_LE(c, 1.0 / e);
-    // Below, 1 - c e is less than a double tells from 0.
+    // Below this, 1 - c e is smaller than a double's resolution.
     if (e < 0.2) continue;
     EXPECT_NEAR(-std::log1p(-c * e) - c * e, 0.5 * c * c, 1e-8 * c) << e;
   }
@@ -95,7 +95,7 @@ TEST(HitBall, PartsWithItsRestitutionWhateverSpeedMassAndStiffness) {
       for (const double mass : {0.03, 0.058, 0.2})
         for (const double start : {0.0, 0.3, 0.7}) {
           const Hit result = hit_ball(e, mass, 800.0, speed, start);
-          // The law aims at 0.95: no more than e is ever given back.
+          // The law aims at 0.95: it never gives back more than e.
           EXPECT_NEAR(result.parted / e, 0.95, 0.05)
               << e << " at " << speed << " m/s, " << mass << " kg " << start;
           EXPECT_NEAR(result.impulse, result.momentum, 1e-12);
@@ -104,7 +104,7 @@ TEST(HitBall, PartsWithItsRestitutionWhateverSpeedMassAndStiffness) {
         }
 }
 
-// A finger that follows pushes once, lets the ball go, and no force is left.
+// A finger that follows pushes once and lets the ball go, and no force remains.
 TEST(HitBall, IsFeltOnceAndThenFlies) {
   World world;
   world.add("ball", Surface{Sphere{0.033}}, Pose<'W', 'O'>::identity(), hit(0.8));
@@ -134,7 +134,7 @@ TEST(HitBall, WaitsAtTheEndOfItsTravelUntilTheFingerIsClearOfItsPlace) {
   EXPECT_EQ(world.moved[0].shift.norm(), 0.0);
 }
 
-// Tiles that are pushed at their faces, which look towards -x of W: in O the way is -z.
+// Tiles that are pushed at their faces, which look towards -x of W: in O they move along -z.
 InteractionSpec tile(double travel = 0.030) {
   InteractionSpec does{.kind = Interaction::shift};
   does.way = {0, 0, -2};  // of any length
@@ -165,7 +165,7 @@ TEST(Tile, FollowsTheFingerToItsEndAndStopsThere) {
   EXPECT_NEAR(world.moved[0].shift.xyz[0], 0.030, 1e-12) << "it stays";
 }
 
-// Met by a finger that goes on evenly, it parts with e times the speed at which they met.
+// A finger that goes on evenly hits the tile: they part with e times the speed of the hit.
 TEST(Tile, PartsWithItsRestitution) {
   for (const double e : {0.4, 0.6, 0.8})
     for (const double mass : {0.05, 0.1, 0.2})
@@ -286,7 +286,7 @@ TEST(Movers, KeepTheirPlacesAndRefuseWhatCannotBe) {
 
 using Bench = test::FingerBench;
 
-// A ball, its prop at home, and a finger that is believed wherever a test says.
+// A ball, its prop at home, and a finger whose believed place the test sets.
 struct Ball : Bench {
   Ball() : Bench("hit_ball", {"rig.tracker.prediction=\"hold\""}) {
     at(-0.080, 10);
@@ -320,7 +320,7 @@ TEST(HitBall, IsHitByThePropAndNotByWhatIsBelieved) {
   EXPECT_EQ(struck.loop.out.contacts, 1) << "a ball that flies is not hit again";
 }
 
-// Two counts and one reading of 0.8 m/s: the prop does not run off with it.
+// Two counts and one reading of 0.8 m/s must not set the prop in motion.
 TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
   Ball ball;
   ball.press_tip(0.08e-3);
@@ -336,7 +336,7 @@ TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
   EXPECT_LT(fastest, 0.050);
 }
 
-// What the arm is told along the normal is what the ball gets.
+// The ball gets the impulse that the arm is commanded along the normal.
 TEST(HitBall, ItsMomentumIsTheImpulseOfWhatTheArmIsTold) {
   Ball ball;
   double impulse = 0.0;

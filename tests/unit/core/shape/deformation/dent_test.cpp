@@ -56,7 +56,7 @@ TEST(Dent, ThePointUnderTheToolMovesByTheDepth) {
           EXPECT_LT((under.point.e() - (zero - depth) * n).norm(), 1e-12);
           EXPECT_GT(under.normal.e().dot(n), 1.0 - 1e-9);
           EXPECT_NEAR(dented_distance(*surface, dent, under.point), 0.0, 1e-9);
-          // Between dent and undeformed surface one is outside now, under it inside.
+          // A point between dent and undeformed surface is outside now; a point under the dent is inside.
           EXPECT_NEAR(dented_distance(*surface, dent, Point<'O'>(Vec3((zero - 0.5 * depth) * n))),
                       0.5 * depth, 1e-9);
           EXPECT_NEAR(dented_distance(*surface, dent, Point<'O'>(Vec3((zero - 1.5 * depth) * n))),

@@ -43,9 +43,9 @@ TEST(Response, FirstPressIsThePressCurve) {
   EXPECT_EQ(s.alpha, 1.0);
 }
 
-// From 6 to 5.9 mm: alpha = 1 - 500 (36 - 34.81) e-6 / 9e-3 = 0.9338889, F = 5.9 (1 + 0.9338889) N. To 5 mm:
-// alpha = 1 - 500 * 11e-6 / 9e-3 = 0.3888889, F = 6.9444444 N. To 4 mm: 500 * 20e-6 > L, so alpha = 0 and F =
-// 4 N.
+// Release from 6 to 5.9 mm: alpha = 1 - 500 (36 - 34.81) e-6 / 9e-3 = 0.9338889, F = 5.9 (1 + 0.9338889) N.
+// To 5 mm: alpha = 1 - 500 * 11e-6 / 9e-3 = 0.3888889, F = 6.9444444 N. To 4 mm: 500 * 20e-6 > L, so alpha =
+// 0 and F = 4 N.
 TEST(Response, TurnsFromPressToReleaseAsByHand) {
   const Response r = lines();
   ResponseState s;
@@ -107,7 +107,7 @@ TEST(Response, InverseUndoesForceAlongALoop) {
   }
 }
 
-// Slope 0.1 (d - 1)(d - 2) N/mm, d in mm: negative between 1 and 2 mm. The check looks every 3 um.
+// Slope 0.1 (d - 1)(d - 2) N/mm, d in mm: negative between 1 and 2 mm. The check samples every 3 um.
 TEST(Response, RefusesAFallingCurveAndNamesTheInterval) {
   const ResponseSpec spec{
       .press = per_mm({3.0, 0, 0, 0}), .release = per_mm({0.2, -0.15, 0.1 / 3.0, 0}), .limit = 6e-3};
@@ -142,7 +142,7 @@ TEST(Response, RefusesReleaseAbovePress) {
               AllOf(HasSubstr("release curve is above the press curve"), HasSubstr("from 2.001 to 3.999")));
 }
 
-// A typo in the limit: 9e18 mm. More than a number of thousandths can be.
+// A typo in the limit: 9e18 mm, more than a number of thousandths can hold.
 TEST(Response, RefusesALimitThatNobodyMeansInWords) {
   const ResponseSpec spec{
       .press = per_mm({0.8, 4.0, 0, 0.05}), .release = per_mm({0.1, 3.4, 0, 0.06}), .limit = 9.2e15};
@@ -173,7 +173,7 @@ TEST(Response, RefusesWhatIsNotFinite) {
   }
 }
 
-// One curve for both: no gap, no loop, no storage to divide by.
+// One curve for press and release: no gap, no loop, no storage to divide by.
 TEST(Response, AnElasticObjectHasNoLoop) {
   const Response r({.press = {1000.0, 0, 0, 0}, .release = {1000.0, 0, 0, 0}, .limit = 6e-3}, kFloor);
   ResponseState s;
@@ -184,7 +184,7 @@ TEST(Response, AnElasticObjectHasNoLoop) {
   }
 }
 
-// The Prandtl-Ishlinskii model by hand: stops, force, inverse, what is refused.
+// The Prandtl-Ishlinskii model by hand: stops, force, inverse, refusals.
 
 constexpr double kSoftest = 119.0;  // N/m
 
@@ -204,8 +204,8 @@ std::string refused(const ResponseSpec& s, double floor = kSoftest) {
   return test::refusal([&] { const Response response(s, floor, Reversal::prandtl_ishlinskii); });
 }
 
-// At 0.3 mm both stops are stretched by 0.3 mm: 0.6 N + 0.05 * 0.9 * 0.3 N. At 3 mm both slide: 6 N + 0.5
-// (0.6 * 0.5 + 0.3 * 1) N = 6.3 N. At 6 mm 12.6 N.
+// Deflection 0.3 mm: both stops are stretched by 0.3 mm: 0.6 N + 0.05 * 0.9 * 0.3 N. 3 mm: both slide: 6 N +
+// 0.5 (0.6 * 0.5 + 0.3 * 1) N = 6.3 N. 6 mm: 12.6 N.
 TEST(Stops, FirstPressAsByHand) {
   const Response r = stops();
   ResponseState s;

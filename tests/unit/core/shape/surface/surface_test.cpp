@@ -129,7 +129,7 @@ TEST(MeshTree, TetrahedronByHand) {
   EXPECT_DOUBLE_EQ(edge.distance, 0.5);
   expect_near(edge.point, Vec3(0.5, 0, 0), 1e-15);
   expect_near(edge.normal, Vec3(0, -1, -1).normalized(), 1e-15);
-  EXPECT_EQ(edge.feature, 0);  // of floor 0 and wall 1 the lower
+  EXPECT_EQ(edge.feature, 0);  // floor 0 and wall 1: the lower number
   // Beyond the corner at the origin: three right angles.
   const Nearest corner = tree.nearest(Point<'O'>(-1, -2, -2));
   EXPECT_DOUBLE_EQ(corner.distance, 3.0);
@@ -142,18 +142,19 @@ TEST(MeshTree, TetrahedronByHand) {
   expect_near(on.normal, -across, 1e-15);
 }
 
-// At the corner (1,0,0) the faces make 90 deg on the floor and wall are 45 deg, and 60 deg across:
-// weights by angle, not by number or area.
+// The faces at the corner (1,0,0) make 90 deg, floor and wall 45 deg, and across 60 deg: weights by angle,
+// not by number or area.
 TEST(MeshTree, VertexNormalsAreWeightedByAngle) {
   const MeshTree tree(tetrahedron());
   const Vec3 sum = M_PI / 4 * (Vec3(0, 0, -1) + Vec3(0, -1, 0)) + M_PI / 3 * Vec3(1, 1, 1).normalized();
   EXPECT_LT((tree.vertex_normal(1) - sum.normalized()).norm(), 1e-15);
 }
 
-// A sharp dent: the nearest point to a p just outside is on an edge of which one face alone would say inside.
+// A sharp dent: the nearest point to a p just outside is on an edge, and one of its faces alone would give
+// "inside".
 TEST(MeshTree, TheSignIsRightWhereASingleFaceIsWrong) {
-  // A blade: two faces that meet at 10 degrees at the edge from (0,0,-1) to (0,0,1); beyond the edge both
-  // planes have p on their inner side or not, and only their sum tells.
+  // A blade: two faces meet at 10 degrees at the edge from (0,0,-1) to (0,0,1). Beyond the edge p is on the
+  // inner side of both planes or of one, so only the sum of the normals decides.
   const double t = std::tan(5.0 * M_PI / 180.0);
   const Mesh blade{{{0, 0, -1}, {0, 0, 1}, {-1, t, 0}, {-1, -t, 0}},
                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -170,7 +171,7 @@ TEST(MeshTree, TheSignIsRightWhereASingleFaceIsWrong) {
 TEST(MeshTree, TiesGoToTheLowestTriangleWhateverTheHint) {
   const Mesh cube = models::cube(2, 0.05);
   const MeshTree tree(cube);
-  // The centre is as near to six middles of faces, in each of which several triangles meet.
+  // The centre is equally near to the middles of six faces, and several triangles meet in each.
   const Nearest centre = tree.nearest(Point<'O'>(0, 0, 0));
   EXPECT_DOUBLE_EQ(centre.distance, -0.025);
   std::int32_t lowest = -1;
@@ -234,7 +235,8 @@ TEST(MeshTree, NeighboursOfManyFacesAtOneVertex) {
   }
 }
 
-// No file holds one: it is refused before. Its answer is none, and not what stands elsewhere in memory.
+// No file contains such a mesh, as the reader refuses it. The tree returns no point instead of foreign
+// memory.
 TEST(MeshTree, OfAMeshThatIsTooLargeNothingIsNear) {
   Mesh huge = tetrahedron();
   for (auto& vertex : huge.vertices)
@@ -244,7 +246,7 @@ TEST(MeshTree, OfAMeshThatIsTooLargeNothingIsNear) {
   EXPECT_TRUE(std::isnan(at.distance) && !at.point.finite() && !at.normal.finite());
 }
 
-// All sizes of tree: not full leaves, not full nodes, one level and several.
+// Trees of all sizes: partly filled leaves and nodes, one level and several.
 TEST(MeshTree, EqualsTryingEveryTriangle) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
@@ -271,7 +273,7 @@ TEST(MeshTree, EqualsTryingEveryTriangle) {
 }
 
 TEST(MeshTree, ManyTrianglesInOnePlace) {
-  // A needle of no width: degenerate, but no reason to stop or to give NaN.
+  // A needle of zero width: degenerate, but it must not cause a stop or NaN.
   Mesh flat{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}, {}};
   for (int i = 0; i < 100; ++i) flat.triangles.push_back({0, 1, 2});
   const Nearest at = MeshTree(flat).nearest(Point<'O'>(0.25, 0.5, 0));

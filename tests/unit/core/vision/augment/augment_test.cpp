@@ -1,4 +1,4 @@
-// The arm out of an image that is painted by hand, and objects in its place: by what is believed alone.
+// The arm is removed from a painted image, and objects are drawn in its place, from the believed poses alone.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 320, kHeight = 240;
 const std::array<std::uint8_t, 3> kRoom{90, 110, 120}, kMetal{30, 32, 36}, kSkin{205, 150, 118};
 
-// A camera that looks down on the arm from 0.6 m above W: its x along that of W, its y against.
+// A camera that looks down on the arm from 0.6 m above W: its x runs along that of W, its y against.
 AugmentedSpec spec() {
   AugmentedSpec s;
   s.camera.width = kWidth;
@@ -37,8 +37,8 @@ constexpr std::size_t kStanding = 3;  // parts of a PHANToM's shape: its base
 
 struct Painted {
   Image image{kWidth, kHeight};
-  Mask device{kWidth, kHeight};  // what of it moves
-  // The room, the arm where it truly is, and a square of skin, in that order.
+  Mask device{kWidth, kHeight};  // its moving part
+  // The room, the arm at its true pose, and a square of skin, in that order.
   Painted(const AugmentedSpec& truth, const PerJoint& q, const Region& skin = {}) {
     const RectifiedPair pair = Rectifier(truth.camera).pair();
     Mask all(kWidth, kHeight);
@@ -59,7 +59,7 @@ bool is(const Image& image, int x, int y, const std::array<std::uint8_t, 3>& ink
   return std::equal(ink.begin(), ink.end(), image.view().at(x, y));
 }
 
-// Share of the device that is the room in `removed`.
+// Share of the device's pixels that show the room in `removed`.
 double gone(const Painted& painted, const Image& removed) {
   int all = 0, away = 0;
   for (int y = 0; y < kHeight; ++y)
@@ -97,7 +97,7 @@ TEST(AugmentedView, TheArmIsGoneAndTheHandBeforeItStays) {
   EXPECT_TRUE(is(view.removed(), 5, 5, kRoom));
 }
 
-// Where the arm stood while the background was learned the background is of the first frames without it.
+// The background behind the arm's first pose comes from the first frames that show it free.
 TEST(AugmentedView, TheBackgroundIsCompletedWhereTheArmStood) {
   const AugmentedSpec s = spec();
   AugmentedView view(s, {});
@@ -110,7 +110,7 @@ TEST(AugmentedView, TheBackgroundIsCompletedWhereTheArmStood) {
   EXPECT_TRUE(view.known().at(x, y));
 }
 
-// Nothing but belief says where the arm is: what it has wrong is wrong in the picture.
+// The believed pose alone places the arm: its errors appear in the picture.
 TEST(AugmentedView, AWrongBeliefMovesWhatIsReplaced) {
   const AugmentedSpec truth = spec();
   AugmentedSpec off = truth;
@@ -126,7 +126,7 @@ TEST(AugmentedView, AWrongBeliefMovesWhatIsReplaced) {
   }
   AugmentedView view(truth, {});
   learn(view, truth);
-  view.see(Painted(truth, kMoved).image.view(), at(kAtRest));  // and by the joints that it is told
+  view.see(Painted(truth, kMoved).image.view(), at(kAtRest));  // and by the joints in `at`
   EXPECT_LT(gone(Painted(truth, kMoved), view.removed()), 0.7);
 }
 
@@ -147,12 +147,12 @@ TEST(AugmentedView, AWallIsDrawnWhereItStandsAndTheHandCoversIt) {
   EXPECT_TRUE(drawn(148, 148));
   EXPECT_FALSE(drawn(148, 151));
   EXPECT_FALSE(drawn(170, 120));  // the hand
-  // A finger that is known to be far below the wall is seen through it.
+  // A finger known to be far below the wall is visible through it.
   AugmentedMoment moment = at(kMoved);
   moment.finger = Point<'C'>(0, 0, 0.7);
   view.see(Painted(s, kMoved, hand).image.view(), moment);
   EXPECT_TRUE(drawn(170, 120));
-  // And an object that was pushed is where it is now.
+  // A pushed object is drawn at its present place.
   moment = at(kMoved);
   moment.moved = {Vec<'W'>(0.04, 0, 0)};
   view.see(Painted(s, kMoved).image.view(), moment);
@@ -219,7 +219,7 @@ TEST(CleanBackground, AGapGoesOnFromItsSides) {
   EXPECT_FALSE(background.known().at(3, 1));
 }
 
-// Virtual objects as triangles, and which of them is seen.
+// Virtual objects as triangles, and their visibility.
 
 const RectifiedPair kPair{500.0, 159.5, 119.5, 0.1, Mat3::Identity()};
 
@@ -258,7 +258,7 @@ TEST(Facets, WhatIsNotInFrontIsNotDrawn) {
   for (int i = 0; i < 320 * 240; i += 97) EXPECT_TRUE(std::isinf(seen.depth[static_cast<std::size_t>(i)]));
 }
 
-// Outlines of an arm's parts against areas that are known.
+// Outlines of an arm's parts against known areas.
 
 const RectifiedPair kWidePair{500.0, 319.5, 239.5, 0.1, Mat3::Identity()};
 const Pose<'C', 'W'> kSame(Quat::Identity(), Vec3(0, 0, 0));  // W is where C is

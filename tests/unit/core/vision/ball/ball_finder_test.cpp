@@ -1,4 +1,4 @@
-// A ball before a stereo head that is known, drawn ray by ray: is its centre found, and is nothing else?
+// A ball before a known stereo head, drawn ray by ray: the finder must find its centre and nothing else.
 #include "core/vision/ball/ball_finder.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Ball {
 struct Scene {
   std::vector<Ball> balls;
   double light = 1.2;
-  // What lies before the balls: nothing where it is not.
+  // True if something covers the balls along this ray; nothing does by default.
   std::function<bool(const Vec3& ray)> covered = [](const Vec3&) { return false; };
 };
 
@@ -36,7 +36,7 @@ StereoRig bent_head() {
   return rig;
 }
 
-// What a ray from a camera meets; grey of a room that is not even where it is nothing.
+// The first hit of a ray from a camera; else the uneven grey of a room.
 Vec3 seen(const Scene& scene, const Vec3& from, const Vec3& ray) {
   static const Vec3 kLamp = Vec3(0.2, -0.7, -0.7).normalized();
   if (scene.covered(ray)) return {60, 58, 55};
@@ -104,8 +104,8 @@ std::vector<Vec3> places() {
           {-0.21, 0.2, 0.85}, {0.08, 0.05, 0.95}, {0.1, -0.05, 0.42}, {-0.03, 0.09, 0.7}, {0.22, 0.03, 0.66}};
 }
 
-// ---- where it is
-// ----------------------------------------------------------------------------------------------
+// ---- the centre
+// -----------------------------------------------------------------------------------------------
 
 TEST(BallFinder, FindsTheCentreWithinAFewHundredthsOfAPixelInNoise) {
   const sim::SensorNoise noise(1.5, 7);
@@ -132,7 +132,7 @@ TEST(BallFinder, FindsTheCentreWithinAFewHundredthsOfAPixelInNoise) {
   }
 }
 
-// The middle of the ellipse that the image has is not where the centre is seen.
+// The middle of the ellipse in the image is not the image of the centre.
 TEST(BallFinder, TakesTheCentreAndNotTheMiddleOfTheOutline) {
   const StereoRig rig;
   const Vec3 at(0.115, 0.085, 0.33);
@@ -140,7 +140,7 @@ TEST(BallFinder, TakesTheCentreAndNotTheMiddleOfTheOutline) {
   ASSERT_EQ(ball.loss, BallLoss::none);
   const Triplet truth = seen_at(Rectifier(rig).pair(), Point<'C'>(at));
   EXPECT_NEAR(ball.at.column, truth.column, 0.06);
-  // Along the column the outline goes from one tangent ray to the other.
+  // The outline along the column goes from one tangent ray to the opposite one.
   const double aside = std::atan2(at.x(), std::hypot(at.z(), at.y())), half = std::asin(0.012 / at.norm());
   const double middle = rig.left.centre_x + 0.5 * rig.left.focal_x * std::hypot(at.z(), at.y()) / at.z() *
                                                 (std::tan(aside + half) + std::tan(aside - half));
@@ -148,8 +148,8 @@ TEST(BallFinder, TakesTheCentreAndNotTheMiddleOfTheOutline) {
   EXPECT_NEAR(ball.outline[0].sine, 0.012 / at.norm(), 3e-4);
 }
 
-// ---- what is none
-// ----------------------------------------------------------------------------------------------
+// ---- no ball
+// ---------------------------------------------------------------------------------------------------
 
 TEST(BallFinder, NothingOfItsColourIsNoBall) {
   EXPECT_EQ(found({}).loss, BallLoss::no_ball);
@@ -162,8 +162,8 @@ TEST(BallFinder, TwoAreNotToldApart) {
 }
 
 TEST(BallFinder, OneThatTheImageCutsIsNotFound) {
-  EXPECT_EQ(found({{{{-0.218, 0.0, 0.5}}}}).loss, BallLoss::at_the_edge);        // of the left image
-  EXPECT_EQ(found({{{{0.09 - 0.218, 0.0, 0.5}}}}).loss, BallLoss::at_the_edge);  // of the right one
+  EXPECT_EQ(found({{{{-0.218, 0.0, 0.5}}}}).loss, BallLoss::at_the_edge);        // edge of the left image
+  EXPECT_EQ(found({{{{0.09 - 0.218, 0.0, 0.5}}}}).loss, BallLoss::at_the_edge);  // edge of the right one
   EXPECT_EQ(found({{{{0.03, 0.163, 0.5}}}}).loss, BallLoss::at_the_edge);
   EXPECT_EQ(found({{{{-0.24, 0.0, 0.5}}}}).loss, BallLoss::no_ball);
 }
@@ -187,11 +187,11 @@ TEST(BallFinder, ImagesThatAreSwappedOrOfAnotherSizeHaveNone) {
   EXPECT_EQ(finder.find(pair.frame()).loss, BallLoss::none);
 }
 
-// Before the left camera a bar that hides `share` of the diameter, from its left.
+// A bar before the left camera hides `share` of the diameter, from its left.
 Scene behind_a_bar(double share) {
   Scene scene{{{{0.03, 0.0, 0.5}}}};
   scene.covered = [share](const Vec3& ray) {
-    const double x = 0.5 * ray.x() / ray.z() - 0.03;  // of the ball's depth, from its centre, m
+    const double x = 0.5 * ray.x() / ray.z() - 0.03;  // at the ball's depth, from its centre, m
     return x > -0.03 && x < 0.012 * (2.0 * share - 1.0);
   };
   return scene;

@@ -31,7 +31,7 @@ double noise(const Vec3& p) {
 
 namespace {
 
-// Along the ray from `from`: where it meets the ball, or nothing.
+// Distance along the ray from `from` to the ball, or nothing.
 std::optional<double> ball(const Vec3& from, const Vec3& ray, const Vec3& centre, double radius) {
   const Vec3 to = centre - from;
   const double b = ray.dot(to), root = b * b - ray.squaredNorm() * (to.squaredNorm() - radius * radius);
@@ -114,7 +114,7 @@ void draw(const StereoRig& rig, Side side, const HandAt* hand, std::uint64_t see
       }
       for (int c = 0; c < 3; ++c) {
         const auto key = static_cast<std::int64_t>(seed * 2 + (left ? 0 : 1));
-        double n = 0.0;  // of the sensor: twelve evenly spread numbers are as good as normal
+        double n = 0.0;  // sensor noise: twelve evenly spread numbers are as good as normal
         if (sensor > 0.0)
           for (int k = 0; k < 4; ++k) n += hashed(x * 16 + c * 4 + k, y, key + 1000) - 0.5;
         const double v = sum[c] / (sub * sub) + sensor * n * std::sqrt(3.0);

@@ -13,7 +13,7 @@ namespace enc::drawn {
 
 struct HandAt {
   Vec3 tip{0, 0, 0.6};    // centre of the cap in C, m
-  Vec3 along{0, -1, 0};   // from the knuckle to the tip
+  Vec3 along{0, -1, 0};   // direction from the knuckle to the tip
   double radius = 0.008;  // m
   double length = 0.07;   // m, to the fist
   bool fist = true;
@@ -32,12 +32,12 @@ inline StereoRig small() {
   return rig;
 }
 
-// 0 to 1, of three numbers.
+// 0 to 1, from three numbers.
 double hashed(std::int64_t x, std::int64_t y, std::int64_t z);
 // Smooth noise in space, 0 to 1.
 double noise(const Vec3& p);
 
-// One raw image; `skin` of the left one where asked for (more than half of the pixel).
+// One raw image; `skin` of the left one on request (more than half of the pixel).
 void draw(const StereoRig& rig, Side side, const HandAt* hand, std::uint64_t seed, double sensor,
           Image& image, Mask* skin = nullptr);
 
@@ -56,7 +56,7 @@ inline Pair pair_of(const StereoRig& rig, const HandAt* hand, std::uint64_t seed
 inline SegmentationSpec segmentation() {
   SegmentationSpec spec;
   spec.background_frames = 2;
-  spec.model = {0.385, 0.06};  // rad, of (205, 150, 118)
+  spec.model = {0.385, 0.06};  // rad, hue of (205, 150, 118)
   return spec;
 }
 

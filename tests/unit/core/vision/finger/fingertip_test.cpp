@@ -1,4 +1,4 @@
-// Steps 1 to 10 on drawn masks: each test flips the decision of one step alone. Then the tip's accuracy.
+// Steps 1 to 10 on drawn masks: each test changes the decision of one step alone. Then the tip's accuracy.
 #include "core/vision/finger/fingertip.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace {
 using drawn::at_frame;
 
 constexpr int kSide = 240;
-// So long a lens that nothing is seen aslant; R / B is 0.008 / 0.09.
+// A focal length so long that there is no oblique view; R / B is 0.008 / 0.09.
 const RectifiedPair kFlat{1e6, 119.5, 119.5, 0.09, Mat3::Identity()};
 constexpr double kMost = 40.0;  // px
 constexpr float kTen = 112.5F;  // px of disparity: r = 10 px
 
-// A finger from `tip` in direction `along` back; pixels of which more than half is covered.
+// A finger from `tip` back along `along`: pixels that are covered by more than half.
 void draw_finger(Mask& mask, Vec3 tip, Vec3 along, double radius, double length) {
   along.normalize();
   for (int y = 0; y < mask.height; ++y)
@@ -83,7 +83,7 @@ TEST(FingertipSteps, Step3TakesTheRadiusFromTheDepth) {
   EXPECT_EQ(at(upright(), 120, 80, {}, 500.0F).too_small, 1);  // 44 px: nearer than the nearest
 }
 
-// In front of the middle the circle has less skin.
+// A circle in front of the middle has less skin.
 TEST(FingertipSteps, Steps4And5WantAFullCircle) {
   FingertipSpec spec;
   EXPECT_EQ(at(upright(), 120, 73, spec).circle, 1);
@@ -125,8 +125,9 @@ TEST(FingertipSteps, Steps6And7WantAFinger) {
   EXPECT_EQ(at(mask, 120, 80, spec).square, 1);
 }
 
-// The two readings of print. Side: what is all skin passes, as the square's own 4 r2 are not more than 4 r2.
-// Half the side, with 2 r2 as the least: a straight finger is refused. Ours: the one in, the other out.
+// Two readings of the printed text. Side: a square of skin alone passes, as its own 4 r2 are not more than 4
+// r2. Half the side, with 2 r2 as the least: a straight finger is refused. Ours: the finger passes, the
+// square does not.
 TEST(FingertipSteps, TheReadingsOfTheSquare) {
   Mask palm(kSide, kSide);
   std::fill(palm.on.begin(), palm.on.end(), std::uint8_t{255});
@@ -150,7 +151,7 @@ TEST(FingertipSteps, Steps8And9WantTheEndOfAFinger) {
   EXPECT_EQ(at(upright(), 120, 140, spec).pairs, 1);
   spec.pairs = 22.0;
   EXPECT_EQ(at(upright(), 120, 140, spec).candidates, 1);
-  // One pair is allowed, the second is not.
+  // One pair is allowed, a second one is not.
   Mask mask = upright();
   spec.pairs = 1.0;
   mask.row(63)[120] = 255;
@@ -159,7 +160,7 @@ TEST(FingertipSteps, Steps8And9WantTheEndOfAFinger) {
   EXPECT_EQ(at(mask, 120, 80, spec).pairs, 1);
 }
 
-// Of two equal fingers the first in reading order; of two that differ the better one.
+// The first of two equal fingers in reading order; the better of two that differ.
 TEST(FingertipSteps, Step10TakesTheBestAndOfEqualOnesTheFirst) {
   Mask two(kSide, kSide);
   draw_finger(two, {60, 90, 0}, {0, -1, 0}, 10, 300);
@@ -172,7 +173,7 @@ TEST(FingertipSteps, Step10TakesTheBestAndOfEqualOnesTheFirst) {
   EXPECT_GT(tip.score, 0.95);
 }
 
-// Where the image cuts a finger off it has no end that is known.
+// A finger that the image cuts off has no known end.
 TEST(FingertipSteps, TheEdgeOfTheImageIsNoFingertip) {
   Mask mask(kSide, kSide);
   draw_finger(mask, {-60, 120, 0}, {-1, 0, 0}, 10, 400);
@@ -194,7 +195,7 @@ TEST(FingertipSteps, CountsAddUp) {
   EXPECT_EQ(n.candidates, static_cast<std::int64_t>(finder.candidates().size()));
 }
 
-// From all sides, between pixels, widths as of 300 to 900 mm, K right and wrong by a quarter.
+// Fingers from all sides, between pixels, widths as at 300 to 900 mm, K right and wrong by a quarter.
 TEST(Fingertip, IsFoundToATenthOfAPixel) {
   for (const double scale : {0.75, 1.0, 1.25}) {
     FingertipSpec spec{.scale = scale};
@@ -224,7 +225,7 @@ TEST(Fingertip, IsFoundToATenthOfAPixel) {
   }
 }
 
-// Without the fit the middle of the best candidates lies behind the cap: that is what the fit is for.
+// Without the fit the middle of the best candidates lies behind the cap, so the fit is needed.
 TEST(Fingertip, TheBestCandidatesAloneAreBehindTheCap) {
   FingertipSpec plain{.fit = false};
   const Fingertip rough = found(upright(), plain), fine = found(upright());
@@ -241,7 +242,7 @@ TEST(Fingertip, AWindowFindsWhatTheFrameFinds) {
   const Fingertip whole = finder.find(mask, map, mask.whole());
   const Region window{100, 66, 141, 101};
   const int reach = finder.reach(static_cast<double>(kTen));
-  for (int y = 0; y < kSide; ++y)  // beyond its reach anything may stand
+  for (int y = 0; y < kSide; ++y)  // anything may stand beyond its reach
     for (int x = 0; x < kSide; ++x) {
       const Region near{window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
       part.row(y)[x] = near.contains(x, y) ? mask.row(y)[x] : 255;
@@ -302,7 +303,7 @@ TEST(TripletFilter, ConstantVelocityIsFollowedWithoutLag) {
   for (int i = 1; i < 30; ++i) {
     filter.predict(spec, at_frame(i));
     if (i > 20) {
-      EXPECT_LT((filter.at().e() - truth(i).e()).norm(), 1e-6) << i;  // foreseen, before it is seen
+      EXPECT_LT((filter.at().e() - truth(i).e()).norm(), 1e-6) << i;  // predicted, before it is seen
     }
     filter.correct(truth(i), variance);
   }
@@ -310,7 +311,7 @@ TEST(TripletFilter, ConstantVelocityIsFollowedWithoutLag) {
   EXPECT_NEAR(filter.rate().disparity, 16.0, 1e-4);
 }
 
-// Ways that the filter believes in: what it says of its own error is true, on average over seeds.
+// Paths that match the filter's model: its stated error is true, on average over seeds.
 TEST(TripletFilter, ItsCovarianceIsTrue) {
   const TrackSpec spec;
   const Vec3 variance(0.09, 0.09, 0.0225);
@@ -325,7 +326,7 @@ TEST(TripletFilter, ItsCovarianceIsTrue) {
     const Vec3 q(spec.acceleration_noise, spec.acceleration_noise, spec.disparity_acceleration_noise);
     TripletFilter filter;
     for (int i = 0; i < 25; ++i) {
-      if (i > 0) {  // white acceleration within a frame, exactly: a step of v and the half of it that x gets
+      if (i > 0) {  // white acceleration within a frame, exactly: a step of v, and half of it in x
         const Vec3 a = q.cwiseProduct(random.normal3()) * std::sqrt(h);
         const Vec3 b = q.cwiseProduct(random.normal3()) * std::sqrt(h * h * h / 12.0);
         x += h * v + 0.5 * h * a + b;

@@ -1,4 +1,4 @@
-// A finger in two images: how far its cap is, and whether they are exchanged.
+// A finger in two images: the distance of its cap, and the detection of exchanged images.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,12 +18,12 @@ namespace {
 
 using drawn::small;
 
-// How far a cap is, on drawn pairs of which place, outline and slope are known: near ones and at the image's
-// edge, where the finger is seen aslant and the eyes see different sides of it.
+// The distance of a cap, on drawn pairs with known place, outline and slope: near ones, and at the image's
+// edge, where the view is oblique and the eyes see different sides.
 
 const RectifiedPair kPair{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
 
-// A pair, and what is true of it.
+// A pair and its ground truth.
 struct Scene {
   Grey left, right;
   Mask skin;
@@ -60,7 +60,8 @@ drawn::HandAt cap_hand_at(const Vec3& tip, const Vec3& along, double radius = 0.
   return {.tip = tip, .along = along, .radius = radius, .length = 0.05};
 }
 
-// Matched without perspective, or with what one eye does not see, these are off by 0.3 to 0.8 px.
+// A match without perspective, or one that includes parts that one eye does not see, errs here by 0.3 to 0.8
+// px.
 TEST(CapMatch, ACapAtTheEdgeOfTheImageIsAsFarAsItIs) {
   for (const Vec3& along : {Vec3(1, 0.2, 0), Vec3(-1, 0.2, 0), Vec3(0.1, -1, 0)})
     for (const Vec3& tip : {Vec3(0.10, 0.04, 0.32), Vec3(0.02, -0.05, 0.32), Vec3(0.12, 0.06, 0.55)}) {
@@ -93,13 +94,13 @@ TEST(CapMatch, ABlockOfTheBackgroundIsNotBelieved) {
   ASSERT_TRUE(scene.match(first).good && scene.match(last).good);
   EXPECT_NEAR(scene.match(first).disparity, scene.disparity, 0.12);
   EXPECT_NEAR(scene.match(last).disparity, scene.disparity, 0.12);
-  const CapDisparity alone = scene.match(wrong);  // the best that there is near it, and it says how bad
+  const CapDisparity alone = scene.match(wrong);  // the best match near it, with its poor score
   EXPECT_TRUE(!alone.good || alone.variance > 5.0 * scene.match(first).variance);
   EXPECT_FALSE(scene.match({}).good);
 }
 
-// Skin that is alike every 8 px along a finger that lies along the rows: both places fit equally well, but at
-// one of them the finger would not end where it does.
+// Skin that repeats every 8 px along a finger along the rows: both places fit equally well, but at one of
+// them the finger would end too early or too late.
 TEST(CapMatch, TheFingersEndTellsPlacesApartThatLookAlike) {
   for (const double way : {-1.0, 1.0}) {
     const drawn::HandAt hand = cap_hand_at({0.06, 0.02, 0.45}, {way, 0.0, 0.0}, 0.010);
@@ -131,7 +132,7 @@ TEST(CapMatch, OneImageMayBeBrighter) {
   EXPECT_NEAR(brighter.match(surface).disparity, same.match(surface).disparity, 0.02);
 }
 
-// Not smoothed, these are off by 0.37 px rms; as it is, by 0.17.
+// The error is 0.37 px rms without smoothing, and 0.17 with it.
 TEST(CapMatch, SkinOfLittleDetailSeenFromNearIsMoreThanNoise) {
   drawn::HandAt hand = cap_hand_at({0.03, 0.0, 0.30}, {0.9, -0.3, 0.1}, 0.020);
   hand.marks = 0.01;
@@ -161,7 +162,7 @@ TEST(CapMatch, SpecksAreLeftOut) {
   EXPECT_LT(found.left_over, 3.0 * clean.left_over);
 }
 
-// 2.4 radii from where the search for the cap begins there is no image any more.
+// The image ends 2.4 radii from the start of the search for the cap.
 TEST(CapFit, ACapThatEntersTheImageFromBelowIsFitted) {
   const Scene scene(cap_hand_at({0.0, 0.0660, 0.30}, {0.05, -1, 0}, 0.012));
   const Pixel start{scene.tip.column, scene.tip.row + 0.75 * scene.tip.outline};
@@ -191,7 +192,7 @@ TEST(CapFit, ACapAtTheEdgeOfTheImageIsACircleSeenStraightOn) {
   EXPECT_GT(apart, 0.4);  // without perspective
 }
 
-// Where a fingertip is in the right image by its shape, with skin that has no detail at all.
+// The place of a fingertip in the right image by its shape, with skin without any detail.
 
 const RectifiedPair kSmall{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
 
@@ -218,7 +219,7 @@ ShiftRange round(double disparity) {
   return {static_cast<int>(0.6 * disparity), static_cast<int>(1.6 * disparity)};
 }
 
-// From all sides, along the rows as well; pointing away from the cameras and towards them.
+// Fingers from all sides, also along the rows, pointing away from the cameras and towards them.
 TEST(SilhouetteLong, TheShiftIsThatOfTheTip) {
   for (int side = 0; side < 16; ++side)
     for (const double away : {-0.5, 0.0, 0.5}) {
@@ -263,7 +264,7 @@ TEST(Silhouette, NoMoreThanThereIsRoomFor) {
   EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), {}), 0U);
 }
 
-// Left and right exchanged are noticed in the first frame that shows enough, and never otherwise.
+// The tracker detects exchanged images in the first frame that shows enough, and never otherwise.
 
 Grey grey_of(const Image& image) {
   Grey grey(image.width, image.height);
@@ -301,7 +302,7 @@ TEST_F(ExchangedTest, WhatShowsNothingChangesNothing) {
   EXPECT_TRUE(watch.see(bare(), bare()));
 }
 
-// Two images that have nothing to do with each other are neither.
+// Two unrelated images are neither exchanged nor right.
 TEST_F(ExchangedTest, NoiseIsNoSign) {
   const auto noisy = [](std::uint64_t seed) {
     Grey grey(320, 240);
@@ -314,7 +315,7 @@ TEST_F(ExchangedTest, NoiseIsNoSign) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_FALSE(watch.see(noisy(seed), noisy(seed + 100)));
 }
 
-// A pair of cameras far apart, or of few pixels, is none that it refuses.
+// The tracker accepts a pair of cameras far apart, or of few pixels.
 TEST_F(ExchangedTest, AnyRigIsLookedAt) {
   RectifiedPair wide = Rectifier(rig).pair();
   wide.baseline = 1.0;
@@ -323,7 +324,7 @@ TEST_F(ExchangedTest, AnyRigIsLookedAt) {
   EXPECT_FALSE(tiny.see(Grey(8, 4), Grey(8, 4)));
 }
 
-// What a sphere's outline is in an image, and where a camera looks straight at it.
+// The outline of a sphere in an image, and the axis of a camera's view.
 
 const RectifiedPair kAhead{721, 319.5, 239.5, 0.09, Mat3::Identity()};
 
@@ -338,7 +339,7 @@ TEST(Tangent, ASpheresOutlineIsACircleRoundItsMiddle) {
   double least = 1e9, most = 0.0;
   for (int i = 0; i < 100; ++i) {
     const double angle = 0.02 * i * std::numbers::pi;
-    // A ray that touches it.
+    // A ray that touches the sphere.
     const Vec3 rim = cosine * along + sine * (std::cos(angle) * a + std::sin(angle) * b);
     const Pixel seen{319.5 + 721 * rim.x() / rim.z(), 239.5 + 721 * rim.y() / rim.z()};
     const Pixel flat = tangent.of(seen);

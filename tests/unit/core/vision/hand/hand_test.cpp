@@ -1,4 +1,4 @@
-// What is not surely the fingertip is not seen: by what the images tell of a find, and on painted hands.
+// Vision rejects every uncertain fingertip: by the image evidence of a find, and on painted hands.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -64,7 +64,7 @@ TEST(Certainty, EachDoubtHasItsCause) {
   EXPECT_EQ(doubt_with([](auto& e) { e.hand = kUnset; }), Doubt::hand);
 }
 
-// Where the finger does not tell how it slopes, the match of its cap does.
+// If the finger does not show its slope, the match of its cap does.
 TEST(Certainty, AHandThatSlopesOtherwiseThanTheCapIsNotTheFingers) {
   const auto sloped = [](double cap) {
     return doubt_with([&](auto& e) {
@@ -77,7 +77,7 @@ TEST(Certainty, AHandThatSlopesOtherwiseThanTheCapIsNotTheFingers) {
   EXPECT_EQ(sloped(0.5), Doubt::hand);
 }
 
-// It is wider, shorter, nearer to its palm.
+// A thumb is wider, shorter, nearer to its palm.
 TEST(Certainty, AThumbIsNoFinger) {
   const auto thumb = [](double cap, double length, double hand) {
     return doubt_with([&](auto& e) {
@@ -93,7 +93,7 @@ TEST(Certainty, AThumbIsNoFinger) {
   EXPECT_EQ(thumb(0.0170, 0.062, 0.095), Doubt::no);
 }
 
-// A cap of the width of the scene's finger is no thumb: it may be short, as if it leant to the camera.
+// A cap as wide as the scene's finger is no thumb: it may be short, as if it leant towards the camera.
 TEST(Certainty, ACapOfTheScenesFingerMayBeShort) {
   const auto leaning = [](double cap) {
     return doubt_with([&](auto& e) {
@@ -190,7 +190,7 @@ struct Score {
 };
 
 FingerTracker tracker_before(painted::Painter& painter, const Sequence& sequence, SegmentationMethod method) {
-  SegmentationSpec spec;  // hue as models/rigs/vishap.toml has it
+  SegmentationSpec spec;  // hue as in models/rigs/vishap.toml
   spec.model = {16.4 / 180.0 * std::numbers::pi, 4.5 / 180.0 * std::numbers::pi};
   spec.method = method;
   spec.background_frames = 3;
@@ -228,8 +228,8 @@ Score play(const Sequence& sequence, int frames, SegmentationMethod method = Seg
   return score;
 }
 
-// The hand behind a finger that leans towards the camera hides what tells it from a thumb, and a folded
-// finger is none that points: nothing wrong may be seen there, and nothing need be.
+// The hand behind a finger that leans towards the camera hides the difference to a thumb, and a folded finger
+// does not point. A wrong find is an error there; no find is not.
 bool may_be_hidden(const Sequence& sequence) {
   return sequence.name.starts_with("towards") || sequence.name.starts_with("folds");
 }
@@ -245,7 +245,7 @@ struct Total {
   }
 };
 
-// A fair choice of all: neighbours differ. In so few frames one or two that are not found are no wonder.
+// An even choice of all sequences: neighbours differ. So few frames can have one or two misses by chance.
 TEST(PaintedHands, NoFindFarOffIsSeenAndWhatShowsIsFound) {
   constexpr std::size_t kEvery = 19;
   Total total;
@@ -261,7 +261,7 @@ TEST(PaintedHandsLong, NoFindFarOffIsSeenAndWhatShowsIsFound) {
   for (const Sequence& sequence : painted::sequences()) total.add(sequence, 12);
   std::printf("found in %d of %d frames that show the fingertip in its colour, %d elsewhere\n", total.found,
               total.shown, total.wrong);
-  // A strip of a hand before wood, twice: the colour alone does not tell them apart there.
+  // A strip of a hand before wood, twice: the colour alone cannot separate them there.
   EXPECT_LE(total.wrong, 2);
   EXPECT_GE(total.found, 0.97 * total.shown);
 }
@@ -272,7 +272,7 @@ TEST(PaintedHandsLong, NoFindFarOffIsSeenByThePublishedMethod) {
     EXPECT_EQ(play(sequence, 12, SegmentationMethod::published).wrong, 0) << sequence.name;
 }
 
-// The published method is blind there, and says nothing rather than a strip of a hand.
+// The published method is blind there, and reports no finger instead of a strip of a hand.
 TEST(PaintedHands, BeforeAWallOfTheHueOfSkinThePublishedMethodSeesNothing) {
   for (const Sequence& sequence : painted::sequences()) {
     if (!sequence.name.starts_with("beige wall, from below")) continue;
@@ -281,7 +281,7 @@ TEST(PaintedHands, BeforeAWallOfTheHueOfSkinThePublishedMethodSeesNothing) {
   }
 }
 
-// The finger points away behind its own hand: what shows is the thumb.
+// The finger points away behind its own hand: only the thumb is visible.
 TEST(PaintedHands, TheThumbOfAHandThatHidesItsFingerIsNotSeen) {
   int sequences = 0;
   for (const Sequence& sequence : painted::sequences()) {
@@ -305,7 +305,7 @@ TEST(PaintedHands, AFingerThatFoldsIsSeenNowhereElse) {
   EXPECT_GE(sequences, 1);
 }
 
-// One frame after another of one hand before the office.
+// The frames of one hand before the office, in sequence.
 class OneHand {
  public:
   OneHand()
@@ -328,7 +328,7 @@ class OneHand {
   int frame_ = 0;
 };
 
-// The open hands alone, without the hands that point beside them.
+// The open hands alone, without the pointing hands beside them.
 TEST(PaintedHands, WhichFingerOfAnOpenHandPointsCannotBeKnown) {
   int hands = 0, because_of_fingers = 0;
   for (Sequence sequence : painted::sequences()) {
@@ -360,8 +360,8 @@ TEST(PaintedHands, AFindThatIsTooFarTooSoonIsAnotherFinger) {
   EXPECT_EQ(scene.see(true), FingerState::seen);
 }
 
-// Two bare hands in view. While none is tracked, the fingertip with the best score is taken, ties as in step
-// 10; from then on the one that is tracked, and never the other as long as it is seen.
+// Two bare hands in view. Before tracking, the fingertip with the best score wins, ties as in step 10.
+// Afterwards the tracked finger wins as long as it is seen.
 
 StereoRig two_wide() {
   StereoRig rig;
@@ -403,8 +403,8 @@ double off(const Finger& finger, const drawn::HandAt& hand) {
   return finger.tip.finite() ? (finger.tip.e() - hand.tip).norm() : 1.0;
 }
 
-// One finger moves at 200 mm/s across; from the fourth frame on another one is there: `aside` of the first
-// one's place in frame 7, or going along with it. It is a little higher, so it comes first in reading.
+// One finger moves at 200 mm/s across. A second one appears in the fourth frame: `aside` of the first one's
+// place in frame 7, or moving along with it. It is slightly higher, so it comes first in reading order.
 void expect_kept(double aside, double radius, bool along) {
   FingerTracker tracker = ready_for_two();
   for (int i = 1; i <= 10; ++i) {
@@ -433,8 +433,8 @@ TEST(TwoHandsLong, SideBySideTheTrackedOneIsKept) {
     for (const double radius : {0.007, 0.008, 0.009}) expect_kept(aside, radius, true);
 }
 
-// The tracked finger leaves: another one that is farther than it could have come is not taken for it, but
-// found anew once it is lost.
+// The tracked finger leaves. A second one, too far away to be the tracked one, counts as new, and only after
+// the tracked one is lost.
 TEST(TwoHandsLong, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
   FingerTracker tracker = ready_for_two();
   const drawn::HandAt own = palm_at(0.175, 0.02, 0.45), other = palm_at(-0.09, 0.02, 0.45);
@@ -450,15 +450,15 @@ TEST(TwoHandsLong, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
         tracker.see(drawn::pair_of(two_wide(), &left, static_cast<std::uint64_t>(i)).frame(), at_frame(i));
     if (finger.state == FingerState::seen) break;
     if (!finger.tip.finite()) continue;
-    EXPECT_LT(off(finger, tracked), 0.02) << i;  // foreseen, where it was
+    EXPECT_LT(off(finger, tracked), 0.02) << i;  // predicted, at its last place
   }
   EXPECT_GE(i, 6 + TrackSpec{}.full_frame_after);
   EXPECT_EQ(finger.state, FingerState::seen);
   EXPECT_LT(off(finger, left), 6e-3);
-  EXPECT_LT(finger.velocity.e().norm(), 0.2);  // of a new one: it did not fly over
+  EXPECT_LT(finger.velocity.e().norm(), 0.2);  // speed of a new finger: it did not fly over
 }
 
-// Two alike: one of them is taken, never a place between them, and the same again and again.
+// Two alike: vision takes one of them, never a place in between, and the same one in each frame.
 TEST(TwoHandsLong, AtFirstOneOfThemIsTaken) {
   const drawn::HandAt one = palm_at(0.06, 0.0, 0.45), two = palm_at(-0.04, 0.02, 0.45);
   FingerTracker tracker = ready_for_two(), again = ready_for_two();
@@ -481,7 +481,7 @@ void draw_upright(Mask& mask, int column, int row) {
     }
 }
 Fingertip tip_in(const Mask& mask) {
-  // So long a lens that nothing is seen aslant; R / B is 0.008 / 0.09.
+  // A focal length so long that there is no oblique view; R / B is 0.008 / 0.09.
   const RectifiedPair flat{1e6, 119.5, 119.5, 0.09, Mat3::Identity()};
   FingertipFinder finder({}, flat, 40.0, mask.width, mask.height);
   DisparityMap map(mask.width, mask.height);
@@ -489,7 +489,7 @@ Fingertip tip_in(const Mask& mask) {
   return finder.find(mask, map, mask.whole());
 }
 
-// Of the finder alone: the best score; of equal ones the first pixel in reading order.
+// The finder alone: the best score wins; equal scores go by reading order.
 TEST(TwoHandsLong, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
   Mask level(240, 240), higher(240, 240);
   draw_upright(level, 70, 90);
@@ -502,7 +502,7 @@ TEST(TwoHandsLong, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
   EXPECT_NEAR(tip_in(higher).column, 70.0, 1.0);
 }
 
-// One passes before the other: one of the two is told, or none.
+// One hand passes before the other: vision reports one of the two, or none.
 TEST(TwoHandsLong, HandsThatTouchOrHideEachOtherAreNoHarm) {
   FingerTracker tracker = ready_for_two();
   for (int i = 1; i <= 8; ++i) {
@@ -515,7 +515,7 @@ TEST(TwoHandsLong, HandsThatTouchOrHideEachOtherAreNoHarm) {
   }
 }
 
-// One look at a pair: what is foreseen of the depth changes the work, never the result.
+// One look at a pair: the predicted depth changes the work, never the result.
 
 TEST(HandScene, AFingerNearerThanForeseenIsSeenAsWell) {
   drawn::HandAt hand{.tip = {0.06, 0.01, 0.40}};

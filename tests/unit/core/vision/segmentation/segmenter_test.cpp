@@ -1,6 +1,5 @@
-// The whole segmentation by both methods: a region gives the bits of the whole frame, what is learned and
-// what is refused, images of all sizes, black and saturated ones; what other light and a background of the
-// hue of skin do to either.
+// The whole segmentation by both methods: a region gives the bits of the whole frame; learning and refusals;
+// images of all sizes, black and saturated ones; other light, and a background of the hue of skin.
 #include "core/vision/segmentation/segmenter.h"
 
 #include <algorithm>
@@ -38,7 +37,7 @@ struct Scene {
     const double u = 320.0 * x / width, v = 240.0 * y / height;
     return std::hypot(u - 190.0, v - 170.0) < 65.0 || (std::abs(u - 160.0) < 11.0 && v > 40.0 && v < 170.0);
   }
-  // The light counts for images with a hand alone.
+  // The light changes only images with a hand.
   [[nodiscard]] Image draw(bool with_hand, std::uint32_t seed) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> gauss(0.0, noise);
@@ -103,12 +102,12 @@ TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
         if (random() % 2 != 0)
           for (int c = 0; c < 3; ++c)
             image.at(i % width, i / width)[c] = static_cast<std::uint8_t>(kSkin[static_cast<std::size_t>(c)]);
-      for (int i = width * height / 2; i < width * height * 3 / 4; ++i)  // and what has no hue alone
+      for (int i = width * height / 2; i < width * height * 3 / 4; ++i)  // and pixels without a hue alone
         if (random() % 2 != 0)
           for (int c = 0; c < 3; ++c)
             image.at(i % width, i / width)[c] =
                 static_cast<std::uint8_t>(0.1 * kSkin[static_cast<std::size_t>(c)] + random() % 4);
-      Image other(width, height);  // so that nothing is left of a frame before
+      Image other(width, height);  // so that nothing is left of an earlier frame
       for (std::size_t i = 0; i < other.rgb.size(); ++i)
         other.rgb[i] = static_cast<std::uint8_t>(kSkin[i % 3]);
       Mask whole(width, height);
@@ -132,8 +131,9 @@ TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
     }
 }
 
-// Stripes of wall, before which dim skin comes and goes, and of wood, which is skin where most around it is:
-// what is around a region decides at its edge, and what is around that decides there.
+// Stripes of wall, before which dim skin comes and goes, and of wood, which counts as skin if most pixels
+// around it are skin. The surroundings of a region decide at its edge, and their own surroundings decide
+// there.
 TEST(Segmenter, GivesOfARegionTheBitsOfTheWholeWhereSurroundingsDecide) {
   constexpr int kWidth = 160, kHeight = 120;
   std::mt19937 random(11);
@@ -229,8 +229,8 @@ TEST(Segmenter, RefusesFramesOfAnotherSizeAndSpecsThatCannotBe) {
   refused([](auto& s) { s.model.hue = NAN; });
 }
 
-// Sizes from one pixel on, of frames that are black, white, or a hand all over: nothing that was there is
-// skin, nothing grey ever is.
+// Sizes from one pixel on; frames that are black, white, or a hand all over. Old background and grey are
+// never skin.
 TEST(Segmenter, TakesAnySizeAndAnyFrame) {
   for (const auto method : kBoth)
     for (const auto& [width, height] : {std::pair{1, 1}, {4, 3}, {7, 1}, {1, 31}, {33, 6}, {64, 48}}) {
@@ -252,7 +252,7 @@ TEST(Segmenter, TakesAnySizeAndAnyFrame) {
         Mask found(width, height);
         segmenter.segment(image.view(), found.whole(), found);
         const auto skin = std::count(found.on.begin(), found.on.end(), 255);
-        const bool as_light = width * height > 1000;  // by our method, as change.h says
+        const bool as_light = width * height > 1000;  // our method only, as in change.h
         EXPECT_TRUE(skin == width * height || as_light) << word_of(method) << " " << width;
       }
     }
@@ -283,7 +283,7 @@ TEST(Segmenter, OursHoldsInOtherLight) {
   }
 }
 
-// The published method takes the hue of skin as it is: a bluer lamp moves it out of the model.
+// The published method uses the plain hue of skin: a bluer lamp moves it out of the model.
 TEST(Segmenter, ThePublishedMethodLosesSkinInABluerLight) {
   Scene scene;
   scene.light = [](double, double) { return Colour{0.8, 0.95, 1.15}; };
@@ -300,7 +300,7 @@ TEST(Segmenter, OursSeesAHandTooDimForAHue) {
   EXPECT_LT(judged(SegmentationMethod::ours, scene).iou(), 0.01);
 }
 
-// On brown: dim, and of the hue of skin.
+// A shadow on brown: dim, and of the hue of skin.
 TEST(Segmenter, OursTakesAShadowForNoHand) {
   Scene scene;
   scene.wall = {60, 45, 38};
@@ -359,7 +359,7 @@ TEST(Background, KnowsTheNoiseOfEachTile) {
   for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(noise[i] / (i < 5 ? 2.0 : 6.0), 1.0, 0.12) << i;
 }
 
-// What the light of a frame is said to be: gains, a lamp at the side, what is left over; behind a hand.
+// The estimated light of a frame: gains, a lamp at the side, the residual; behind a hand.
 
 constexpr int kWidth = 320, kHeight = 240;
 
@@ -418,7 +418,7 @@ TEST(Light, OfTooFewSamplesIsOne) {
   EXPECT_EQ(clipped.gain, (std::array{1.0, 1.0, 1.0}));
 }
 
-// Most of the background is clipped, a shaded hand before it is not: it says nothing of the light.
+// Most of the background is clipped but a shaded hand before it is not: the hand alone gives no light.
 TEST(Light, OfAHandAloneIsOne) {
   Image image = frame([](double) { return std::array{3.0, 3.0, 3.0}; });
   for (int y = 0; y < kHeight; ++y)

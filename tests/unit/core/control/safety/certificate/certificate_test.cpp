@@ -1,5 +1,5 @@
-// Exact eigenvalues of a sampled wall: against the tables of the virtual wall, against a simulation in time,
-// and at the edges of what a loop can be.
+// Exact eigenvalues of a sampled wall, compared with the tables of the virtual wall and with a simulation in
+// time, and at the limits of a loop.
 #include "core/control/safety/certificate/certificate.h"
 
 #include <algorithm>
@@ -100,8 +100,8 @@ TEST(SampledLoop, BoundFallsWithDelayAndPeriodAndRisesWithDamping) {
   }
 }
 
-// LoopDelay by five eighths of the hand's own swing a damper drives it and a spring damps it: what is stable
-// does not begin at nothing.
+// A damper that is late by five eighths of the hand's own period drives the swing; a spring damps it. So the
+// stable range need not begin at zero stiffness.
 TEST(SampledLoop, StableStiffnessesNeedNotBeginAtNothing) {
   SampledLoop loop{0.1, 0.1, 1e-3, 33.5e-3};
   loop.hand = {0.05, 0.1, 2000.0};
@@ -119,7 +119,7 @@ TEST(SampledLoop, StableStiffnessesNeedNotBeginAtNothing) {
 // ---- against time
 // ----------------------------------------------------------------------------------------
 
-// The same loop, written down as it runs: short steps of Runge and Kutta, a law that keeps what it read.
+// The loop as it runs in time: short Runge-Kutta steps, and a law that holds its last reading.
 struct InTime {
   const SampledLoop& loop;
   double stiffness, damper, x = 1.0, v = 0.0, error = 1.0, rate = 0.0;
@@ -155,7 +155,7 @@ struct InTime {
   }
 };
 
-// By how much a swing grows in a period, late in a run.
+// Growth of a swing per period, late in a run.
 double growth(const SampledLoop& loop, double stiffness, double damper) {
   InTime run{loop, stiffness, damper};
   const double w = std::max(ringing(loop, stiffness, damper), 20.0);
@@ -234,14 +234,14 @@ TEST(SampledLoop, WhatIsNotKnownHasNoAnswer) {
 }
 
 TEST(SampledLoop, SameDelayInOneFormOrAnother) {
-  // 3 periods less a part that no clock has, and 3 periods.
+  // 3 periods less a part that no clock resolves, and 3 periods.
   EXPECT_NEAR(critical_stiffness(wall_with(0.2, 3e-3)), critical_stiffness(wall_with(0.2, 3e-3 - 1e-12)),
               1e-6);
   EXPECT_NEAR(critical_stiffness(wall_with(0.2, 3e-3)), critical_stiffness(wall_with(0.2, 3e-3 - 1e-8)),
               1e-2);
 }
 
-// The formulas of the literature, against their closed forms and against the exact boundary.
+// The formulas of the literature, compared with their closed forms and with the exact boundary.
 
 SampledLoop wall(double damping, double delay = 0.0) { return {0.1, damping, 1e-3, delay}; }
 const SampledLoop kPhantom{0.075, 0.0114, 1e-3};  // at 0.21 m
@@ -264,8 +264,8 @@ TEST(Bounds, ColgateSchenkelWithDelayIsHalfAPeriodAndTheDelay) {
     EXPECT_NEAR(passive_stiffness(wall(0.2, delay), {}), 0.2 / (0.5e-3 + delay), 0.01) << delay;
 }
 
-// A part of a period: never more than with the period below, never less than with the one above, and what is
-// needed is exactly what the largest stiffness needs.
+// Between whole periods the bound lies between the bounds of the periods above and below. The required
+// damping is exactly that of the largest stiffness.
 TEST(Bounds, ColgateSchenkelBetweenPeriods) {
   double before = passive_stiffness(wall(0.2), {});
   for (int i = 1; i <= 30; ++i) {
@@ -299,7 +299,7 @@ TEST(Bounds, PassiveIsStableWithAnyHand) {
 
 TEST(Bounds, AbbottOkamuraOfThePhantom) {
   EXPECT_NEAR(quantised_stiffness(kPhantom, kCounts), 22.8, 1e-9);
-  // 3324 N/m of figures that are printed with two and three digits.
+  // 3324 N/m, from figures that are printed with two and three digits.
   EXPECT_NEAR(quantised_stiffness({0.075, 100.0, 1e-3}, kCounts), 3324.0, 0.01 * 3324.0);
   EXPECT_EQ(quantised_stiffness(kPhantom, {0.0, 1e-5}), 0.0);
   EXPECT_NEAR(quantised_stiffness(kPhantom, {0.0, 0.0}), 22.8, 1e-9);
@@ -320,13 +320,13 @@ TEST(Bounds, GilHulinOfTheTableAndItsError) {
     const double error = delayed_stiffness(loop, damper) / critical_stiffness(loop, damper) - 1.0;
     EXPECT_NEAR(error, row.formula / row.exact - 1.0, 0.01) << row.damper << " " << row.delay_ms;
   }
-  EXPECT_NEAR(delayed_stiffness(wall(0.2, 20e-3), {20.0, 0.0}), 985.0, 1.0);  // where none is stable
+  EXPECT_NEAR(delayed_stiffness(wall(0.2, 20e-3), {20.0, 0.0}), 985.0, 1.0);  // no stiffness is stable
   EXPECT_NEAR(delayed_stiffness(wall(0.2), {0.0, 2.5e-4}), 800.0, 1e-6);
   EXPECT_TRUE(std::isinf(delayed_stiffness(wall(0.2), {0.0, 1e-3})));
 }
 
 TEST(Bounds, PlaneOfDiolaiti) {
-  const Steps steps{0.05, 1e-4};  // 1000 N/m by its counts
+  const Steps steps{0.05, 1e-4};  // 1000 N/m from the encoder counts
   EXPECT_EQ(plane_of(wall(0.2), steps, {300.0, {}}).region, Region::passive);
   EXPECT_EQ(plane_of(wall(0.2), steps, {600.0, {}}).region, Region::locally_stable);
   EXPECT_EQ(plane_of(wall(0.2), steps, {1100.0, {}}).region, Region::unstable);
@@ -336,13 +336,14 @@ TEST(Bounds, PlaneOfDiolaiti) {
   EXPECT_NEAR(at.sigma, 1.25, 1e-12);
   EXPECT_EQ(plane_of(wall(kUnset), steps, {1.0, {}}).region, Region::unknown);
   EXPECT_EQ(plane_of(wall(0.2), {kUnset, 0.0}, {1.0, {}}).region, Region::unknown);
-  // Of a loop that is no plain spring it says nothing.
+  // The plane makes no statement about a loop that is not a plain spring.
   EXPECT_EQ(plane_of(wall(0.2, 2e-3), steps, {300.0, {}}).region, Region::unknown);
   EXPECT_EQ(plane_of(wall(0.2), steps, {300.0, {0.1, 0.0}}).region, Region::unknown);
   EXPECT_EQ(plane_of({0.1, 0.2, 1e-3, 0.0, 1, 0.4}, steps, {300.0, {}}).region, Region::unknown);
 }
 
-// Where delays are short for the device it is within 5 %; beyond that it is not, and does not apply.
+// The formula is within 5 % if delays are short for the device. With longer delays it is not, and does not
+// apply.
 TEST(Bounds, GilHulinIsCloseWhereItApplies) {
   int applied = 0;
   double beyond = 0.0;
@@ -365,7 +366,7 @@ TEST(Bounds, GilHulinIsCloseWhereItApplies) {
   EXPECT_GT(beyond, 0.15);
 }
 
-// The margin of a loop that is stable between two stiffnesses is below 1 beneath both.
+// A loop that is stable between two stiffnesses has a margin below 1 beneath both.
 TEST(Bounds, MarginTellsWhereWhatIsStableDoesNotBeginAtNothing) {
   SampledLoop loop{0.1, 0.1, 1e-3, 33.5e-3};
   loop.hand = {0.05, 0.1, 2000.0};
@@ -390,7 +391,8 @@ TEST(Bounds, FrictionRowsApplyWhereCountsDoNotPushMore) {
 }
 
 TEST(Bounds, FrictionStopsSmallSwingsByItsEquivalentDamping) {
-  // A swing of amplitude A grows by sampling as b < K T/2 and is stopped as 4 f_c/(pi w A) makes up for it.
+  // Sampling makes a swing of amplitude A grow as b < K T/2; friction stops it if 4 f_c/(pi w A) makes up for
+  // that.
   const double k = friction_stiffness(kPhantom, 0.048, {}, 1e-3);
   const double w = std::sqrt(k / 0.075), more = 4.0 * 0.048 / (M_PI * w * 1e-3);
   EXPECT_NEAR(k, 2.0 * (0.0114 + more) / 1e-3, 0.03 * k);
@@ -410,13 +412,13 @@ TEST(Bounds, RowsSayWhatTheyAre) {
     EXPECT_NEAR(row.margin, row.bound / 200.0, 1e-9) << row.name;
   }
   EXPECT_EQ(rows[1].name, "abbott_okamura");
-  EXPECT_FALSE(rows[1].applies);  // of a loop with delay
+  EXPECT_FALSE(rows[1].applies);  // a loop with delay
   EXPECT_TRUE(rows[2].applies);
   EXPECT_FALSE(bounds(loop, kCounts, {200.0, {1.0, 0.0}})[2].applies);  // B above b
   EXPECT_GT(rows[7].bound, rows[6].bound);
 }
 
-// The class of a loop, and what becomes of 0.1 and 1 mm where friction and counts decide.
+// The class of a loop, and the course of 0.1 and 1 mm if friction and counts decide.
 
 const SampledLoop kArm{0.075, 0.0114, 1e-3};
 const Steps kEncoder{0.048, 28.7e-6};
@@ -433,9 +435,9 @@ TEST(Certificate, ClassesFollowOneAnotherAsTheStiffnessGrows) {
   EXPECT_EQ(certify(loop, none, {100.0, {}}).verdict, Class::passive);
   EXPECT_EQ(certify(loop, none, {300.0, {}}).verdict, Class::held);
   EXPECT_EQ(certify(loop, none, {4000.0, {}}).verdict, Class::unstable);
-  // With a damper above b a wall is stable and not passive.
+  // A damper above b makes a wall stable but not passive.
   EXPECT_EQ(certify(loop, none, {300.0, {0.5, 0.0}}).verdict, Class::alone);
-  // What a hand does not hold friction may, where it is small.
+  // Friction can hold a small motion that a hand does not hold.
   EXPECT_EQ(certify(loop, {0.05, 0.0}, {4000.0, {}}).verdict, Class::unstable);
   EXPECT_EQ(certify(loop, {3.0, 0.0}, {4000.0, {}}).verdict, Class::local);
 }
@@ -448,7 +450,7 @@ TEST(Certificate, CountsAreNotPassiveWhereTheyPushMoreThanFrictionHolds) {
   EXPECT_EQ(over.plane.region, Region::limit_cycle);
 }
 
-// Of the damper, too: a count makes the rate jump by step/T and back.
+// This applies to the damper, too: a count makes the rate jump by step/T and back.
 TEST(Certificate, CountsOfADamperAreNotPassiveWhereTheyPushMoreThanFrictionHolds) {
   const SampledLoop loop{0.1, 0.5, 1e-3};
   EXPECT_EQ(certify(loop, {0.005, 30e-6}, {300.0, {}}).verdict, Class::passive);
@@ -456,7 +458,7 @@ TEST(Certificate, CountsOfADamperAreNotPassiveWhereTheyPushMoreThanFrictionHolds
   EXPECT_EQ(certify(loop, {0.010, 30e-6}, {300.0, {0.15, 0.0}}).verdict, Class::passive);
 }
 
-// A hand may also take away: its spring has the damper come late by more than the device alone does.
+// A hand can also destabilise: its spring delays the damper more than the device alone does.
 TEST(Certificate, StableAloneAndNotWithThisHandIsAClassOfItsOwn) {
   SampledLoop loop{0.1, 0.2, 1e-3, 10e-3};
   loop.hand = {0.02, 1.0, 1000.0};
@@ -468,7 +470,8 @@ TEST(Certificate, StableAloneAndNotWithThisHandIsAClassOfItsOwn) {
   EXPECT_EQ(certify(loop, kEncoder, {150.0, damper}).verdict, Class::alone);
 }
 
-// What grows too slowly to be seen is not still: undamped, an undelayed spring at 0.1 rad/s and a late one.
+// A motion that grows too slowly to be seen is not at rest: an undamped, undelayed spring at 0.1 rad/s, and a
+// late one.
 TEST(Certificate, WhatIsTooSlowToBeWatchedIsNotCalledStill) {
   const SampledLoop slow{1.0, 0.0, 1e-3}, late{0.1, 0.0, 1e-4, 50e-3};
   EXPECT_EQ(release(slow, {0.0, 0.0}, 0.01, 0.0, kLarge).rest, Rest::away);
@@ -482,15 +485,14 @@ TEST(Certificate, WhatIsTooSlowToBeWatchedIsNotCalledStill) {
   EXPECT_EQ(release(slow, {1e-3, 0.0}, 0.01, 0.0, kLarge).rest, Rest::still);  // it never moves
 }
 
-// A mass that its damper stops within no time at all follows it: down to the wall's edge, with friction or
-// not.
+// A mass that its damper stops at once follows it: down to the wall's edge, with friction or without.
 TEST(Certificate, LightMassIsNotFrozen) {
   const SampledLoop light{1e-9, 0.5, 1e-3}, heavy{1e-4, 0.5, 1e-3};
   for (const double friction : {0.0, 1e-3}) {
     const ReleaseResult found = release(light, {friction, 0.0}, 100.0, 0.0, kLarge);
     EXPECT_EQ(found.rest, Rest::still) << friction;
     EXPECT_LT(found.swing, 1e-5) << friction;
-    // Its force moves it by K T/b of the way in a period, as the eigenvalues say: up to twice.
+    // By the eigenvalues its force moves it by K T/b of the way in a period, so up to twice the way.
     EXPECT_EQ(release(light, {friction, 0.0}, 900.0, 0.0, kLarge).rest, Rest::still) << friction;
     EXPECT_EQ(release(light, {friction, 0.0}, 1100.0, 0.0, kLarge).rest, Rest::away) << friction;
     EXPECT_EQ(release(heavy, {friction, 0.0}, 1.1 * critical_stiffness(heavy), 0.0, kLarge).rest, Rest::away)
@@ -504,7 +506,7 @@ TEST(Certificate, WhatCreepsIsStill) {
   EXPECT_EQ(release({0.1, 16.0, 1e-3}, {1e-5, 0.0}, 10.0, 0.0, kLarge).rest, Rest::still);
 }
 
-// On its way down to what its counts keep going, which is more than 1 % of where it came from.
+// The motion decays to the amplitude that its counts sustain, which is more than 1 % of its start.
 TEST(Certificate, WhatGoesDownToALimitCycleIsWatchedOn) {
   const SampledLoop loop{0.1, 0.16, 1e-3};
   const ReleaseResult slow = release(loop, {0.0, 1e-4}, 300.0, 0.0, 50.0 * kSmall);
@@ -512,7 +514,8 @@ TEST(Certificate, WhatGoesDownToALimitCycleIsWatchedOn) {
   EXPECT_EQ(release(loop, {0.0, 0.0}, 300.0, 0.0, 50.0 * kSmall).rest, Rest::still);
 }
 
-// The PHANToM, pressed: settles from 0.1 mm to 3500 N/m, not at 5000; from 1 mm to 1000, not at 2000.
+// The PHANToM, pressed: it settles from 0.1 mm at 3500 N/m but not at 5000, and from 1 mm at 1000 but not at
+// 2000.
 TEST(Certificate, ThePhantomSettlesWhereItWasFoundTo) {
   const auto rest = [](double stiffness, double from) {
     return release(kArm, {0.048, 0.0}, stiffness, 0.0, from).rest;
@@ -537,7 +540,7 @@ TEST(Certificate, ReleaseWithoutFrictionAgreesWithTheEigenvalues) {
       }
 }
 
-// Sinusoidal and of energy balance, so within some per cent of the simulation.
+// The formula assumes a sinusoid and an energy balance, so it is within some per cent of the simulation.
 TEST(Certificate, DescribingFunctionForetellsWhatFrictionStops) {
   for (const double damping : {0.0114, 0.2})
     for (const double delay : {0.0, 1e-3, 3e-3})

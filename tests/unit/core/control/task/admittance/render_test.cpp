@@ -1,4 +1,4 @@
-// AdmittanceState: each mode ends when its cause has (mode.h); the damper; a tip that comes late; re-tare.
+// AdmittanceState: each mode ends with its cause (mode.h); the damper; a tip that comes late; re-tare.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,7 @@ using test::kTipRadius, test::kToolRadius, test::kTop, test::Loop;
 
 Point<'W'> at_gap(double gap) { return {0, 0, kTop + kToolRadius + gap}; }
 
-// A tool that was clear, and now presses with 5 N at this gap.
+// A tool that was clear and now presses with 5 N at this gap.
 Loop pressed(double gap, const SceneSpec& scene = test::plane_scene()) {
   Loop loop(prepare(scene, test::exact_rig()));
   loop.tool_tip = at_gap(0.02);
@@ -28,7 +28,7 @@ Loop pressed(double gap, const SceneSpec& scene = test::plane_scene()) {
 }
 
 // A sensor whose zero drifts by 0.02 N during a press, on an object so soft that this is more than the leave
-// gap; behind the damper that such an object needs.
+// gap, with the damper that such an object needs.
 TEST(ModeEnds, AContactBehindADamperWhoseZeroHasDrifted) {
   RigSpec rig = test::exact_rig();
   rig.admittance.damping = Damping::observed;
@@ -46,7 +46,7 @@ TEST(ModeEnds, AContactBehindADamperWhoseZeroHasDrifted) {
   loop.tool_tip = at_gap(0.050);
   loop.tick(3000);
   EXPECT_EQ(loop.out.mode, Mode::follow);
-  // And without a tool that is seen to have gone: after 5 s.
+  // Also without a tool that is seen to leave: after 5 s.
   Loop blind(prepare(
       [] {
         SceneSpec spec = test::plane_scene(test::spring(15.0));
@@ -65,7 +65,7 @@ TEST(ModeEnds, AContactBehindADamperWhoseZeroHasDrifted) {
   EXPECT_NE(blind.out.mode, Mode::contact);
 }
 
-// A touch that is never felt: the tool comes to the surface and goes back to 5 mm.
+// A touch without force: the tool comes to the surface and goes back to 5 mm.
 TEST(ModeEnds, AContactInWhichNoForceWasFelt) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = at_gap(0.02);
@@ -75,12 +75,13 @@ TEST(ModeEnds, AContactInWhichNoForceWasFelt) {
   ASSERT_EQ(loop.out.mode, Mode::contact);
   loop.tool_tip = at_gap(0.005);
   loop.tick(400);
-  EXPECT_EQ(loop.out.mode, Mode::contact);  // it may be that the tool is only coming
+  EXPECT_EQ(loop.out.mode, Mode::contact);  // the tool may only be coming
   loop.tick(300);
   EXPECT_EQ(loop.out.mode, Mode::follow);
 }
 
-// A zero that drifts during a press, and a tool that then waits 8.5 mm away: what is felt of it is no touch.
+// A zero that drifts during a press, and a tool that then waits 8.5 mm away: the force that remains is no
+// touch.
 TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
   for (const double drift : {0.06, 0.1, 0.2, 1.0}) {
     Loop loop = pressed(-0.002);
@@ -162,7 +163,8 @@ TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhilePosesAreLate) {
   EXPECT_EQ(loop.out.mode, Mode::away) << why_text(loop.out.why);
 }
 
-// A hand that presses varies its force: its contact stays, though its tool is hidden and another is in view.
+// A hand that presses varies its force: its contact stays, though its tool is hidden and another one is in
+// view.
 TEST(ModeEnds, NotAContactWhoseForceVariesWhileItsToolIsHidden) {
   for (const double force : {0.5, 1.0, 3.0}) {
     Loop loop = hidden(0.150);
@@ -175,7 +177,7 @@ TEST(ModeEnds, NotAContactWhoseForceVariesWhileItsToolIsHidden) {
   }
 }
 
-// A hand so still that its contact ends: its force is not learnt as the zero while its tool is hidden.
+// A hand so still that its contact ends: the zero must not learn its force while its tool is hidden.
 TEST(ModeEnds, WithoutLearningTheForceOfAHiddenHand) {
   for (const double force : {0.2, 2.0}) {
     Loop loop = hidden(0.150);
@@ -185,7 +187,7 @@ TEST(ModeEnds, WithoutLearningTheForceOfAHiddenHand) {
     loop.tick(20'000);
     EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-3) << force;
     loop.tool = 0;
-    loop.tool_tip = at_gap(0.150);  // and it is again when that tool is seen clear
+    loop.tool_tip = at_gap(0.150);  // and the zero learns again when that tool is seen clear
     loop.force = Vec<'W'>::zero();
     loop.force_zero = Vec<'F'>(0, 0, -0.03);
     loop.tick(20'000);
@@ -193,7 +195,7 @@ TEST(ModeEnds, WithoutLearningTheForceOfAHiddenHand) {
   }
 }
 
-// Only the tool that the gripper holds is in view when the tip is back: there is nothing to follow.
+// Only the gripper's tool is in view when the tip is back: there is no tool to follow.
 TEST(ModeEnds, RestoringWithNoToolInViewEndsInAway) {
   SceneSpec spec = two_tools();
   spec.gripper.emplace().tool = "other";
@@ -216,7 +218,7 @@ TEST(ModeEnds, RestoringWithNoToolInViewEndsInAway) {
   EXPECT_EQ(loop.out.mode, Mode::away);
 }
 
-// A tip that never gets to where it was, and never stands still: noise of a machine, or a surface in the way.
+// A tip that never returns to its place and never stands still: noise of a machine, or a surface in between.
 TEST(ModeEnds, RestoringATipThatNeverStands) {
   Loop loop = pressed(-0.001);
   ASSERT_EQ(loop.out.mode, Mode::contact);
@@ -232,7 +234,7 @@ TEST(ModeEnds, RestoringATipThatNeverStands) {
   EXPECT_EQ(loop.out.mode, Mode::follow);
 }
 
-// The damper beside a rendered object: its law worked by hand, what it sees, and how it forgets.
+// The damper beside a rendered object: its law worked by hand, its measurement, and its decay.
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDt = 1e-3;
@@ -255,10 +257,10 @@ TEST(Damping, LagIsTheSumOfItsParts) {
 }
 
 TEST(Damping, OneStepOfTheDamperByHand) {
-  // k = 100 N/m, b = 10 N s/m: b/k = 0.1 s; of 1 N the spring carries dt / (dt + b/k) after one tick.
+  // k = 100 N/m, b = 10 N s/m: b/k = 0.1 s; the spring carries dt / (dt + b/k) of 1 N after one tick.
   const Response object = spring(100.0);
   EXPECT_NEAR(law().carry(object, ResponseState{}, 0.0, 1.0, 10.0, 0.02), 1e-3 / 0.101, 1e-12);
-  // Half carried already, at 5 mm: half of that on top of a half.
+  // The spring carries half already, at 5 mm: half of the rest comes on top.
   ResponseState half;
   object.deflection(half, 0.5);
   EXPECT_NEAR(law().carry(object, half, 0.5, 1.0, 10.0, 0.02), 0.5 + 0.5e-3 / 0.101, 1e-12);
@@ -267,7 +269,7 @@ TEST(Damping, OneStepOfTheDamperByHand) {
 TEST(Damping, NoDamperCarriesNothing) {
   const Response object = spring(100.0);
   EXPECT_EQ(law().carry(object, ResponseState{}, 0.0, 0.7, 0.0, 0.02), 0.7);
-  // At the limit nothing moves, so there is nothing to damp.
+  // The tip does not move at the limit, so the damper is zero.
   ResponseState at_limit;
   object.deflection(at_limit, 2.0);
   EXPECT_EQ(law().carry(object, at_limit, 2.0, 3.0, 10.0, 0.02), 3.0);
@@ -285,7 +287,7 @@ TEST(Damping, SettlesWithDampingOverStiffness) {
   EXPECT_NEAR(at.deflection, carried / 100.0, 1e-9);
 }
 
-// A tip that swings by `amplitude` at 4 Hz against a spring of k, the force low-passed as the depth is.
+// A tip that swings by `amplitude` at 4 Hz against a spring of k; the force is low-passed like the depth.
 double swing(const DampingLaw& damping, Swing& seen, double k, double amplitude, double seconds) {
   double force = 0.0, b = 0.0;
   for (int i = 0; i < static_cast<int>(seconds / kDt); ++i) {
@@ -300,7 +302,8 @@ TEST(Damping, SeesTheStiffnessThatItSwingsAgainst) {
   const DampingLaw damping = law();
   Swing seen = damping.begin(1e6, 0.0, 0.0);
   swing(damping, seen, 500.0, 1e-3, 3.0);
-  // Low-pass (5 Hz) and high-pass (1 Hz) leave of 1 mm at 4 Hz: 1 / sqrt(1 + 0.64) / sqrt(1 + 1/16).
+  // Low-pass (5 Hz) and high-pass (1 Hz) leave this part of 1 mm at 4 Hz: 1 / sqrt(1 + 0.64) / sqrt(1 +
+  // 1/16).
   const double moved = 0.5e-6 / 1.64 / 1.0625;
   EXPECT_NEAR(seen.moved, moved, 0.15 * moved);
   EXPECT_NEAR(seen.exchanged, 500.0 * seen.moved, 1e-3 * 500.0 * seen.moved);
@@ -322,7 +325,7 @@ TEST(Damping, ForgetsWhenItIsCalm) {
   const DampingLaw damping = law();
   Swing seen = damping.begin(1e6, 0.0, 0.0);
   swing(damping, seen, 500.0, 1e-3, 3.0);
-  for (int i = 0; i < 3000; ++i) damping.observe(seen, 0.0, 0.0);  // what still rings in the filters
+  for (int i = 0; i < 3000; ++i) damping.observe(seen, 0.0, 0.0);  // the rest of the ringing in the filters
   const double before = seen.stiffness;
   for (int i = 0; i < 1000; ++i) damping.observe(seen, 0.0, 0.0);
   EXPECT_NEAR(seen.stiffness / before, std::exp(-1.0), 1e-3);  // calm_time is 1 s
@@ -331,7 +334,7 @@ TEST(Damping, ForgetsWhenItIsCalm) {
 TEST(Damping, AUserWhoPushesIsNoSwing) {
   const DampingLaw damping = law();
   Swing seen = damping.begin(1e6, 0.0, 0.0);
-  EXPECT_EQ(swing(damping, seen, -500.0, 1e-3, 3.0), 0.0);  // force rises with depth: the object gives in
+  EXPECT_EQ(swing(damping, seen, -500.0, 1e-3, 3.0), 0.0);  // force rises with depth: the object yields
   EXPECT_LT(seen.exchanged, 0.0);
 }
 
@@ -349,12 +352,12 @@ TEST(Damping, BeginsWithTheHandOnWhatIsTooSoft) {
   EXPECT_EQ(damping.begin(1.1 * lowest, 0.0, 0.0).stiffness, 0.0);
 }
 
-// A tip that comes late, to a tool that is inside already.
+// A tip that comes late to a tool that is inside already.
 
 Point<'W'> at(double x, double gap) { return {x, 0, kTop + kToolRadius + gap}; }
 
-// The tip waits 30 mm beside the place where the tool is seen next, this deep inside. Least distance of the
-// two surfaces on the way until the tip is under it.
+// The tip waits 30 mm beside the place of the next tool pose, this deep inside. Return the least distance of
+// the two surfaces until the tip is under the tool.
 double least_clearance(Loop& loop, double depth) {
   loop.tool_tip = at(0.030, 0.02);
   loop.tick(1500);
@@ -382,7 +385,7 @@ TEST(Below, ATipThatIsLateMeetsItsToolFromBelowAndNotFromTheSide) {
   }
 }
 
-// One that is felt on the way is there: its object answers at once, where the tool is.
+// A tool whose force is felt on the way is there: its object answers at once, at the place of the tool.
 TEST(Below, EndsWhereForceIsFelt) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = at(0.030, 0.02);
@@ -396,7 +399,7 @@ TEST(Below, EndsWhereForceIsFelt) {
   EXPECT_NEAR(loop.tip().xyz[2], kTop - kTipRadius - loop.out.deflection, 1e-5);
 }
 
-// A touch that misses the middle of the tip is none that is late.
+// A touch that misses the middle of the tip does not count as late.
 TEST(Below, IsNotWhereTheTwoCanMeet) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = at(0.0, 0.02);
@@ -407,7 +410,7 @@ TEST(Below, IsNotWhereTheTwoCanMeet) {
   EXPECT_NEAR(loop.tip().xyz[2], kTop - kTipRadius, 1e-5);
 }
 
-// Re-tare by windows: the zero follows the sensor while nothing touches, and nothing of a touch gets into it.
+// Re-tare by windows: the zero follows the sensor while nothing touches, and excludes every touch.
 
 test::Loop loop_of(Tare tare) {
   RigSpec rig;

@@ -53,7 +53,7 @@ TEST(LowPass, MinusThreeDecibelsWhereItSays) {
   for (const double hz : {5.0, 20.0, 120.0}) {
     const double a = 2.0 * std::numbers::pi * hz * dt, corner = corner_frequency(a, dt);
     EXPECT_NEAR(gain_at(a, corner, dt), std::numbers::sqrt2 / 2.0, 2e-3) << hz;
-    // The s-domain corner is what the discrete one tends to: 20 Hz at 1 kHz is 2 % lower or so.
+    // The discrete corner tends to the s-domain corner: 20 Hz at 1 kHz is about 2 % lower.
     EXPECT_LT(std::abs(corner / hz - 1.0), 0.6 * a) << hz;
   }
   EXPECT_NEAR(corner_frequency(2.0 * std::numbers::pi * 1.0 * 1e-6, 1e-6), 1.0, 1e-5);
@@ -95,7 +95,7 @@ double force_at(const InteractionSpec& spec, double stiffness, double depth) {
 
 TEST(FeltAt, WallIsASpringBeyondItsFirstHalfMillimetre) {
   InteractionSpec wall{.kind = Interaction::slide, .gradual = 0.5e-3};
-  EXPECT_DOUBLE_EQ(felt_at(wall, 600.0, 300.0, 0.0).stiffness, 300.0);  // K_p: what is felt in free space
+  EXPECT_DOUBLE_EQ(felt_at(wall, 600.0, 300.0, 0.0).stiffness, 300.0);  // K_p: the stiffness in free space
   EXPECT_DOUBLE_EQ(felt_at(wall, 600.0, 300.0, 0.5e-3).stiffness, 600.0);
   EXPECT_DOUBLE_EQ(felt_at(wall, 600.0, 300.0, 8e-3).stiffness, 600.0);
 }
@@ -110,7 +110,7 @@ TEST(FeltAt, ButtonHasThreeSlopes) {
   EXPECT_NEAR(slope(5.0e-3), 600.0, 1e-6);
   EXPECT_NEAR(force_at(spec, 400.0, 2e-3), 0.8, 1e-9);
   EXPECT_NEAR(force_at(spec, 400.0, 2.5e-3), 0.5, 1e-9);  // the click
-  EXPECT_NEAR(force_at(spec, 400.0, 4e-3), 0.8, 1e-9);    // where the bottom takes over, without a leap
+  EXPECT_NEAR(force_at(spec, 400.0, 4e-3), 0.8, 1e-9);    // the bottom takes over without a step
 }
 
 TEST(FeltAt, ForceIsContinuousAtEveryDepth) {
@@ -126,7 +126,7 @@ TEST(FeltAt, AtOnceLeapsWhereItTriggers) {
   EXPECT_NEAR(force_at(spec, 400.0, 4e-3 - 1e-9) - force_at(spec, 400.0, 4e-3), 0.0, 1e-5);
 }
 
-// The loop along one way of an arm's tip.
+// The loop along one direction of an arm's tip.
 
 const Vec<'R'> kUp(0, 0, 1), kAlong(1, 0, 0);
 const certificate::Hand kHand{0.0, 4.0, 700.0};
@@ -162,7 +162,7 @@ TEST(ArmLoop, OfASlideIsWhatTheSlideIs) {
   const ArmLoopAt along = loop_at(stage(), kHand, 1e-3, {}, kAlong, 900.0, Interaction::slide);
   EXPECT_NEAR(along.loop.damping, 0.5, 1e-12);
   EXPECT_NEAR(along.steps.encoder, 2.0 * M_PI / (2000.0 * 100.0), 1e-15);
-  // Half of each way: by the work, x v^2 + z v^2 of the rates that the masses take.
+  // Each slide moves half: by the work, x v^2 + z v^2 of the rates of the masses.
   const double h = std::sqrt(0.5), mx = 0.33, mz = 0.13;  // kg: the first slide carries the second
   const ArmLoopAt aslant = loop_at(stage(), kHand, 1e-3, {}, Vec<'R'>(h, 0, h), 900.0, Interaction::slide);
   const double m = 1.0 / (0.5 / mx + 0.5 / mz), vx = m * h / mx, vz = m * h / mz;
@@ -201,12 +201,12 @@ TEST(ArmLoop, TheStiffestSpringIsThatOfTheDocumentedLoop) {
   near(120.0, 0.095, 2575.0);
 }
 
-// An arm that rests while the finger is far: friction holds it, and the law leaves it alone.
+// An arm at rest while the finger is far: friction holds it, and the law leaves it alone.
 
 using Bench = test::FingerBench;
 
-// One count of each joint's encoder, as it is read with a window of 2 ms: there, and the next ticks still.
-// How far the push strays from what it was, N.
+// One count of each joint's encoder, read with a window of 2 ms: there, and unchanged in the next ticks.
+// Return the change of the push, N.
 double strays_by_a_count(Bench& bench) {
   const Impedance& law = *bench.loop.scene.impedance();
   ArmSample& arm = bench.loop.in.arm.value;
@@ -227,7 +227,7 @@ double strays_by_a_count(Bench& bench) {
   return most;
 }
 
-// Friction at stretched arms holds the tip 4.5 mm from its target [sources/arm 3]; one count's rate through
+// Friction at stretched arms holds the tip 4.5 mm from its target [sources/arm 3]. One count's rate through
 // K_v would push with 0.2 N, and the tip would slip at 1 mm/s.
 TEST(Rest, ACountMovesNothingWhereFrictionHoldsTheArmFarFromItsTarget) {
   for (const double off : {0.0, 1e-3, 4.5e-3, 9e-3}) {
@@ -239,7 +239,7 @@ TEST(Rest, ACountMovesNothingWhereFrictionHoldsTheArmFarFromItsTarget) {
   }
 }
 
-// One that slipped while its push faded stands with all of it, and a count is no reason to go on.
+// An arm that slipped while its push faded stands with the full push, and a count must not move it.
 TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
   Bench bench("wall");
   bench.at(-0.150, 10);
@@ -252,20 +252,20 @@ TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
   EXPECT_LT(strays_by_a_count(bench), 0.02);
 }
 
-// What moves it farther than friction would let it creep wakes the law.
+// A push that moves the arm farther than friction would let it creep ends the rest.
 TEST(Rest, AnArmThatIsPushedIsBroughtBack) {
   Bench bench("wall");
   bench.at(-0.150, 2000);
   bench.put_tip({0.0, 0.0, 2e-3});
   bench.at(-0.150, 30);
-  EXPECT_GT(bench.loop.out.felt.norm(), 0.5);  // of 300 N/m over 2 mm
+  EXPECT_GT(bench.loop.out.felt.norm(), 0.5);  // 300 N/m over 2 mm
 }
 
 // The stiffest wall that a certificate allows against the arm's own motion: joints, law and delay line in
-// time, where the tip goes sideways as well. Nothing of core/control/safety/certificate is used for that.
+// time, also with sideways motion of the tip. This uses no code of core/control/safety/certificate.
 
 constexpr double kPeriod = 1e-3;  // s
-constexpr int kParts = 10;        // of a period: delays are whole parts
+constexpr int kParts = 10;        // per period: delays are whole parts
 
 struct Rig {
   std::string name;
@@ -280,7 +280,7 @@ Impedance law_of(const ArmRig& rig, double prop) {
   return law;
 }
 
-// The shipped one; one with a long forearm of a light prop; and one with heavy links, delay and a soft law.
+// The shipped rig; one with a long forearm and a light prop; and one with heavy links, delay and a soft law.
 std::array<Rig, 3> rigs() {
   ArmRig shipped;
   shipped.loop.emplace();
@@ -298,8 +298,8 @@ std::array<Rig, 3> rigs() {
           Rig{"heavy links", law_of(heavy, 0.03)}};
 }
 
-// What joints become in a part of a period by themselves and by each torque: of M q'' + D q' = torque, with
-// the hand's spring and damper along the normal, by a Runge-Kutta step.
+// State change of the joints in a part of a period, free and for each torque: M q'' + D q' = torque, with the
+// hand's spring and damper along the normal, by a Runge-Kutta step.
 class Joints {
  public:
   Joints(const Impedance& law, const PerJoint& q, const Vec3& normal, const certificate::Hand& hand) {
@@ -336,9 +336,8 @@ class Joints {
   Eigen::Matrix<double, 6, 3> forced;
 };
 
-// The law of eq. 2, 3 and 7 around a target at rest, for so many periods; whether the motion grows in the
-// end.
-// A ball that is hit is a spring alone; a real thing is held in all directions.
+// The law of eq. 2, 3 and 7 around a target at rest, for this many periods. Return true if the motion grows
+// in the end. A ball that is hit is only a spring; a real object is held in all directions.
 bool grows(const Impedance& law, const PerJoint& q, const Joints& joints, const Vec3& normal,
            double stiffness, Interaction kind) {
   constexpr int kTicks = 8000;
@@ -380,7 +379,7 @@ struct Wall {
   Vec3 normal;
 };
 
-// Poses that the arm takes, and normals of any tilt.
+// Poses of the arm, and normals of any tilt.
 std::vector<Wall> walls_of(const Impedance& law, std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -425,7 +424,7 @@ TEST(TiltedWalls, BallsThatAreHitAndRealThingsAreCertifiedLikewise) {
           expect_at_the_bound(rig, wall, hand, kind);
 }
 
-// Of two slides, which carry each other, a wall's normal is seldom a way that they go.
+// Two slides, one on the other: the normal of a wall is seldom a direction of motion.
 TEST(TiltedWalls, OfAMachineWithTwoJointsAreCertifiedLikewise) {
   ArmRig rig;
   rig.machine.kind = ArmKind::chain;
@@ -439,7 +438,7 @@ TEST(TiltedWalls, OfAMachineWithTwoJointsAreCertifiedLikewise) {
       expect_at_the_bound(two, wall, hand, Interaction::slide);
 }
 
-// A delay of many periods: the eigenvalues are counted without their matrix there.
+// A delay of many periods: the certificate counts the eigenvalues without their matrix there.
 TEST(TiltedWalls, ALongDelayIsCounted) {
   for (Rig& rig : rigs()) {
     ArmRig late = rig.law.rig;
@@ -458,7 +457,7 @@ TEST(TiltedWalls, ALongDelayIsCounted) {
   }
 }
 
-// Along the normal alone it would be stable. So a release along the normal tells nothing.
+// Along the normal alone the loop would be stable, so a release along the normal shows nothing.
 TEST(TiltedWalls, WhatOnlyTheNormalHoldsIsUnstable) {
   const Rig rig = rigs()[1];
   int seen = 0;

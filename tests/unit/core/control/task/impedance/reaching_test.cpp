@@ -1,4 +1,4 @@
-// An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
+// An arm's loop, step by step: the core alone, with a finger and an arm at places that a test sets.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -63,8 +63,8 @@ TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
   EXPECT_NEAR(before.z(), 0.0, 1e-9);
 }
 
-// A finger that comes obliquely and evenly, seen at 20 Hz and 50 ms late: where the prop is sent long before
-// it touches.
+// A finger that comes obliquely and evenly, seen at 20 Hz and 50 ms late. Return the place where the prop is
+// sent long before the touch.
 Point<'W'> sent_to(const char* foresight, double gap) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110",
                        std::string("rig.tracker.foresight=\"") + foresight + "\""});
@@ -86,15 +86,15 @@ TEST(Reaching, TheTargetWaitsWhereTheFingerWillTouch) {
 
 TEST(Reaching, ThePropFacesTheSurfaceThatIsBelievedToBeMet) {
   Bench bench("reaching");
-  for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.030, 0.060, 0.060));  // aside of the left ball
+  for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.030, 0.060, 0.060));  // beside the left ball
   const Vec3 facing = (bench.loop.scene.X_WR * bench.loop.out.prop_facing).e();
   EXPECT_LT((facing - Vec3(0.030, 0.0, 0.070).normalized()).norm(), 1e-6);
   for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.0, 0.0, 0.400));
   EXPECT_FALSE(bench.loop.out.prop_facing.finite());  // away: it stays as it is
 }
 
-// A block with a groove in place of the wall, and a finger that goes through the groove: from the right wall
-// the nearest point leaps to the left one, 12 mm away and more.
+// A block with a groove replaces the wall, and the finger goes through the groove. From the right wall the
+// nearest point leaps to the left wall, at least 12 mm away.
 trial::FingerLoop over_a_groove() {
   models::Setup setup =
       test::shipped("wall", {"rig.tracker.prediction=\"constant_velocity\"",
@@ -121,7 +121,8 @@ TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
   double outside = -1.0, widest = 0.0;
   bool caught_up = false, waited = false;
   for (int i = 0; i < 6000; ++i) {
-    // Down along the right wall until the target is there, then at 50 to 300 mm/s to and fro across it.
+    // Down along the right wall until the target is there, then at 50 to 300 mm/s to and fro across the
+    // groove.
     const double t = 1e-3 * i;
     const double x = i < 1500 ? 0.008 : 0.008 * std::cos(2.0 * M_PI * (t - 1.5) * (1.0 + (t - 1.5)));
     loop.tick(Point<'W'>(x, 0.0, 0.004));
@@ -145,8 +146,8 @@ TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
     }
   }
   EXPECT_TRUE(caught_up);
-  EXPECT_TRUE(waited);         // the straight way is not free
-  EXPECT_LT(outside, 0.6e-3);  // and is not taken
+  EXPECT_TRUE(waited);         // the straight line is blocked
+  EXPECT_LT(outside, 0.6e-3);  // and the target does not take it
 }
 
 TEST(Reaching, AWallIsASpringOfLambdaKp) {
@@ -160,7 +161,7 @@ TEST(Reaching, AWallIsASpringOfLambdaKp) {
   }
 }
 
-// What vision says of the depth does not count, as long as it is within leave_gap of the prop.
+// The depth measured by vision does not count while it is within leave_gap of the prop.
 TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
   Bench bench("wall");
   bench.at(0.0005, 10);
@@ -170,7 +171,7 @@ TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
     EXPECT_NEAR(bench.loop.out.deflection, 0.005, 1e-9) << seen;
     EXPECT_NEAR(bench.pushed(), 3.0, 1e-3) << seen;
   }
-  bench.at(0.020);  // behind the prop it cannot be
+  bench.at(0.020);  // it cannot be behind the prop
   EXPECT_NEAR(bench.loop.out.deflection, 0.005, 1e-9);
   bench.at(0.001);
   EXPECT_NEAR(bench.loop.out.deflection, 0.004, 1e-9);
@@ -178,7 +179,8 @@ TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
   EXPECT_EQ(bench.at(-0.010).mode, Mode::follow);
 }
 
-// A prop that is pushed back is a touch, though the finger is seen above it; not where it is seen far off.
+// A prop that is pushed back is a touch, even if vision sees the finger above it, but not if it sees the
+// finger far off.
 TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
   for (const auto& [gap, mode] : {std::pair{0.002, Mode::contact}, {0.004, Mode::follow}}) {
     Bench bench("wall");
@@ -191,7 +193,7 @@ TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
   }
 }
 
-// A finger beside its prop lifts it off the surface: that is one contact, not one every other tick.
+// A finger beside its prop lifts it off the surface: that is one contact, not one every second tick.
 TEST(Reaching, AFingerBehindAPropThatIsLiftedStaysInContact) {
   Bench bench("wall");
   bench.at(-0.001, 100);
@@ -240,7 +242,7 @@ TEST(Reaching, AHoldLeavesGravityAloneAndRecovers) {
   bench.loop.in.arm.value = good;
   EXPECT_EQ(bench.at(0.005).mode, Mode::contact);
   EXPECT_TRUE(bench.loop.out.arm_force.finite());
-  EXPECT_NEAR(bench.pushed(), before, 0.05);  // one bad sample is a tick without news, no kick
+  EXPECT_NEAR(bench.pushed(), before, 0.05);  // one bad sample is a tick without data, not a kick
 }
 
 TEST(Reaching, AFingerLostPushesNoLonger) {
@@ -250,7 +252,7 @@ TEST(Reaching, AFingerLostPushesNoLonger) {
   bench.at(0.005, 200);
   Tick tick{.dt = from_seconds(bench.loop.scene.dt)};
   const Time last = bench.loop.in.tool.t;
-  for (int i = 1; i <= 400; ++i) {  // the arm goes on, the finger's last pose gets old
+  for (int i = 1; i <= 400; ++i) {  // the arm goes on, the finger's last pose ages
     tick.index = i;
     tick.t = last + i * tick.dt;
     bench.loop.in.arm.t = tick.t;
@@ -275,7 +277,7 @@ TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
   EXPECT_TRUE((bench.loop.out.why & kOverload) != 0);
 }
 
-// The arm was not seen for longer than `stale_ms`, and has fallen 70 mm: it is not thrown back.
+// The arm was unseen for longer than `stale_ms` and has fallen 70 mm: the law does not throw it back.
 TEST(Reaching, AfterALossItBeginsWhereItIs) {
   Bench bench("wall");
   bench.at(-0.050, 1000);
@@ -287,11 +289,11 @@ TEST(Reaching, AfterALossItBeginsWhereItIs) {
   bench.loop.in.arm.value.joints = before;
   bench.press_tip(0.070);
   bench.at(-0.050);
-  EXPECT_LT(bench.loop.out.felt.norm(), 2.0);  // it sets out, with 15 m/s2; thrown back it would be 8.5 N
+  EXPECT_LT(bench.loop.out.felt.norm(), 2.0);  // it starts with 15 m/s2; thrown back it would be 8.5 N
   EXPECT_LT((bench.loop.out.wanted - Point<'W'>(0, 0, -0.070)).norm(), 1e-3);
 }
 
-// One reading that is missed is no loss: what is pressed stays pressed.
+// One missed reading is no loss: the press continues.
 TEST(Reaching, OneBadReadingDropsNothing) {
   Bench bench("wall");
   bench.at(0.005, 500);
@@ -319,7 +321,7 @@ TEST(Reaching, TheChangeToTheBottomBoardDoesNotLeapInForce) {
     last = bench.pushed();
     greatest_gain = std::max(greatest_gain, bench.loop.out.gain);
   }
-  EXPECT_NEAR(greatest_gain, 600.0 / 300.0, 1e-6);  // the floor's over K_p: it is on the board
+  EXPECT_NEAR(greatest_gain, 600.0 / 300.0, 1e-6);  // the floor's stiffness over K_p: it is on the board
   EXPECT_LT(most, 0.2);
 }
 
@@ -340,19 +342,19 @@ TEST(Reaching, TheTargetOverABallStaysUnderTheFinger) {
   EXPECT_LT(most, 0.5e-3);
 }
 
-// The prop that stands for a drum goes along with the finger: its belt is slower by as much.
+// The prop of a drum moves along with the finger: its belt is slower by that speed.
 TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   Bench bench("drum");
   EXPECT_EQ(bench.at(-0.150, 10).prop_speed, 0.0);
-  double fastest = 0.0;  // of the target on its way; what is left of it when it arrives, the belt takes out
+  double fastest = 0.0;  // speed of the target on its way; the belt removes the rest on arrival
   for (int i = 0; i < 500; ++i) {
     EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
     fastest = std::max(fastest, recall<ImpedanceState>(bench.loop.state).aim.velocity.norm());
   }
   EXPECT_GT(fastest, 0.100);
   double x = 0.020;
-  // Under a finger the prop goes along without haste, and the belt takes out what it is behind: no leap of a
-  // picture is felt.
+  // Under a finger the prop moves along without haste, and the belt removes its lag: a leap of a picture is
+  // not felt.
   for (int i = 0; i < 300; ++i) bench.at(0.001, 1, x -= 60e-6);
   for (int i = 0; i < 700; ++i) bench.at(0.001, 1, x += 30e-6);  // 30 mm/s
   EXPECT_NEAR(bench.loop.out.prop_speed, 0.020, 1e-4);
@@ -363,20 +365,20 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   EXPECT_EQ(plate.at(-0.020, 500).prop_speed, 0.0);  // it cannot run
 }
 
-// From key to key the target hurries where nobody feels it: a key that is touched stays the target.
+// From key to key the target moves fast only without a touch: a touched key stays the target.
 TEST(Reaching, WhatIsTouchedStaysTheTarget) {
   Bench bench("keypad");
   const double over_key_5 = 0.010;  // y
   for (int i = 0; i < 1000; ++i) bench.loop.tick({0.0, over_key_5, 0.018});
   const std::int32_t key = bench.loop.out.object;
-  for (int i = 0; i < 100; ++i) bench.loop.tick({1e-4 * i, over_key_5, 0.006});  // aside, to the next
+  for (int i = 0; i < 100; ++i) bench.loop.tick({1e-4 * i, over_key_5, 0.006});  // aside, to the next key
   EXPECT_EQ(bench.loop.out.mode, Mode::contact);
   EXPECT_EQ(bench.loop.out.object, key);
   EXPECT_EQ(key, 4);  // key_5
 }
 
-// A finger that comes is met where it will touch, in haste, as long as pictures can show that; and an arm
-// that rests afterwards pushes nothing. The core alone, finger and arm are where a test puts them.
+// The arm meets a coming finger at its place of touch, in haste, if pictures can show that. An arm at rest
+// afterwards does not push. Core alone; the test sets finger and arm.
 
 using Bench = test::FingerBench;
 
@@ -390,9 +392,9 @@ struct Comes {
 };
 
 struct Gone {
-  Point<'W'> wanted;                     // where the prop is sent in the end
-  double in_haste = 0.0, without = 0.0;  // m/s^2: most of the target
-  double foreseen_way = 0.0;             // m: from that to where the finger's projection is
+  Point<'W'> wanted;                     // last place where the prop is sent
+  double in_haste = 0.0, without = 0.0;  // m/s^2: largest of the target
+  double foreseen_way = 0.0;             // m: from the foreseen place to the finger's projection
 };
 
 Gone meet(const Comes& finger, double until, const std::vector<std::string>& more = {}) {
@@ -429,7 +431,7 @@ TEST(ReachPrediction, PicturesThatAreTooVagueForeseeNothing) {
   EXPECT_GT(with_noise(1.2, 1.3), -0.004);
 }
 
-// x of where the prop is sent, of a finger whose picture i says that it is so vague, m; below 0: none.
+// x where the prop is sent, m, if picture i of the finger states this sigma; below 0: none stated.
 double sent_x(const std::function<double(int)>& vague) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
   for (int i = 0; i < 450; ++i) {
@@ -450,7 +452,7 @@ double sent_x(double even, double odd) {
   return sent_x([&](int i) { return i % 2 == 0 ? even : odd; });
 }
 
-// What a picture says of itself counts, and not what the rig says of pictures.
+// The sigma that a picture states counts, and not the rig's figure.
 TEST(ReachPrediction, HowVagueAPictureIsItSaysItself) {
   for (const auto& [noise, x] : {std::pair{0.5e-3, 0.0}, {1.5e-3, -0.005}, {kUnset, 0.0}})
     EXPECT_NEAR(sent_x(noise, noise), x, 1e-3) << noise;
@@ -464,7 +466,7 @@ TEST(ReachPrediction, WhatIsAboutAsVagueAsMayBeIsNotAskedNowAndThen) {
 }
 
 TEST(ReachPrediction, HowClearOldPicturesWereIsForgottenWithThem) {
-  const auto from = [](int first, double then) {  // of the new ones, after 50 ms times `first`
+  const auto from = [](int first, double then) {  // the new ones, after 50 ms times `first`
     return sent_x([&, then](int i) { return i < 2 ? 1.05e-3 : i < first ? -1.0 : then; });
   };
   EXPECT_NEAR(from(4, 1.15e-3), 0.0, 1e-3) << "the same finger, seen on";
@@ -475,7 +477,7 @@ TEST(ReachPrediction, HowClearOldPicturesWereIsForgottenWithThem) {
 TEST(ReachPrediction, AFingerThatHoversIsMetUnderWhereItIs) {
   const Comes hovers{{0.1, 0.0, -0.04}, 0.020};
   EXPECT_LT(meet(hovers, 0.5).foreseen_way, 1.5e-3);
-  const Comes comes{{0.1, 0.0, -0.2}, 0.020};  // in 100 ms, 10 mm on
+  const Comes comes{{0.1, 0.0, -0.2}, 0.020};  // 100 ms and 10 mm further
   EXPECT_GT(meet(comes, 0.5).foreseen_way, 5e-3);
 }
 
@@ -512,8 +514,8 @@ TEST(ReachPrediction, AKeyIsChosenByWhereTheFingerWillTouch) {
   EXPECT_NEAR(key_x("carried_on"), -0.020, 1e-9) << "by where it is in 60 ms";
 }
 
-// What haste set in motion it brakes: where the finger that it went to meet has stopped, the target does not
-// shoot past what it may brake within.
+// The target brakes the motion that haste began: if the finger stops, the target overshoots by no more than
+// its braking distance.
 TEST(ReachPrediction, HasteBrakesWhatItSetInMotion) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
@@ -534,7 +536,7 @@ TEST(ReachPrediction, HasteBrakesWhatItSetInMotion) {
   EXPECT_GE(slow, -1.001 * rig.acceleration);
 }
 
-// The tip 2 mm from its target when the finger has gone: friction holds it.
+// The tip is 2 mm from its target when the finger has gone: friction holds it.
 double pushed_after_rest(const std::vector<std::string>& set, bool slips = false) {
   Bench bench("wall", set);
   bench.at(-0.050, 50);
@@ -544,7 +546,7 @@ double pushed_after_rest(const std::vector<std::string>& set, bool slips = false
   bench.at(-0.150, 1);
   const double soon = bench.pushed();
   EXPECT_GT(soon, 0.5);  // nothing leaps
-  if (slips) {           // by 0.2 mm, with the speed that one count says
+  if (slips) {           // by 0.2 mm, at the speed that one count implies
     bench.press_tip(0.0022);
     bench.loop.in.arm.value.velocity = Vec<'R'>(Vec3(0.0, 0.0, -0.014));
     bench.at(-0.150, 1);
@@ -557,7 +559,7 @@ double pushed_after_rest(const std::vector<std::string>& set, bool slips = false
 
 TEST(ReachPrediction, WhatPushesAnArmThatRestsFades) {
   Bench bench("wall");
-  for (int again = 0; again < 2; ++again) {  // after a slip, too, when a finger has come and gone
+  for (int again = 0; again < 2; ++again) {  // also after a slip, when a finger has come and gone
     bench.press_tip(0.002);
     bench.at(-0.050, 200);
     int ticks = 0;

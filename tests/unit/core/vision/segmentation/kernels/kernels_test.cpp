@@ -1,5 +1,5 @@
-// The AVX2 kernels against their plain twins: equal to the bit, for every colour there is, over random images
-// and at every width up to where the fast form has run more than once.
+// The AVX2 kernels against their plain twins: equal to the bit, for every colour, over random images and at
+// every width up to several rounds of the fast loop.
 #include "core/vision/segmentation/kernels/kernels.h"
 
 #include <algorithm>
@@ -171,7 +171,7 @@ TEST_F(Twins, MatchAlike) {
     }
 }
 
-// Frames that are the background in other light, and noise; limits from none to all.
+// Frames of the background in other light, and noise; limits from none to all.
 TEST_F(Twins, SeeTheSameChange) {
   std::mt19937 random(7);
   const auto word = [&](std::uint32_t most) { return static_cast<std::uint16_t>(random() % (most + 1)); };
@@ -204,7 +204,8 @@ TEST_F(Twins, SeeTheSameChange) {
   }
 }
 
-// Hue in integers: the corners of the circle, its one formula, what has none; and arcs that reach over red.
+// Hue in integers: the corners of the circle, its one formula, colours without hue; and arcs that reach over
+// red.
 
 constexpr HueRule kAll{1, 0};
 
@@ -219,7 +220,7 @@ TEST(Hue, OfTheSixCornersIsAMultipleOfASextant) {
   EXPECT_EQ(hue_of(255, 1, 0, kAll), 1);
 }
 
-// Against the usual formula, in steps of 7 of each channel: the floor of it.
+// The floor of the usual formula, in steps of 7 of each channel.
 TEST(Hue, IsTheFloorOfTheUsualOne) {
   for (int r = 0; r < 256; r += 7)
     for (int g = 0; g < 256; g += 7)
@@ -262,7 +263,7 @@ TEST(Arc, IsTheWholeCircleOrNothingAtTheEnds) {
   EXPECT_FALSE(skin_arc({1.0, 1.0}, 9.0).has(kNoHue));  // whatever the arc, grey is no skin
 }
 
-// The median of a mask: against counting each window, and its two promises.
+// The median of a mask: against a count of each window, and its two promises.
 
 Mask random_mask(int width, int height, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -312,7 +313,7 @@ TEST(Majority, OfARegionIsThatOfTheWhole) {
 TEST(Majority, RemovesEveryIsolatedPixel) {
   Mask in(64, 48), out(64, 48);
   int alone = 0;
-  for (int y = 0; y < 48; y += 3)  // none has another among its eight neighbours; corners and edges, too
+  for (int y = 0; y < 48; y += 3)  // no pixel has another among its eight neighbours; corners and edges, too
     for (int x = 0; x < 64; x += 3) {
       in.row(y)[x] = 255;
       ++alone;
