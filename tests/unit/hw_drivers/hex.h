@@ -1,4 +1,4 @@
-// Bytes as a person writes them: "1234 0002 00000000".
+// Bytes in a person's notation: "1234 0002 00000000".
 #pragma once
 
 #include <cstddef>

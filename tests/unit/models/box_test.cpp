@@ -20,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// The distance to a box in closed form: outside by what it is beyond each face, inside to the nearest face.
+// The distance to a box in closed form: outside from the part beyond each face, inside to the nearest face.
 double distance_to_box(const Vec3& p, const Vec3& size) {
   const Vec3 beyond = p.cwiseAbs() - 0.5 * size;
   return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
@@ -28,7 +28,7 @@ double distance_to_box(const Vec3& p, const Vec3& size) {
 
 class BoxShape : public testing::Test {
  protected:
-  // The tennis ball's scene with a cube of 60 mm in the ball's place, whose top is where the ball's was.
+  // The tennis ball's scene with a cube of 60 mm instead, whose top is at the height of the ball's top.
   [[nodiscard]] std::string scene(const std::string& lines) const {
     std::ifstream from(tests::source_dir() + "/models/scenes/tennis_ball.toml");
     std::stringstream text;

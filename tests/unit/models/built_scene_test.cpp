@@ -1,5 +1,5 @@
-// The scene with only what it builds: as a file it runs, with the same bits; and what it leaves out is read
-// by nothing.
+// A file of only the built values runs with the same bits; the program does not read the values that it
+// leaves out.
 #include <fstream>
 #include <set>
 #include <string>
@@ -47,7 +47,7 @@ class Walk final : public Visitor {
   std::vector<std::string> paths_{""};
 };
 
-// Another number for everything that the text of built_scene() leaves out.
+// Another number for each value that the text of built_scene() leaves out.
 int spoil_left_out(Setup& setup) {
   std::set<std::string> kept;
   Walk keep([&](const std::string& name, const Target&) { kept.insert(name); });
@@ -77,7 +77,7 @@ Told told_by(const Setup& setup) {
   return {hash, trial.truth().tip.e()};
 }
 
-// Every tick's commands and truth, but not what only a display is told.
+// Every tick's commands and truth, but not the values for a display alone.
 std::uint64_t outcome_of(const Setup& setup, bool draw_all, RecordWriter* record) {
   StateHash outcome;
   trial::TrialOptions options{.seconds = 5.0, .draw_all = draw_all};
@@ -116,8 +116,8 @@ TEST_P(BuiltScene, LeavesOutWhatNothingReads) {
   EXPECT_EQ(told_by(spoiled), told_by(scene));
 }
 
-// Every table of rig and truth in the file, the display where the scene may have one, bodies that are only
-// drawn, and a record: what is felt is that of the scene with only what it builds.
+// The file with every table of rig and truth, the display if the scene may have one, drawn bodies, and a
+// record: the forces equal those of the scene with only its built values.
 TEST_P(BuiltScene, WithEverythingOnGivesTheSameBits) {
   const test::TemporaryFolder folder;
   models::Setup scene = shipped(GetParam());
@@ -151,7 +151,7 @@ TEST(BuiltSceneFile, KeepsWhatSetSays) {
       load(path, "", {"behaviour.phantom_wall.stiffness_N_per_mm=0.4"}).scene.behaviours.at(0).stiffness,
       400.0);
   EXPECT_EQ(place_of(alone, "rig.arm.filter").substr(0, path.size()), path);
-  // --rig says otherwise.
+  // --rig takes precedence.
   EXPECT_EQ(load(path, kModels + "/rigs/vishap.toml").rig.arm.machine.kind, ArmKind::phantom);
 }
 

@@ -1,4 +1,4 @@
-// Files: nothing that is there or was read is written over, and no two runs write one.
+// Files: Encounter never overwrites an existing file or an input, and two runs never write one file.
 #include "models/files.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ TEST_F(Files, WhatIsThereStaysUnlessItShallBeReplaced) {
   EXPECT_EQ(bytes_of(path("a")), "new");
 }
 
-// Who can write into the folder would else choose what is written over.
+// Otherwise anybody with write access to the folder could choose the file to overwrite.
 TEST_F(Files, ALinkIsNeverWrittenThrough) {
   write_file(path("theirs"), "theirs", Existing::keep);
   for (const Existing existing : {Existing::keep, Existing::replace})
@@ -77,7 +77,7 @@ TEST_F(Files, ALinkIsNeverWrittenThrough) {
       }
 }
 
-// With --force what is left of another run goes, and not what else has the same bytes.
+// The option --force removes what an earlier run left, but not a file that has a second name (a hard link).
 TEST_F(Files, WhatAnotherNameHasTooIsNotWrittenOver) {
   write_file(path("theirs"), "theirs", Existing::keep);
   fs::create_hard_link(path("theirs"), path("a.part"));
@@ -88,7 +88,7 @@ TEST_F(Files, WhatAnotherNameHasTooIsNotWrittenOver) {
   EXPECT_THAT(refusal(path("b"), Existing::replace), HasSubstr("b.part: is no file of yours"));
 }
 
-// A link that takes the place of the file while it is written is put away, not followed.
+// A link that replaces the file during the write is moved away, not followed.
 TEST_F(Files, NorIsALinkThatAppearsMeanwhile) {
   write_file(path("theirs"), "theirs", Existing::keep);
   OutFile file(path("a"), Existing::replace);
@@ -100,7 +100,7 @@ TEST_F(Files, NorIsALinkThatAppearsMeanwhile) {
   EXPECT_EQ(bytes_of(path("theirs")), "theirs");
 }
 
-// Also what came there while it was written; then nothing of either is lost.
+// The same holds for a file that appears during the write; neither file is lost.
 TEST_F(Files, WhatAppearsMeanwhileStays) {
   OutFile file(path("a"), Existing::keep);
   file.write("mine");
@@ -162,7 +162,7 @@ TEST_F(Files, WhatNeverEndsIsNotRead) {
   EXPECT_EQ(why, "it is longer than 1 MiB");
 }
 
-// A default stands once, in the struct. A file wins over it, and a shipped rig says why at the line.
+// A default stands once, in the struct. A file overrides it, and a shipped rig gives the reason on that line.
 
 const std::string kShipped = tests::source_dir() + "/models";
 
@@ -172,7 +172,7 @@ std::map<std::string, std::string> values_of(const Setup& setup) {
   return values;
 }
 
-// The same parts as `like` has, with the numbers of the structs.
+// The parts of `like`, with the numbers of the structs.
 models::Setup in_code(const Setup& like) {
   models::Setup code;
   RigSpec& rig = code.rig;
@@ -284,11 +284,11 @@ TEST(Defaults, ARigThatNamesAnotherValueSaysWhy) {
   EXPECT_GT(others, 40);
 }
 
-// An arm is first of all the one of [VisHap]: the struct has its gains.
+// An arm defaults to the one of [VisHap]: the struct has its gains.
 TEST(Defaults, OfAnArmAreThoseOfVisHap) {
   const models::Setup rig = load_rig_setup(kShipped + "/rigs/vishap.toml");
   models::Setup code = in_code(rig);
-  code.rig.arm.loop.emplace();  // there only where a rig says it
+  code.rig.arm.loop.emplace();  // only if a rig states it
   const std::map<std::string, std::string> defaults = values_of(code);
   for (const auto& [key, value] : values_of(rig)) {
     const bool rounded = key.starts_with("rig.arm.machine.") || key == "rig.arm.winding_share";
@@ -297,7 +297,8 @@ TEST(Defaults, OfAnArmAreThoseOfVisHap) {
   }
 }
 
-// What a ball measured in three directions answers in others: worked by hand; and every mistake in one line.
+// The mixture of a ball's three measured directions for other directions: worked by hand; and every mistake
+// in one line.
 
 const std::vector<Direction> kThree{{"A", "a", 0.0, 0.0}, {"B", "b", 0.2, 0.2}, {"C", "c", 0.1, 0.0}};
 
@@ -335,7 +336,7 @@ TEST(Directions, OneDirectionIsAlwaysIt) {
   EXPECT_EQ(weights({{"only", "x", 0.3, 0.0}}, {0.0, 0.1}), std::vector<double>{1.0});
 }
 
-// Upwards into the lowest point of a ball and downwards into its highest are the same way.
+// Upwards into the lowest point of a ball and downwards into its highest point are one direction.
 TEST(Directions, WayOfAPushIsTwoAngles) {
   const auto at = [](double angle, double sign) { return Vec3(std::sin(angle), 0, sign * std::cos(angle)); };
   for (const double sign : {1.0, -1.0}) {
@@ -418,7 +419,7 @@ TEST(Directions, SceneIsPreparedForThePlannedPress) {
   EXPECT_LT(between, force(b) - 0.05);
 }
 
-// What is prepared stands in the record: nothing is mixed again.
+// The record holds the prepared response: replay does not mix again.
 TEST(Directions, ResolvedSceneKeepsTheMixture) {
   const std::string text = resolved(any_ball({"user.offset_mm=4"}));
   EXPECT_EQ(resolved(parse_resolved(text, "resolved")), text);

@@ -1,4 +1,4 @@
-// Mesh files as they should be: every format and index type, transforms by hand, and repairs.
+// Valid mesh files: every format and index type, transforms by hand, and repairs.
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -40,7 +40,7 @@ class MeshFiles : public ::testing::Test {
   const fs::path& folder_ = temporary_.path();
 };
 
-// Corners with coordinates that float and double share.
+// Corners with coordinates that are exact as float and double.
 Mesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 }
@@ -67,7 +67,7 @@ TEST_F(MeshFiles, WhatIsWrittenIsReadAgain) {
     EXPECT_EQ(content_hash(read), content_hash(mesh));
   }
   const Mesh stl =
-      load_mesh(file("a.stl", mesh_bytes(mesh, ".stl")));  // its vertices come as the faces name them
+      load_mesh(file("a.stl", mesh_bytes(mesh, ".stl")));  // its vertices come in the order of the faces
   EXPECT_EQ(stl.vertices.size(), 4U);
   EXPECT_EQ(stl.triangles.size(), 4U);
   EXPECT_DOUBLE_EQ(volume(stl), 8.0 / 6.0);
@@ -78,7 +78,7 @@ TEST_F(MeshFiles, ObjInAllItsForms) {
       "# a comment\r\no thing\nvn 0 0 1\n" + kVertices +
       "vt 0 0\nf 1/1 3/1 2/1\nf 1//1 2//1 4//1 # more\nf -3/1/1 -2/1/1 -1/1/1\n\tf 1 4 3\n";
   EXPECT_EQ(load_mesh(file("a.obj", text)).triangles, tetrahedron().triangles);
-  // A square pyramid: what is convex becomes a fan around its first corner.
+  // A square pyramid: a convex face becomes a fan around its first corner.
   const Mesh fan = load_mesh(file("b.obj",
                                   "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv .5 .5 +1e0\nf 1 2 3 4\n"
                                   "f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n"));
@@ -105,7 +105,7 @@ std::string prism_obj(const std::vector<std::array<double, 2>>& corners, std::si
   return text + base + "\n" + top + "\n";
 }
 
-// From whichever corner it begins: an L, a comb, a star, one with corners along its sides, a spiral.
+// Polygons with any first corner: an L, a comb, a star, one with corners along its sides, a spiral.
 TEST_F(MeshFiles, PolygonsThatAreNotConvex) {
   const std::vector<std::pair<std::vector<std::array<double, 2>>, double>> shapes{
       {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, 4.0},
@@ -134,10 +134,10 @@ TEST_F(MeshFiles, FacesOfAnObjAreNamedByTheirLines) {
     }
     return "taken";
   };
-  // Without its last face, the top: the walls of lines 13 to 18 end at a hole.
+  // The mesh lacks its last face, the top: the walls of lines 13 to 18 end at a hole.
   EXPECT_THAT(said(text.substr(0, text.rfind("f "))),
               ::testing::StartsWith("a.obj:13: faces of lines 13, 14 and 4 more at a hole"));
-  // The base twice: two triangles and more of one line are one face.
+  // The base twice: two or more triangles of one line are one face.
   const std::size_t base = text.rfind("f ", text.rfind("f ") - 1), end = text.rfind("f ");
   EXPECT_THAT(said(text + text.substr(base, end - base)),
               ::testing::StartsWith("a.obj:21: face of line 21 doubled"));
@@ -224,7 +224,7 @@ TEST_F(MeshFiles, GltfTransformsGoThroughTheTree) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(turned.vertices[1][i], (std::array{10.0, 2.0, 0.0})[i], 1e-15);
   EXPECT_NEAR(volume(turned), 8.0 * 8.0 / 6.0, 1e-13);
-  // A matrix stands in columns: the last four are the shift.
+  // A matrix is stored by columns: the last four are the shift.
   const Mesh shifted = placed(R"([{"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])");
   EXPECT_EQ(shifted.vertices[3], (Point3{5, 6, 11}));
   // A mirror turns every triangle around, so that out stays out.
@@ -249,7 +249,7 @@ TEST_F(MeshFiles, TheMaterialOfAGltfIsThatOfMostTriangles) {
   const std::optional<SurfaceMaterial> second = with(both, 1);
   ASSERT_TRUE(second);
   EXPECT_FLOAT_EQ(second->colour[0], 1.0F);
-  EXPECT_NEAR(second->colour[1], 0.7297F, 1e-3F);  // the file's is linear in light
+  EXPECT_NEAR(second->colour[1], 0.7297F, 1e-3F);  // the file's colour is linear in light
   EXPECT_FLOAT_EQ(second->colour[2], 0.0F);
   EXPECT_FLOAT_EQ(second->metallic, 0.5F);
   EXPECT_FLOAT_EQ(second->roughness, 0.75F);
@@ -283,7 +283,7 @@ TEST(MeshCheck, RepairsWithAWordWhatIsSafe) {
   EXPECT_EQ(checked.mesh.triangles, tetrahedron().triangles);
 }
 
-// A small one inside a large one: a hollow if it looks in, refused if it looks out.
+// A small shell inside a large one: a hollow if it faces inwards, refused if it faces outwards.
 TEST(MeshCheck, HollowsAreAllowed) {
   Mesh mesh = tetrahedron();
   for (const auto& v : tetrahedron().vertices)
@@ -313,8 +313,8 @@ TEST(MeshCheck, FacesAreNamed) {
   EXPECT_EQ(face_list({12, 15, 20, 21, 22}), "faces 12, 15 and 3 more");
 }
 
-// Meshes as CAD programs export them: corners that differ in the last digits of a float, edges that a corner
-// of another face lies beside, holes, shells that almost touch, and parts that reach into each other.
+// Meshes as CAD programs export them: corners that differ in the last digits of a float, corners beside
+// another face's edge, holes, shells that almost touch, and parts that overlap.
 
 Mesh moved(Mesh mesh, const Vec3& by, double scale = 1.0) {
   for (auto& v : mesh.vertices)
@@ -331,8 +331,8 @@ Mesh joined(Mesh a, const Mesh& b, bool turned = false) {
   }
   return a;
 }
-// Each face with corners of its own, in float, as an STL has them; a share of the coordinates is off by up to
-// `ulps` units in the last place.
+// Each face has its own corners, in float, as in an STL; a share of the coordinates is off by up to `ulps`
+// units in the last place.
 Mesh soup(const Mesh& mesh, int ulps, double share) {
   std::mt19937_64 random(3);
   Mesh loose;
@@ -406,7 +406,7 @@ TEST(MeshWeld, AMeshWithoutNoiseStaysAsItIs) {
   }
 }
 
-// Far from the origin along x a float is coarse there, and along y and z as fine as the part is small.
+// Far from the origin along x a float is coarse there, but along y and z as fine as the small part needs.
 TEST(MeshWeld, AnAxisFarFromTheOriginIsNotTheMeasureOfTheOthers) {
   const Mesh part = moved(cube(4), {1000.0, 0, 0});
   Mesh torn = soup(part, 0, 0.0);
@@ -430,12 +430,12 @@ TEST(MeshWeld, TJunctionsAreToldWithTheirGap) {
 }
 
 TEST(MeshWeld, AHoleIsRefusedWithItsWidth) {
-  // A grid of 1 mm on a cube of 16 mm, and two faces of it that are missing.
+  // A grid of 1 mm on a cube of 16 mm, with two missing faces.
   Mesh mesh = cube(16, 0.016);
   mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 2);
   EXPECT_THAT(refusal(mesh), AllOf(HasSubstr("at a hole"), HasSubstr("the widest gap is 1 mm"),
                                    HasSubstr("close the hole")));
-  // The same in a mesh whose last digits are off: they are joined, and the hole stays.
+  // The mesh with errors in the last digits: its corners are joined, and the hole stays.
   EXPECT_THAT(refusal(soup(mesh, 2, 0.5)),
               AllOf(HasSubstr("the widest gap is 1 mm"), HasSubstr("close the hole")));
 }
@@ -462,7 +462,7 @@ TEST(MeshWeld, ShellsThatAlmostTouchAreKeptApart) {
     EXPECT_EQ(checked.mesh.vertices, two.vertices) << apart;
     EXPECT_EQ(checked.mesh.triangles, two.triangles) << apart;
   }
-  // Even where their last digits have to be joined, and one in the other.
+  // Also with last digits that have to be joined, one shell inside another.
   const CheckedMesh noisy = as_stl(soup(joined(box, moved(box, {0.01 + 2e-7, 0, 0})), 2, 0.05));
   EXPECT_EQ(noisy.mesh.vertices.size(), 2 * box.vertices.size());
   const Mesh ball = geodesic_ball(8);

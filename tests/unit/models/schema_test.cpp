@@ -1,4 +1,4 @@
-// The schema and all that walks it: units, names, --set, the resolved text.
+// The schema and its visitors: units, names, --set, the resolved text.
 #include <clocale>
 #include <cmath>
 #include <filesystem>
@@ -60,7 +60,7 @@ models::Setup full() {
   return s;
 }
 
-// How many members an aggregate has: as many as a list may initialise.
+// Number of members of an aggregate: the longest list that can initialise it.
 struct Anything {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor)
@@ -74,7 +74,7 @@ constexpr std::size_t members() {
   }
 }
 
-// Counts what is described in each table; tables and lists in it count as one.
+// Counts the described members of each table; tables and lists in it count as one.
 class Levels final : public Visitor {
  public:
   std::map<std::string, std::size_t> found;
@@ -102,17 +102,17 @@ class Levels final : public Visitor {
   std::vector<std::string> paths_{""};
 };
 
-// A member that nobody described could be neither set nor recorded.
+// A member without a description could be neither set nor recorded.
 TEST(Schema, describes_every_member) {
   models::Setup s = full();
   Levels levels;
   describe_all(levels, s.scene, s.rig, s.twin);
   auto& n = levels.found;
-  // Rig and truth are tables besides. Each base has one: [probe] and [travel].
+  // Rig and truth are extra tables. Each base has one: [probe] and [travel].
   EXPECT_EQ(n[""], members<SceneSpec>() + 2);
   EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 11);  // no normal, nothing of mesh, button or box
   EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 11);  // no radius, and nothing of these either
-  // Nothing of others; its triangles and its file's material are data.
+  // A mesh has no keys of other shapes; its triangles and its file's material are data.
   EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 8);
   EXPECT_EQ(n["tool.stylus"], members<ToolSpec>() - 3);  // a sphere has no axis, angle or edge
   EXPECT_EQ(n["follow"], members<FollowSpec>());
@@ -208,7 +208,7 @@ TEST(UnitFactors, are_between_units_of_one_kind_and_one_stem) {
   EXPECT_FALSE(factor_between("tip_s", "tip_mm"));
   EXPECT_FALSE(factor_between("tip_m", "top_mm"));
   EXPECT_FALSE(factor_between("tip", "tip_mm"));
-  // Each unit of a key counts, so that none is forgotten.
+  // Count each unit of a key, so that none is forgotten.
   for (const char* unit : {"_mm_s2", "_m_s2", "_mm_s", "_m_s", "_deg", "_MPa", "_kPa", "_mm", "_um", "_ms",
                            "_us", "_hz", "_kg", "_N", "_s", "_m", "_N_per_mm", "_N_per_m", "_N_per_um"})
     EXPECT_DOUBLE_EQ(factor_between("x" + std::string(unit), "x" + std::string(unit)).value(), 1.0) << unit;
@@ -333,8 +333,7 @@ TEST(Set, refuses_in_one_line_that_begins_with_the_words_given) {
   EXPECT_THAT(refuse("truth.world.timestep_us=6000"), HasSubstr("above 0 and at most 5000 in us"));
 }
 
-// Where numbers have a decimal comma, "33.5" must not become 33.
-// In SI it would be 0, which the key may not be.
+// A locale with a decimal comma must not read "33.5" as 33. In SI it would be 0, which the key refuses.
 TEST(Set, refuses_what_is_lost_in_si) {
   models::Setup s = plane();
   EXPECT_THAT(test::refusal([&] { set(s, "user.depth_mm=5e-324"); }),
@@ -359,13 +358,13 @@ TEST(Locale, does_not_matter) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-// The file shows every value, and those in code are the same: nobody has to ask which one counts.
+// The file shows every value, and each equals the default in code, so both agree.
 TEST(SimRig, is_what_the_structs_say) {
   models::Setup file = plane(), code = plane();
   code.rig = RigSpec{};
   code.rig.title = file.rig.title;
   code.twin = sim::TwinSpec{};
-  code.twin.tracker.marker_noise = 0.003e-3;  // in the struct unset: a tool need not have markers
+  code.twin.tracker.marker_noise = 0.003e-3;  // unset in the struct: a tool need not have markers
   round_to_text(code);
   EXPECT_EQ(resolved(file), resolved(code));
 }
@@ -382,13 +381,13 @@ TEST(ResponseFile, is_written_as_it_is_read) {
   fs::remove(path);
 }
 
-// Words of a file that go to a terminal.
+// Words of a file that are printed on a terminal.
 
 TEST(Wording, WhatATerminalObeysIsShownInLetters) {
   EXPECT_EQ(printable("left\033[2J\r\n\t01\x7F.png"), "left\\x1b[2J\\r\\n\\t01\\x7f.png");
   EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
-  EXPECT_EQ(printable("a\u009b31m"), "a\\u009b31m");  // a terminal's other way to begin
-  EXPECT_EQ(printable("a\x9B 31m"), "a\\x9b 31m");    // and in one byte
+  EXPECT_EQ(printable("a\u009b31m"), "a\\u009b31m");  // a second introducer of terminal sequences
+  EXPECT_EQ(printable("a\x9B 31m"), "a\\x9b 31m");    // and as one byte
   for (const auto& [letter, shown] : {std::pair{"\u2028", "\\u2028"},
                                       {"\u202e", "\\u202e"},
                                       {"\u2066", "\\u2066"},
@@ -398,9 +397,9 @@ TEST(Wording, WhatATerminalObeysIsShownInLetters) {
   for (const char* plain : {"H\u00e4nde \u00b5m \u2026 \u2212 \U0001F3BE", "a\\b", ""})
     EXPECT_EQ(printable(plain), plain);
   EXPECT_EQ(printable("'\xC2' is \xE2\x80"),
-            "'\\xc2' is \\xe2\\x80");  // half a letter, and what is behind it stays
+            "'\\xc2' is \\xe2\\x80");  // half a letter; the text behind it stays
   EXPECT_EQ(printable("\xC0\x8A\xED\xA0\x80"),
-            "\\xc0\\x8a\\xed\\xa0\\x80");  // letters that UTF-8 does not have
+            "\\xc0\\x8a\\xed\\xa0\\x80");  // letters that are invalid in UTF-8
   EXPECT_EQ(quoted("a\nb"), "'a\\nb'");
   EXPECT_EQ(quoted(std::string(79, 'x') + "\u00e4y"), "'" + std::string(79, 'x') + "...'");
 }
@@ -422,7 +421,7 @@ TEST(Wording, AllNamesAreOffered) {
   EXPECT_EQ(advice("quite_another", names), "the names here are " + list);
 }
 
-// Letter by letter two names of this length would take hours.
+// A comparison of two names of this length letter by letter would take hours.
 TEST(Wording, AVeryLongNameIsNearToNone) {
   const std::string one(1'000'000, 'a'), other(1'000'000, 'b');
   EXPECT_EQ(nearest_name(one, {other, "radius_mm"}), "");

@@ -1,4 +1,4 @@
-// Whole worlds: with an arm, of a session, and as they are exported.
+// Whole worlds: with an arm, of a session, and as exported.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::scene_file, test::Twin;
 
-constexpr double kSpring = 2000.0, kDamper = 5.0;  // of a stiff holder, N/m and N s/m
+constexpr double kSpring = 2000.0, kDamper = 5.0;  // stiff holder, N/m and N s/m
 
 // An arm at home with a wall through H that faces upwards, and a fingertip that a person holds above it.
 struct Room {
@@ -56,7 +56,7 @@ struct Room {
     user.press_time = user.release_time = 1.0;
     scene.user = user;
   }
-  // A tick in which the tip is told to push with `force` besides what gravity asks for.
+  // A tick with a commanded tip force `force`, plus the force against gravity.
   void tick(const Vec3& force, bool compensate = true) {
     devices.clock->next();
     const PerJoint& q = devices.arm->read({}).value.joints;
@@ -64,7 +64,7 @@ struct Room {
     const Vec<'R'> weight = arm.force(arm.jacobian(q), arm.gravity(q, scene.prop->mass, Payload::exact));
     devices.arm->command(Vec<'R'>(Vec3(force + (compensate ? Vec3(weight.e()) : Vec3::Zero()))));
   }
-  // Held at H by a spring and a damper, in R's axes.
+  // A spring and a damper hold the tip at H, in R's axes.
   void hold() {
     const ArmSample s = devices.arm->read({}).value;
     const Vec3 error = -(world->X_WR() * s.tip).e();
@@ -102,7 +102,8 @@ TEST(ArmWorld, AWrongBaseMovesHome) {
   EXPECT_LT((room.world->truth().tip.e() - Vec3(0.001, 0, 0)).norm(), 1e-12);
 }
 
-// With and without prop, in both forms of friction, and with none: only what the encoders do not see is left.
+// Drift with and without prop, in both forms of friction and without it: only the part below the encoders'
+// resolution remains.
 TEST(ArmWorld, DoesNotDriftWithItsWeightCompensated) {
   for (const double prop : {0.0, 0.020}) {
     for (const ArmFriction form : {ArmFriction::dry, ArmFriction::smooth}) {
@@ -115,8 +116,8 @@ TEST(ArmWorld, DoesNotDriftWithItsWeightCompensated) {
   }
 }
 
-// Without compensation and without a prop, which nearly balances it, the motors pull it over: it comes to lie
-// where its fold or a joint ends.
+// Without compensation and without a prop, which nearly balances it, the motors pull the arm over. It comes
+// to rest at its fold or at the end of a joint.
 TEST(ArmWorld, FallsToADegeneratePose) {
   Room room({}, false, 0.0);
   for (int i = 0; i < 5000; ++i) room.tick(Vec3::Zero(), false);
@@ -128,9 +129,9 @@ TEST(ArmWorld, FallsToADegeneratePose) {
   EXPECT_LT(room.world->diverged_at(), 0);
 }
 
-// The tip pushes straight into a finger that is held still: what was commanded arrives, but for friction.
+// The tip pushes straight into a finger that is held still: the commanded force arrives, less friction.
 TEST(ArmWorld, WhatIsCommandedIsFelt) {
-  Room room(frictionless(), true, 0.020, {}, 1e6);  // nothing moves this finger
+  Room room(frictionless(), true, 0.020, {}, 1e6);  // a finger that does not move
   const int tool = room.world->physics().id(mjOBJ_BODY, "tool");
   const mjModel* m = room.world->physics().model();
   room.world->physics().data()->qpos[m->jnt_qposadr[m->body_jntadr[tool]] + 2] = 0.0081;
@@ -226,12 +227,12 @@ TEST(ArmWorld, ASlideAndAHingeAreAChain) {
   EXPECT_GT(room.world->truth().joints[0], 1e-4);
 }
 
-// A session in the twin: the tool is changed, nothing of it is felt, and all of it can be saved.
+// A session in the twin: the tool changes without a change in force, and the whole state can be saved.
 
 // The change comes after the first press.
 std::vector<std::string> early() { return {"user.session.change_share=[0,0]", "user.session.duration_s=30"}; }
 
-// Until the tool in the hand is this one; false if it never is.
+// Run until this tool is in the hand; false if that never happens.
 bool run_until_held(Twin& twin, std::int32_t tool) {
   for (int i = 0; i < 30000; ++i) {
     twin.tick();
@@ -302,8 +303,8 @@ TEST(SessionWorld, IsTheSameForTheSameSeed) {
   EXPECT_NE(hashed(c, 5000), first);
 }
 
-// The tracker takes the pressing tool for the other one: the tip must neither leap nor let go. The other's
-// tip is 15 mm farther down the shaft, so it is thought to be deep inside.
+// The tracker takes the pressing tool for the second one: the tip must neither leap nor let go. The second
+// tool's tip is 15 mm farther down the shaft, so it seems deep inside.
 TEST(SessionWorld, AToolMistakenWhilePressingIsNotFelt) {
   Twin twin({"user.session.depth_mm=[4,4]", "user.session.press_mm_s=[4,4]", "user.session.hold_s=[3,3]",
              "truth.hand.aborted=0"},
@@ -326,7 +327,7 @@ TEST(SessionWorld, AToolMistakenWhilePressingIsNotFelt) {
   EXPECT_EQ(twin.out.contacts, 1);
 }
 
-// `encounter export SCENE world.xml` of each scene that is shipped: MuJoCo's own programs open it.
+// `encounter export SCENE world.xml` of each shipped scene: MuJoCo's own programs open it.
 
 std::vector<std::string> shipped_scenes() {
   std::vector<std::string> scenes;

@@ -18,7 +18,7 @@ struct Loop {
   double out = 0.0;   // J, given back
 };
 
-// From rest to 6 mm and back at a steady speed, 1 kHz, trapezoid rule.
+// A press from rest to 6 mm and back at a steady speed, 1 kHz, trapezoid rule.
 Loop press_and_release(const BallPlant& ball, double speed, BallPlantState s = {}) {
   Loop loop;
   const long count = std::lround(6e-3 / (speed * 1e-3));
@@ -48,7 +48,7 @@ TEST(BallPlant, ElasticForceRisesEverywhere) {
   double before = ball.elastic(0.0);
   EXPECT_EQ(before, 0.0);
   EXPECT_EQ(ball.elastic(-1e-3), 0.0);
-  for (int i = 1; i <= 10000; ++i) {  // to 10 mm: past the end of the table at 8 mm
+  for (int i = 1; i <= 10000; ++i) {  // up to 10 mm: past the end of the table at 8 mm
     const double now = ball.elastic(i * 1e-6);
     ASSERT_GT(now, before) << i << " um";
     ASSERT_LT(now - before, 0.01) << i << " um: a jump";
@@ -104,8 +104,8 @@ TEST(BallPlant, RateAndRelaxation) {
   EXPECT_NEAR(1.0 - rested / peak, 0.05, 0.01);
 }
 
-// Friction alone, pressed to d from rest: z = 1 - exp(-d / 0.6 mm), F = F_e (1 + 0.1 z), however fast and in
-// however many steps.
+// Friction alone, pressed to d from rest: z = 1 - exp(-d / 0.6 mm), F = F_e (1 + 0.1 z), at any speed and in
+// any number of steps.
 TEST(BallPlant, FrictionAsByHand) {
   BallParameters p{.relaxing = {0.0, 0.0, 0.0}};
   const BallPlant ball(p);
@@ -128,13 +128,13 @@ TEST(BallPlant, LiftsOffBeforeZeroAndNeverPulls) {
     ASSERT_GE(force, 0.0);
     if (force == 0.0) ++free;
   }
-  EXPECT_GT(free, 50);  // at 0.5 mm already, see the release curve
+  EXPECT_GT(free, 50);  // free at 0.5 mm already, see the release curve
   EXPECT_EQ(s.deflection, 0.0);
 }
 
 // The real ball under the probe: figures of sources/ball 4.
 
-constexpr double kApart = 0.043;  // m, of the centres at the first touch
+constexpr double kApart = 0.043;  // m, between the centres at the first touch
 
 BallTruth even() {
   BallTruth truth{.uneven = 0.0};
@@ -143,7 +143,7 @@ BallTruth even() {
 
 BallContact ball_of_set(const BallTruth& truth) { return {truth, Point<'W'>(0, 0, 0), 0.033, 0.010}; }
 
-// Straight up beside the centre, from the first touch to `depth` at 4 mm/s, and back if wanted.
+// A push straight up beside the centre, from the first touch to `depth` at 4 mm/s, and back on request.
 struct Push {
   double peak = 0.0, in = 0.0, out = 0.0;  // N, J along z
 };
@@ -205,7 +205,7 @@ TEST(BallContact, BesideTheCentreTheForceIsAtASlant) {
   EXPECT_NEAR(force.x(), 2.7, 0.05);
 }
 
-// With felt friction of 0.6 between there and a force that is straight along the push: 10.40 N.
+// Felt friction of 0.6 gives a force between that and a force straight along the push: 10.40 N.
 TEST(BallContact, FrictionTakesSomeOfTheSlantAway) {
   BallTruth truth = even();
   truth.friction = 0.0;
@@ -219,7 +219,8 @@ TEST(BallContact, FrictionTakesSomeOfTheSlantAway) {
   EXPECT_GE(force.x(), -0.01);  // never beyond straight
 }
 
-// Pressed and then moved far along the surface, it slides with mu F_n against the way; stretch <= 1.
+// A ball that is pressed and then moved far along the surface slides with mu F_n against its motion; stretch
+// <= 1.
 TEST(BallContact, SlidesInTheEnd) {
   BallTruth truth = even();
   BallContact ball = ball_of_set(truth);
@@ -254,7 +255,7 @@ TEST(BallContact, SetsGiveWhatTheirTableSays) {
   }
 }
 
-// What is given stands over the set, and nothing else changes.
+// A given number overrides the set, and nothing else changes.
 TEST(BallContact, ANumberStandsOverItsSet) {
   BallTruth truth{.set = BallSet::vented, .rubber_modulus = 3.0e6};
   truth.relaxing[1] = 0.2;

@@ -1,4 +1,4 @@
-// The structural hexapod: where it stands under load, what its legs carry, what its sensor feels.
+// The structural hexapod: its position under load, the forces in its legs, its sensor.
 #include "sim/bodies/legs.h"
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(Legs, TheWeightIsCalibratedOutAtZero) {
   EXPECT_LT(twin.world->truth().tip_acceleration.norm(), 1e-6);
 }
 
-// At zero all six legs stand alike: each carries a sixth of the weight over the cosine of its tilt.
+// All six legs are alike at zero: each carries a sixth of the weight over the cosine of its tilt.
 TEST(Legs, CarryTheWeight) {
   Twin twin(1, bare());
   go(twin, Vec3::Zero(), 500);
@@ -73,16 +73,16 @@ TEST(Legs, SagAsTheirStiffnessSays) {
   push(twin, Vec3(0, 0, -50));
   go(twin, Vec3::Zero(), 1000);
   EXPECT_NEAR(-twin.world->truth().tip.xyz[2], 50.0 / kz, 0.005 * 50.0 / kz);
-  // What the machine's encoders say is the servo's side.
+  // The machine's encoders report the servo's side.
   EXPECT_EQ(twin.rig.manipulator->read({}).value.X_RH.xyz, machine.zero().xyz);
   const Eigen::Matrix<double, 6, 6> J = machine.jacobian(machine.zero());
   const Eigen::Matrix<double, 6, 1> wrench = J.transpose() * leg_forces(twin);
-  EXPECT_NEAR(wrench(2), kMoved * kGravity + 50.0, 0.01);  // legs turn a little under the load
+  EXPECT_NEAR(wrench(2), kMoved * kGravity + 50.0, 0.01);  // legs turn slightly under the load
   EXPECT_NEAR(wrench.head<2>().norm(), 0.0, 0.01);
 }
 
-// Elsewhere the same weight bears on legs that lean differently. With the legs' forces of zero, f, and the
-// weight W the machine is off by (J^T K J)^-1 (W + J^T f): some micrometres, mostly by its tilt.
+// Away from zero this weight bears on legs with other tilts. With the legs' forces of zero, f, and the weight
+// W the machine is off by (J^T K J)^-1 (W + J^T f): some micrometres, mostly by its tilt.
 TEST(Legs, AwayFromZeroTheCalibrationIsOffByWhatTheLeanSays) {
   Twin twin(1, bare());
   const Hexapod& machine = twin.world->machine->machine();
@@ -98,8 +98,9 @@ TEST(Legs, AwayFromZeroTheCalibrationIsOffByWhatTheLeanSays) {
   EXPECT_LT((off - expected.head<3>()).norm(), 0.02 * off.norm());
 }
 
-// At a steady speed the platform is where the servo is: set-points move within the step. Held over it they
-// would lag by half a step, 20 mm/s * 0.25 ms = 5 um; a damper to the ground would add c v / k = 1.1 um.
+// The platform keeps up with the servo at a steady speed: set-points move within the step. Set-points held
+// over the step would lag by half a step, 20 mm/s * 0.25 ms = 5 um; a damper to the ground would add c v / k
+// = 1.1 um.
 TEST(Legs, DoNotLagBehindTheServo) {
   Twin twin(1, bare({"truth.hexapod.step_um=0"}));
   const Vec3 zero = twin.world->machine->machine().zero().p();
@@ -142,7 +143,8 @@ TEST(Legs, DampingIsOfALegWithASixthOfTheMass) {
   EXPECT_NEAR(twin.world->legs->damping(), 2.0 * 0.05 * std::sqrt(2e6 * kMoved / 6.0), 1e-9);
 }
 
-// The sensor of a free body feels inertia by itself: contact + m g - m a, nothing twice, nothing missing.
+// The sensor of a free body feels inertia by itself: contact + m g - m a, with no term twice and none
+// missing.
 TEST(Legs, TheForceSensorFeelsWeightAndInertiaOnce) {
   Twin twin(1, bare());
   go(twin, Vec3::Zero(), 300);
@@ -152,7 +154,7 @@ TEST(Legs, TheForceSensorFeelsWeightAndInertiaOnce) {
     go(twin, Vec3(0.010, 0, 0.005), 1);
     const sim::Truth& truth = twin.world->truth();
     largest = std::max(largest, truth.tip_acceleration.norm());
-    // The platform turns by less than 0.1 mrad; what is behind the sensor has its centre 80 mm under H.
+    // The platform turns by less than 0.1 mrad; the load behind the sensor has its centre 80 mm under H.
     const mjData* d = twin.world->physics().data();
     const Vec3 spin(d->qacc[3], d->qacc[4], d->qacc[5]);
     const Vec3 a = truth.tip_acceleration.e() + spin.cross(Vec3(0, 0, -0.08));
@@ -183,7 +185,7 @@ TEST(Legs, ATurnedBaseStandsAndHangsJustTheSame) {
   EXPECT_NEAR(wrench.head<3>().norm(), kMoved * kGravity, 1e-4);
 }
 
-// And where the platform is after them.
+// Also return the place of the platform after these ticks.
 std::pair<std::uint64_t, double> hashed_with_place(Twin& twin, int ticks) {
   const std::uint64_t hash = hashed(twin, ticks);
   return {hash, twin.world->physics().data()->qpos[0]};
@@ -275,7 +277,7 @@ TEST(Legs, BadInput) {
   EXPECT_NE(refused_legs({"truth.hexapod.form=structural", "truth.structure.leg_stiffness_N_per_um=100"})
                 .find("expected a time step of at most"),
             std::string::npos);
-  EXPECT_EQ(refused_legs({"truth.structure.timestep_us=300"}), "");  // of the other form
+  EXPECT_EQ(refused_legs({"truth.structure.timestep_us=300"}), "");  // concerns only the structural form
 }
 
 // The test rig as a whole: machine, ball, sensor, programme.
@@ -294,7 +296,7 @@ Pushed run(const std::string& scene, const std::vector<std::string>& set = {}, s
   return {result, measure.pushes(), measure.spread(), measure.force_error()};
 }
 
-// Ticks until a push is about so deep.
+// Run until a push is about this deep.
 void run_to(Twin& twin, double depth) {
   for (int i = 0; i < 20'000 && twin.world->truth().penetration != depth; ++i) {
     twin.tick();
@@ -302,7 +304,7 @@ void run_to(Twin& twin, double depth) {
   }
 }
 
-// The force is put on the body behind the sensor: with weight and inertia it is all that the sensor reads.
+// The force acts on the body behind the sensor: with weight and inertia it is the sensor's whole reading.
 TEST(Rig, SensorReadsTheBallPlusWeight) {
   std::vector<std::string> set = exact_force();
   for (const char* text : {"truth.force.quantum_N=1e-12", "truth.force.torque_quantum_Nm=1e-12"})
@@ -318,7 +320,8 @@ TEST(Rig, SensorReadsTheBallPlusWeight) {
     if (i > 0) {
       ASSERT_LT((twin.in.wrench.value.force.e() - expected).norm(), 4e-6 + 2e-6 * expected.norm()) << i;
     }
-    // About F: the force at the touched point; the weight has no lever while the machine does not tilt.
+    // Moments about F come from the force at the touched point; the weight has no lever while the machine
+    // does not tilt.
     if (twin.world->truth().penetration > 0.001) {
       const Vec3 lever = (twin.world->ball->state().touched - truth.tip).e() + Vec3(0, 0, 0.127);
       ASSERT_LT((twin.in.wrench.value.torque.e() - lever.cross(truth.contact_force.e())).norm(), 1e-5) << i;
@@ -328,7 +331,7 @@ TEST(Rig, SensorReadsTheBallPlusWeight) {
   EXPECT_GT(strongest, 9.0);
 }
 
-// Ten newtons at rest are read as ten newtons.
+// The sensor reads ten newtons at rest as ten newtons.
 TEST(Rig, AStaticPushIsReadAsItIs) {
   std::vector<std::string> set = exact_force();
   for (const char* text : {"probe.dwell_s=3", "truth.ball.relaxing_fast=0", "truth.ball.relaxing_middle=0",
@@ -341,7 +344,7 @@ TEST(Rig, AStaticPushIsReadAsItIs) {
   EXPECT_GT(force, 10.0);
   EXPECT_LT(force, 12.0);
   EXPECT_NEAR(-twin.out.felt.xyz[2], force, 1e-4);
-  EXPECT_NEAR(twin.out.force.xyz[2], force, 1e-4);  // N's z is the way of the push's force on the probe
+  EXPECT_NEAR(twin.out.force.xyz[2], force, 1e-4);  // N's z is the direction of the push's force on the probe
 }
 
 TEST(Rig, FivePushesOfEachSet) {
@@ -390,7 +393,7 @@ TEST(Rig, GoesOnFromTheMiddleOfAPushToTheBit) {
   EXPECT_EQ(twin.world->truth().contact_force.xyz, force.xyz);
 }
 
-// A ball that is not where the scene says is met at another moment; the machine pushes all the same.
+// A misplaced ball is touched at another moment; the machine pushes in either case.
 TEST(Rig, AMisplacedBallIsTouchedLater) {
   Twin twin({"truth.ball.misplaced_mm=[0,0,1]"}, 1, "rig_A");
   run_to(twin, 1e-6);

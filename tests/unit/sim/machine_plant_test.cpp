@@ -19,9 +19,10 @@ namespace {
 
 using test::exact_force, test::scene_file, test::Twin;
 
-// The twin of the machine's position loop against its equation, and a person against what a hand has.
+// The twin of the machine's position loop against its equation, and a simulated person against the strength
+// of a hand.
 
-// Of second order: x = 1 - exp(-z w t) (cos u t + z w / u sin u t), u = w sqrt(1 - z^2).
+// Second order: x = 1 - exp(-z w t) (cos u t + z w / u sin u t), u = w sqrt(1 - z^2).
 double step_response(double servo, double damping, double t) {
   const double w = 2.0 * std::numbers::pi * servo, u = w * std::sqrt(1.0 - damping * damping);
   return 1.0 - std::exp(-damping * w * t) * (std::cos(u * t) + damping * w / u * std::sin(u * t));
@@ -48,7 +49,7 @@ TEST(HexapodPlant, AServoIsAsSlowAsItsEquationHoweverFastItIs) {
   }
 }
 
-// Something that does not give way is pressed with what a hand has, not with its spring times the way.
+// A hand presses a rigid object with its strength, not with its spring times the way.
 TEST(User, PushesNoHarderThanAHandDoes) {
   trial::TrialOptions options{.seconds = 6.0};
   models::Setup setup = test::shipped("plane", {"user.depth_mm=400", "truth.hand.strength_N=20"});
@@ -60,7 +61,7 @@ TEST(User, PushesNoHarderThanAHandDoes) {
   EXPECT_LT(most, 30.0);  // and the weight of the tool, and the impact
 }
 
-// The arm's electronics, worked by hand: what encoders see, what motors can, when they stop.
+// The arm's electronics, worked by hand: encoder resolution, motor limits, and stops.
 
 constexpr double kTick = 0.001;
 
@@ -79,7 +80,8 @@ struct Bench {
   int n = 0;
 };
 
-// 4096 counts of a motor that turns 8.87 and 7.47 times: at q = 0 the tip goes along x, y, z with q3, q1, q2.
+// 4096 counts of a motor that turns 8.87 and 7.47 times: at q = 0 the tip moves along x, y, z with q3, q1,
+// q2.
 TEST(ArmPlant, ResolvesTheTipAsTheCatalogueSays) {
   const Bench b;
   EXPECT_NEAR(b.plant.step(2) * 0.1130, 0.0232e-3, 0.0001e-3);
@@ -111,7 +113,7 @@ TEST(ArmPlant, MakesTorqueOfForce) {
   EXPECT_FALSE(b.plant.state().clipped);
 }
 
-// 0.129 N m times 7.47 over 0.1397 m: 6.90 N upwards is all there is, as sources/arm 5 says.
+// 0.129 N m times 7.47 over 0.1397 m: 6.90 N upwards is the maximum, as in sources/arm 5.
 TEST(ArmPlant, ClipsAtTheMotorsPeak) {
   Bench b;
   b.push({0, 0, 20});
@@ -121,9 +123,9 @@ TEST(ArmPlant, ClipsAtTheMotorsPeak) {
   EXPECT_EQ(b.plant.motor_torque()[0], 0.0);
 }
 
-// From cold, stall torque brings a winding to 0.8 of its rated heat where
-// i^2 (s (1 - e^(-t/12)) + (1 - s)(1 - e^(-t/612))) = 0.8, i = 0.129 / 0.0286, s = 3.1 / 17.1: after 2.6 s.
-// Then it folds back, smoothly, and never gets warmer than it may.
+// A cold winding at stall torque reaches 0.8 of its rated heat when i^2 (s (1 - e^(-t/12)) + (1 - s)(1 -
+// e^(-t/612))) = 0.8, i = 0.129 / 0.0286, s = 3.1 / 17.1: after 2.6 s. Then the current folds back smoothly,
+// and the winding never exceeds its limit.
 TEST(ArmPlant, AWarmWindingFoldsBackSmoothly) {
   Bench b;
   const double i2 = std::pow(0.129 / 0.0286, 2), share = 3.1 / 17.1;
@@ -201,7 +203,7 @@ TEST(ArmPlant, ADrivenFrontComesUpToSpeed) {
     b.plant.begin_cycle();
   }
   EXPECT_NEAR(b.plant.state().surface_speed, 0.05 * (1.0 - std::exp(-1.0)), 1e-9);
-  for (int i = 0; i < 200; ++i) b.plant.begin_cycle();  // nobody commands: the watchdog stops it
+  for (int i = 0; i < 200; ++i) b.plant.begin_cycle();  // no command: the watchdog stops it
   EXPECT_LT(b.plant.state().surface_speed, 1e-5);
 }
 
@@ -211,7 +213,7 @@ TEST(ArmPlant, RefusesAVelocityWindowThatIsTooLong) {
   EXPECT_THROW(Bench{truth}, Error);
 }
 
-// The gripper's phases by hand, and what the world and the core make of a clamped tool.
+// The gripper's phases by hand, and the effect of a clamped tool on world and core.
 
 GripperTruth exact_gripper() {
   sim::GripperTruth truth{.repeatability = 0.0};
@@ -319,7 +321,7 @@ TEST(ClampedTool, TheTrackerSeesItMoveWithTheMachine) {
   }
 }
 
-// The force sensor feels the tool's weight and inertia, the core takes both out.
+// The force sensor feels the tool's weight and inertia, and the core removes both.
 TEST(ClampedTool, IsTakenOutOfTheForce) {
   std::vector<std::string> set = exact_force();
   set.emplace_back("truth.force.quantum_N=1e-9");

@@ -19,8 +19,8 @@ namespace {
 
 using test::scene_file;
 
-// What the person of a session wants: reaches out of submovements, places that can be pressed, one change of
-// the tool.
+// The plan of a session's simulated person: reaches out of submovements, places that can be pressed, one
+// change of the tool.
 
 // The shipped scene, with a plan on it.
 struct Session {
@@ -153,7 +153,7 @@ TEST(SessionPlan, TheToolIsChangedOnceInTheMiddle) {
     });
     EXPECT_EQ(tools, (std::vector<std::int32_t>{0, -1, 1}));
     EXPECT_GE(begun, 0.4 * session.spec().duration);
-    EXPECT_LE(begun, 0.6 * session.spec().duration + 15.0);  // the press at that time is ended first
+    EXPECT_LE(begun, 0.6 * session.spec().duration + 15.0);  // the press at that time ends first
   }
 }
 
@@ -180,7 +180,8 @@ TEST(SessionHand, TremblesBetween8And12HertzOnly) {
   }
 }
 
-// What a person wants who reaches for what is there: from far away, any place of any object, so often.
+// The plan of a simulated person who reaches for objects: from far away, any place of any object, at a given
+// rate.
 
 struct Reaching {
   explicit Reaching(const std::vector<std::string>& set = {})
@@ -273,7 +274,7 @@ TEST(ReachesPlan, DrawsStayWithinTheirLimits) {
     EXPECT_LE(std::acos(press.at.normal.e().dot(away) / away.norm()), spec.tilt[1] + 1e-9);
     EXPECT_TRUE(within(press.primary.peak_speed(), spec.peak_speed));
     EXPECT_TRUE(within(press.touch_speed, spec.touch_speed));
-    EXPECT_TRUE(within(press.rest, spec.rest) || press.rest == 0.8);  // before the first at least 0.8 s
+    EXPECT_TRUE(within(press.rest, spec.rest) || press.rest == 0.8);  // at least 0.8 s before the first
     EXPECT_GE(press.depth, std::min(spec.depth[0], press.reached));
   });
 }
@@ -302,8 +303,8 @@ TEST(ReachesPlan, RefusesAStartThatIsNeverFar) {
   EXPECT_THROW((void)reaching.plan.begin(1), Error);
 }
 
-// With the arm in the loop and a finger that is seen live: each reach is one contact, of the object that was
-// meant, and in between the arm stands.
+// A whole loop with an arm and a finger that is seen live: each reach is one contact, of the intended object,
+// and the arm stands in between.
 TEST(ReachesWorld, EachReachIsOneContact) {
   const models::Setup setup = models::load(
       scene_file("reaching"), "",
@@ -349,7 +350,7 @@ TEST(SteeredPlan, GoesWhereItIsToldAsFastAsAPerson) {
   EXPECT_LT(farthest, 0.3 + 1e-3) << "it does not overshoot";
 }
 
-// The tip stands on a surface; the mouse is drawn into it, a little aside.
+// The tip stands on a surface; the mouse moves into it, slightly aside.
 Vec3 pushed(const Vec3& way) {
   SteeredPlan plan;
   plan.steer({0, 0, 0}, {0, 0, 0});

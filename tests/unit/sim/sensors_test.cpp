@@ -15,7 +15,7 @@ namespace {
 
 const Wrench kNothing{Vec<'F'>::zero(), Vec<'F'>::zero()};
 
-// N rms of what a sensor without zero error reads of nothing.
+// N rms of a sensor without zero error and without load.
 double rms(std::int64_t oversampling) {
   ForceTruth truth;
   truth.zero = truth.drift = 0.0;
@@ -51,13 +51,13 @@ TEST(ForcePlant, TheZeroDriftsBeforeAPush) {
   EXPECT_GT(half.norm(), 1e-3);
   EXPECT_NEAR((plant.zero() - 2.0 * half).norm(), 0.0, 1e-12);
 
-  truth.drift_ahead = 0.0;  // the same, at once
+  truth.drift_ahead = 0.0;  // equal, at once
   ForcePlant sudden(truth, 5);
   sudden.begin_push();
   EXPECT_GT(sudden.zero().norm(), 1e-3);
 }
 
-// That a push comes is told once for each, however long before.
+// Each push is announced once, at any time before.
 TEST(ForcePlant, APushIsNearOnce) {
   PusherSpec spec;
   spec.ramp_time = spec.hold_time = 0.1;
@@ -74,9 +74,9 @@ TEST(ForcePlant, APushIsNearOnce) {
   }
 }
 
-// The tracker that finds a tool by its markers: which one, and as good a pose as they allow.
+// The tracker that identifies a tool by its markers, with a pose as good as they allow.
 
-// Those of models/scenes/session.toml.
+// The marker sets of models/scenes/session.toml.
 const std::vector<std::vector<Vec3>> kTools{
     {{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.017, -0.030, 0.012}},
     {{0, 0, 0}, {0.061, 0, 0}, {0, 0.034, 0}, {-0.025, -0.022, 0.008}}};
@@ -125,7 +125,8 @@ TEST(TrackerPlant, RecognisesTheToolByItsMarkersAndItsPoseIsAsGoodAsTheyAllow) {
   }
 }
 
-// Nothing else is drawn then, and without it nothing of it.
+// Without marker noise the tracker draws no random number for markers: its pose equals that of a tracker
+// without them.
 TEST(TrackerPlant, WithoutNoiseOfMarkersTheToolIsKnown) {
   TrackerTruth truth = with_noise(kUnset);
   TrackerPlant with(truth, kCamera, 7, kTools), without(truth, kCamera, 7);
@@ -138,8 +139,8 @@ TEST(TrackerPlant, WithoutNoiseOfMarkersTheToolIsKnown) {
   EXPECT_EQ(a.value.X_CT.p(), b.value.X_CT.p());
 }
 
-// The stereo head by hand: where a point is seen, what is outside, how much a pixel is worth at 0.6 m, which
-// noise averaging takes away.
+// The stereo head by hand: the image of a point, points outside, the size of a pixel at 0.6 m, and the noise
+// that averaging removes.
 
 CameraTruth exact() {
   CameraTruth truth;
@@ -148,7 +149,7 @@ CameraTruth exact() {
 }
 
 TEST(StereoNoise, APointByHand) {
-  // At 0.721 m a pixel is 1 mm wide and the disparity 0.09 * 721 / 0.721 = 90 px.
+  // A pixel at 0.721 m is 1 mm wide and the disparity 0.09 * 721 / 0.721 = 90 px.
   const StereoPoints eyes(CameraTruth{}, 1);
   const auto pixel = eyes.project({0.010, -0.020, 0.721});
   ASSERT_TRUE(pixel);

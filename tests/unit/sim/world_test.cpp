@@ -1,4 +1,4 @@
-// The twin as a whole: what its sensor reads, that it can be saved, that it is nobody else's business.
+// The twin as a whole: its sensor's reading, its saved state, and its independence of other devices.
 #include "sim/world.h"
 
 #include <array>
@@ -19,7 +19,7 @@ namespace {
 
 using sim::Physics, sim::SpecPtr, sim::Stream;
 
-// Quick to the touch: one press at 50 mm/s from 30 mm straight above.
+// A scene with a quick touch: one press at 50 mm/s from 30 mm straight above.
 std::vector<std::string> quick() {
   std::vector<std::string> set = exact_force();
   for (const char* text :
@@ -117,7 +117,7 @@ TEST(World, SeedChangesTheNumbersAndOnlyTheSeed) {
   EXPECT_NE(hashed(c, 700), first);
 }
 
-// One random stream for each device: another device changes nobody's numbers.
+// One random stream for each device: a change of device leaves all other numbers unchanged.
 TEST(World, ADisplayChangesNoForceAndNoTrackerSample) {
   models::Setup without = models::load(scene_file("tennis_ball"), "sim");
   without.scene.display.reset();
@@ -175,8 +175,8 @@ void command(Twin& twin, const Vec3& p_W) {
 }
 constexpr double kTogether = 0.007;  // m, radii of tip and tool
 
-// A person who wants to be where the tip is pressed: the scene's press point put there, so that the hand
-// pushes from above.
+// A simulated person at the tip's place of pressing: the scene's press point is there, so the hand pushes
+// from above.
 Twin& pressed(Twin& twin, double at_z) {
   command(twin, Vec3(0, 0, at_z));
   for (int i = 0; i < 4000 && twin.world->truth().contact_force.norm() < 1.0; ++i) twin.rig.clock->next();
@@ -213,7 +213,7 @@ TEST(World, NoTensionWhileTheTipRetreats) {
 }
 
 TEST(World, AFastToolIsStoppedByTheTip) {
-  std::vector<std::string> loose = quick();  // nobody holds it back
+  std::vector<std::string> loose = quick();  // a hand that is not held back
   for (const char* text : {"truth.hand.grip_stiffness_N_per_mm=1e-6", "truth.hand.grip_damping_Ns_per_m=0"})
     loose.emplace_back(text);
   Twin twin(loose);
@@ -227,10 +227,10 @@ TEST(World, AFastToolIsStoppedByTheTip) {
     touched = touched || twin.world->truth().touching;
   }
   EXPECT_TRUE(touched);
-  EXPECT_GT(lowest, kTogether - 0.002);  // of 7 mm between centres
+  EXPECT_GT(lowest, kTogether - 0.002);  // overlap of 7 mm between centres
 }
 
-// A body and what hangs on it: hinges about drawn axes, one or two branches at each.
+// A body and its branches: hinges about drawn axes, one or two branches at each.
 std::string branch(Stream& random, int depth) {
   const auto drawn = [&] { return 2.0 * random.uniform() - 1.0; };
   std::string text = fmt::format(

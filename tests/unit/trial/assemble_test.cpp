@@ -1,5 +1,5 @@
-// Which devices a trial is made of: the twin where a slot is simulated, drivers where the rig names them, and
-// no simulated world where nothing asks for one.
+// The devices of a trial: the twin for simulated slots, drivers for slots that the rig names, and a simulated
+// world only on demand.
 #include "trial/assemble/assemble.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Assemble : public testing::Test {
     TrialOptions options{.seconds = 0.05, .drivers = app::load_module};
     return options;
   }
-  // What an armed trial of it is refused with; or "armed".
+  // The reason why an armed trial of the setup is refused; or "armed".
   static std::string said_when_armed(const models::Setup& setup) {
     TrialOptions made = options();
     made.armed = true;
@@ -57,13 +57,13 @@ TEST_F(Assemble, SlotsAreThoseThatTheSceneNames) {
   const Slots mixed = slots_of(shipped("tennis_ball", kSample));
   EXPECT_TRUE(mixed.simulated);
   EXPECT_TRUE(mixed.real);
-  // A probe needs neither tracker nor display, so what drives those does not count.
+  // A probe needs neither tracker nor display, so their drivers do not count.
   const Slots real = slots_of(shipped("rig_A", kSample));
   EXPECT_FALSE(real.simulated);
   EXPECT_TRUE(real.real);
 }
 
-// sources/choices 15: what a simulated machine only says, a real one does not begin.
+// sources/choices 15: a swing is only a warning in simulation, but a real machine is not armed for it.
 TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
   models::Setup soft = shipped("stiffness", {"behaviour.spring.stiffness_N_per_mm=0.15"});
   soft.rig.manipulator.driver = soft.rig.force.driver = "sample";
@@ -73,7 +73,7 @@ TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
               testing::AllOf(testing::HasSubstr("object 'wall'"), testing::HasSubstr("not armed")));
 }
 
-// Frames that nobody measured put the tip where nobody expects it. A dry run is how they are looked at.
+// Unmeasured frames put the tip at an unexpected place. A dry run shows it first.
 TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
   const TrialResult dry = Trial(shipped("rig_A", kUncalibrated), options()).run();
   EXPECT_EQ(dry.withheld, dry.ticks);
@@ -83,7 +83,7 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
           testing::StartsWith("--set rig.manipulator.driver=\"sample\": this rig has no day of calibration"),
           testing::HasSubstr("[calibration]"), testing::HasSubstr("not armed")));
   EXPECT_EQ(said_when_armed(shipped("rig_A", kSample)), "armed");
-  // A gripper has force, too; a sensor that is real moves nothing.
+  // A gripper has force, too; a real sensor moves nothing.
   struct Jaws final : Gripper {
     void command(const Grip&) noexcept override {}
     void stop() noexcept override {}
@@ -96,7 +96,7 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
   EXPECT_EQ(said_when_armed(shipped("rig_A", {"rig.force.driver=\"sample\""})), "armed");
 }
 
-// What was measured once may have been moved since; a day to come is a clock that is wrong.
+// A device may have moved since its calibration; a day in the future means a wrong clock.
 TEST_F(Assemble, ACalibrationThatIsTooOldOrYetToComeIsRefused) {
   const auto dated = [](const std::string& date, const std::string& days) {
     std::vector<std::string> set = kUncalibrated;
@@ -116,7 +116,7 @@ TEST_F(Assemble, ACalibrationThatIsTooOldOrYetToComeIsRefused) {
   EXPECT_NO_THROW(Trial(shipped("rig_A", kUncalibrated), calibrating));
 }
 
-// What leads to the machine may be a relay on this PC: a fake says on its wire that it is one.
+// The address of the machine may be a relay on this PC: a fake identifies itself on its wire.
 TEST_F(Assemble, AnAddressMakesNoFake) {
   for (const char* address : {"127.0.0.1", "localhost", "::1", "192.168.0.20"}) {
     std::vector<std::string> set = kUncalibrated;
@@ -153,7 +153,7 @@ TEST_F(Assemble, WithoutASimulatedSlotThereIsNoWorldAndTimeIsTheWalls) {
   Trial trial(shipped("rig_A", kSample), made);
   EXPECT_FALSE(trial.has_world());
   const TrialResult result = trial.run();
-  EXPECT_GE(result.ticks + result.missed, 51);  // on a busy machine some are lost
+  EXPECT_GE(result.ticks + result.missed, 51);  // a busy machine loses some
   EXPECT_EQ(looks, result.ticks);
   EXPECT_GE(result.wall, 0.05);
   EXPECT_GE(trial.now().index, 50);
@@ -165,7 +165,7 @@ TEST_F(Assemble, OneSimulatedSlotBringsTheWorld) {
   EXPECT_TRUE(trial.has_world());
   const TrialResult result = trial.run();
   EXPECT_GE(result.ticks + result.missed, 51);
-  EXPECT_GE(result.wall, 0.05);  // real devices live in wall time
+  EXPECT_GE(result.wall, 0.05);  // real devices run in wall time
   EXPECT_TRUE(trial.truth().tip.finite());
 }
 
@@ -175,7 +175,7 @@ TEST_F(Assemble, ARealDeviceKeepsWallPace) {
   EXPECT_THROW(Trial(shipped("tennis_ball", kSample), fast), Error);
 }
 
-// A machine that is another one than the rig says, or does not know what it can do.
+// A machine that differs from the rig, or does not know its own abilities.
 class Claims final : public Manipulator {
  public:
   explicit Claims(Reach reach) : reach_(std::move(reach)) {}
@@ -273,7 +273,7 @@ TEST_F(Assemble, ADryRunCountsWhatItWithholds) {
   EXPECT_FALSE(armed.inputs().withheld);
 }
 
-// The sample machine is at the next read where it was told to be: dry, it is never told.
+// The sample machine reaches its commanded place by the next read; a dry run sends it no command.
 TEST_F(Assemble, OnlyAnArmedMachineIsSentCommands) {
   const auto moved = [](bool armed) {
     TrialOptions made = options();
@@ -299,7 +299,7 @@ TEST_F(Assemble, WithoutDriversEverythingIsSimulated) {
   }
 }
 
-// The certificate of each object of a scene: the shipped ones, and what is stiffer or softer than may be.
+// The certificate of each object of a scene: the shipped ones, and objects beyond the bounds of stiffness.
 
 std::vector<Certified> of(const std::string& name, const std::vector<std::string>& set = {}) {
   const models::Setup setup = shipped(name, set);
@@ -312,7 +312,7 @@ TEST(Certificates, OfTheShippedScenes) {
       EXPECT_FALSE(one.beyond()) << name << ": " << name_of(one) << " " << class_text(one);
       EXPECT_FALSE(one.unknown()) << name << ": " << name_of(one) << " " << class_text(one);
     }
-  EXPECT_EQ(of("wall").size(), 2U);  // and the tip that nobody touches
+  EXPECT_EQ(of("wall").size(), 2U);  // and the free tip
   EXPECT_EQ(of("tennis_ball").size(), 1U);
   EXPECT_TRUE(of("rig_A").empty()) << "a real ball is pressed";
 }
@@ -342,7 +342,7 @@ TEST(Certificates, WhatIsTooStiffOrTooSoftIsBeyond) {
   EXPECT_GT(soft[0].swing, 1e-3);
 }
 
-// The hand of the scene presses within two seconds; a person whom a real device sees does as they like.
+// The hand of the scene presses within two seconds; a person at a real device presses freely.
 TEST(Certificates, APersonAtARealDevicePushesQuickly) {
   const auto ramp = [](const std::vector<std::string>& set) { return of("tennis_ball", set).back().ramp; };
   EXPECT_EQ(ramp({}), 2.0);
@@ -352,7 +352,8 @@ TEST(Certificates, APersonAtARealDevicePushesQuickly) {
   EXPECT_EQ(ramp({"rig.force.driver=\"sample\"", "user.press_s=0.2"}), 0.2);
 }
 
-// A search that ended at its last step has no bound, and says so; what swings itself neither.
+// A search that ended at its last step has no bound, and reports that; a loop that swings by itself has none
+// either.
 TEST(Certificates, ALargeSignalBoundIsOneSidedWhereTheSearchEnds) {
   using Side = certificate::Row::Side;
   const auto row = [](const std::string& name, const std::vector<std::string>& set) {
@@ -373,7 +374,7 @@ TEST(Certificates, ALargeSignalBoundIsOneSidedWhereTheSearchEnds) {
   EXPECT_NEAR(swings.low, 150.0, 1e-6);
 }
 
-// So many copies of the wall's object, each elsewhere on the arm's plane.
+// This many copies of the wall's object, each elsewhere on the arm's plane.
 models::Setup tiled(std::size_t count) {
   models::Setup setup = shipped("keypad");
   const ObjectSpec key = setup.scene.objects.front();
@@ -414,7 +415,7 @@ TEST(Certificates, ManyObjectsThatAreAlikeShareTheWorst) {
   }
 }
 
-// Of the floor of `reaching`, which may be touched anywhere.
+// The floor of `reaching`, which may be touched anywhere.
 TEST(Certificates, AreOfTheWorstOfAFewPlaces) {
   const models::Setup setup = shipped("wall", {"rig.arm.speed_mm_s=600"});
   models::Setup anywhere = setup;
@@ -428,7 +429,7 @@ TEST(Certificates, AreOfTheWorstOfAFewPlaces) {
             certificate::row_of(pressed.certificate, "exact_with_hand").bound);
 }
 
-// Nobody's hand is on it: what only a hand would hold is beyond.
+// The free tip has no hand on it: a stiffness that only a hand would hold is beyond the bound.
 TEST(Certificates, AFreeTipHasNoHandOnIt) {
   const Certified tip = of("wall", {"rig.arm.loop.delay_ms=20"}).front();
   ASSERT_TRUE(tip.free_tip());
@@ -440,7 +441,7 @@ TEST(Certificates, AFreeTipHasNoHandOnIt) {
   EXPECT_FALSE(held.beyond());
 }
 
-// What the core believes and what is true are separate numbers: a wrong belief gives exactly its error.
+// The core's belief and the truth are separate numbers: a wrong belief gives exactly its error.
 
 models::Setup still_setup() {
   models::Setup setup = shipped("plane", {}, "sim");
@@ -493,8 +494,8 @@ TEST(Calibration, ASensorThatIsTurnedReadsItsWeightAlongAnotherAxis) {
 }
 
 TEST(Calibration, AMachineThatIsTurnedGoesAlongItsOwnAxes) {
-  // Turned by 0.02 rad about z of W, H still on W's origin at zero: 10 mm along x of R are (10 cos, 10 sin)
-  // mm in W.
+  // The base is turned by 0.02 rad about z of W, H still on W's origin at zero: 10 mm along x of R are (10
+  // cos, 10 sin) mm in W.
   models::Setup setup = still_setup();
   setup.scene.user.reset();
   setup.scene.tracker.reset();

@@ -1,4 +1,4 @@
-// What a driver is given and what it gives: one call for each role, a table of its own, a line about itself.
+// The contract of a driver: one call for each role, its own table, a line about itself.
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -47,7 +47,7 @@ struct Given {
   std::int64_t makers = 0, commands = 0, stops = 0;
   double speed = 0.0, grip = 0.0;
   Duration period{};
-  bool absent = false;  // nobody answers
+  bool absent = false;  // the device does not answer
 };
 Given& given() {
   static Given g;
@@ -119,7 +119,7 @@ class DriverContract : public testing::Test {
   [[nodiscard]] std::string at(int line, int column) const {
     return rig_ + ":" + std::to_string(lines_ + line) + ":" + std::to_string(column) + ": ";
   }
-  // Where the machine's driver is named.
+  // The place that names the machine's driver.
   [[nodiscard]] std::string named() const {
     const auto end = text_.begin() + static_cast<std::ptrdiff_t>(text_.find("driver = \"box\""));
     return rig_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ":1";
@@ -149,7 +149,7 @@ TEST_F(DriverContract, EachRoleIsMadeByOneCallWithTheDriversTableAndTheRig) {
   EXPECT_EQ(given().box.port, 4712);
   EXPECT_DOUBLE_EQ(given().box.timeout, 0.25);  // SI
   EXPECT_EQ(given().box.mode, "fast");
-  EXPECT_EQ(given().box.gains, (std::vector<double>{1.0, 2.0}));  // not named: its default
+  EXPECT_EQ(given().box.gains, (std::vector<double>{1.0, 2.0}));  // not in the file: its default
   EXPECT_DOUBLE_EQ(given().speed, 0.05);
   EXPECT_DOUBLE_EQ(given().grip, 100.0);
   EXPECT_EQ(given().period, Duration(1'000'000));
@@ -166,7 +166,7 @@ TEST_F(DriverContract, CommandsOfMachineAndGripperAreWithheldUntilArmed) {
   Trial dry(load(kTable), options(false));
   const TrialResult said = dry.run();
   EXPECT_EQ(given().commands, 0);
-  EXPECT_EQ(given().stops, 0);  // nor is it told to stop
+  EXPECT_EQ(given().stops, 0);  // nor a stop
   EXPECT_EQ(said.withheld, 2 * said.ticks);
   Trial armed(load(kTable), options(true));
   const TrialResult sent = armed.run();
@@ -204,7 +204,7 @@ TEST_F(DriverContract, AMissingKeyIsSaidWhereItBelongs) {
   EXPECT_THAT(refusal("[driver.box]\nport = 1\n"),
               AllOf(StartsWith(at(1, 1) + "[driver.box] has no 'address'; expected a text that is not empty"),
                     HasSubstr("add 'address = ")));
-  const std::string none = refusal("");  // no table at all: where the driver is named
+  const std::string none = refusal("");  // no table at all: the place that names the driver
   EXPECT_THAT(none, AllOf(StartsWith(rig_ + ":"), HasSubstr("[driver.box] has no 'address'")));
   EXPECT_THAT(none, testing::Not(StartsWith(rig_ + ":1:1")));
   EXPECT_THAT(refusal("", {"rig.manipulator.driver=sim", "rig.gripper.driver=sim"}), "");
@@ -236,9 +236,8 @@ TEST_F(DriverContract, SetReachesIt) {
               StartsWith("--set rig.driver.box.port=x: 'x' is no value"));
 }
 
-// Whether its driver is at hand or not: a record needs no module.
-// Whatever a driver begins with it is made with, to the bit, also where no file could say it; and a key that
-// two of its roles declare stands once.
+// A driver keeps its defaults to the bit, also values that no file can express, with or without its module (a
+// record needs no module). A key that two of its roles declare stands once.
 TEST_F(DriverContract, ADefaultStaysWhatItIs) {
   struct Odd {
     double delay = kUnset, third = 1.0 / 3.0, most = std::numeric_limits<double>::infinity();
@@ -279,7 +278,7 @@ TEST_F(DriverContract, TheResolvedSceneKeepsIt) {
     const models::Setup again = models::parse_resolved(text, "a record");
     EXPECT_EQ(models::resolved(again), text);
   }
-  // Another driver in the role: its table is nobody's.
+  // Another driver has the role, so the table has no owner.
   const models::Setup sim = load(kTable, {"rig.manipulator.driver=sim", "rig.gripper.driver=sim"});
   EXPECT_THAT(models::resolved(sim), testing::Not(HasSubstr("rig.driver")));
 }
@@ -313,7 +312,7 @@ TEST_F(DriverContract, ARoleThatItDoesNotFillIsAMistakeInTheFile) {
       "the rig file");
 }
 
-// A run says which of them, and where; a list of devices has the role before its words already.
+// A run's error names the device and its place; a list of devices already states the role.
 TEST_F(DriverContract, ADeviceThatIsNotThereIsNamedByItsRoleAndItsPlaceInTheFile) {
   given().absent = true;
   EXPECT_EQ(test::refusal(ErrorKind::device, [&] { Trial trial(load(kTable), options(false)); }),
@@ -325,7 +324,7 @@ TEST_F(DriverContract, ADeviceThatIsNotThereIsNamedByItsRoleAndItsPlaceInTheFile
   EXPECT_FALSE(asked[0].there);
 }
 
-// Nor does it matter who says it: the module, where it cannot be loaded.
+// The error also names role and place if the module cannot be loaded.
 TEST_F(DriverContract, AModuleThatIsNotThereIsNamedByItsRoleToo) {
   TrialOptions none = options(false);
   none.drivers = [](const std::string&) -> const ModuleInfo& {
@@ -345,7 +344,7 @@ TEST(Roles, HaveEachTheirOwnPlace) {
   EXPECT_EQ(roles, kRoles);
 }
 
-// What devices say goes to a terminal: a line each, whatever bytes a wire brought.
+// Texts of devices go to a terminal: a line each, whatever bytes a wire brought.
 
 TEST(DeviceLog, ALineOfADeviceIsOneLine) {
   DeviceLog log;
@@ -353,7 +352,7 @@ TEST(DeviceLog, ALineOfADeviceIsOneLine) {
   EXPECT_EQ(log.lines(), std::vector<std::string>{"serial 7\\nstate hash  122d7c00183e94e0\\x1b[2J\\x9b"});
 }
 
-// Results that come at irregular times: what is told, when, and what of it is felt.
+// Results at irregular times: the reported results, their times, and their effect on the force.
 
 Time at_ms(std::int64_t ms) { return Time(Duration(1'000'000) * ms); }
 constexpr Duration kPeriod{50'000'000}, kLatency{50'000'000};
@@ -393,7 +392,7 @@ TEST(JitteredTracker, WithoutJitterEachComesWhenItIsDue) {
   for (const Told& t : all) EXPECT_DOUBLE_EQ(t.age, 0.050);
 }
 
-// Early at the exposure, late when the next but one is exposed; in order, and as often one as the other.
+// Early at the exposure, late when the next but one is exposed; in order, each equally often.
 TEST(JitteredTracker, OneFrameEarlyOrLateInOrderAndRepeatable) {
   const auto all = told(kPeriod, 7), again = told(kPeriod, 7), other = told(kPeriod, 8);
   ASSERT_EQ(all.size(), again.size());
@@ -421,7 +420,7 @@ TEST(FrameTimes, AStaleFrameIsNoFrameAndTheRateIsThatOfTheHandOvers) {
   EXPECT_EQ(times.frames, 0);
   for (int i = 0; i < 200; ++i) {
     if (i % 50 == 0) tool = {{}, at_ms(i), i == 150 ? Health::stale : Health::ok};
-    if (i == 150) tool.t = at_ms(100);  // told again
+    if (i == 150) tool.t = at_ms(100);  // reported again
     times.see(at_ms(i + 30), tool);
   }
   EXPECT_EQ(times.frames, 3);

@@ -1,5 +1,5 @@
-// Between the core and what moves: stopped however a run ends, told nothing while dry, and held after a lost
-// link until somebody resumes.
+// The gate between the core and the machine: it stops however a run ends, sends nothing while dry, and holds
+// after a lost link until somebody resumes.
 #include "trial/gate.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ namespace {
 
 using test::shipped;
 
-// What a device was told, in order.
+// The commands that a device received, in order.
 struct Seen {
   std::int64_t commands = 0, stops = 0;
   bool stopped_last = false, linked = true;
@@ -28,7 +28,7 @@ struct Seen {
   }
 };
 
-// A device of a role with somebody who looks on.
+// A device of a role with an observer.
 template <class Role>
 class Watched : public Role {
  public:
@@ -123,7 +123,7 @@ struct Watchers {
 
 enum class End { whole, thrown, signal, hold, ticks };
 
-// Runs a scene to an end, and gives what its devices saw.
+// Run a scene to an end, and return the observations of its devices.
 Watchers ended(const std::string& name, End end) {
   Watchers seen;
   TrialOptions options = seen.options(0.3);
@@ -147,7 +147,7 @@ Watchers ended(const std::string& name, End end) {
   } catch (const Error&) {
     EXPECT_EQ(end, End::thrown);
   }
-  // Before the trial is gone, and not once more by that.
+  // The device is stopped before the trial is gone, and not once more by its end.
   EXPECT_EQ(seen.machine.stops + seen.arm.stops, 1) << name;
   return seen;
 }
@@ -184,7 +184,7 @@ TEST(Gate, AStoppedArmPushesNoMore) {
 // ---- a link that was lost
 // -----------------------------------------------------------------------------------
 
-// Loses a link in a press, and gives it back by itself.
+// Loses a link in a press and restores it.
 struct Lost {
   explicit Lost(Seen Watchers::*device, const std::string& name = "tennis_ball")
       : trial(shipped(name), seen.options(30.0)), linked((seen.*device).linked) {
@@ -223,7 +223,8 @@ TEST(Gate, AMachineWhoseLinkComesBackByItselfMovesNothing) {
   EXPECT_EQ(run.trial.run().links.size(), 1U);
 }
 
-// Homed by hand while nobody heard it: the next command is where it is, and none leaps.
+// Somebody homes the machine while its link is lost: the next command is at its present place, so there is no
+// leap.
 TEST(Gate, AResumedMachineBeginsWhereItIs) {
   Watchers seen;
   TrialOptions options = seen.options(30.0);
@@ -250,7 +251,7 @@ TEST(Gate, AResumedMachineBeginsWhereItIs) {
   }
 }
 
-// A tracker that has no news after its link came back said what it said before, which was no fault.
+// A tracker without new data after its link returned still holds its earlier sample, which was valid.
 TEST(Gate, WhatWasSaidBeforeALossIsBelievedAfterIt) {
   struct Silent final : PoseTracker {
     bool there = true;
@@ -300,7 +301,7 @@ TEST(Gate, ALinkThatIsStillLostCannotBeResumed) {
   EXPECT_LE(run.trial.gate().links().size(), 16U);  // nothing is allocated
 }
 
-// The machine hears what the core says in hold, and stands still.
+// The machine receives the core's hold command and stands still.
 TEST(Gate, AnyOtherDeviceHoldsTheMachineToo) {
   for (Seen Watchers::*device : {&Watchers::force, &Watchers::tracker, &Watchers::display}) {
     Lost run(device);
@@ -317,8 +318,8 @@ TEST(Gate, AnyOtherDeviceHoldsTheMachineToo) {
   }
 }
 
-// An arm without force falls: while the tracker is lost it is told to carry itself; when it is lost itself,
-// nothing.
+// An arm without force falls. If the tracker is lost, the arm is commanded to carry itself; if the arm is
+// lost, it gets no command.
 TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
   Lost blind(&Watchers::tracker, "wall");
   std::int64_t told = blind.seen.arm.commands;
@@ -337,7 +338,8 @@ TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
   EXPECT_EQ(deaf.seen.arm.commands, told + 500);
 }
 
-// What the core does not hold for, such as a display that nobody looks at yet, the gate does.
+// The gate holds after the loss of a device that the core does not hold for, such as a display that is not in
+// use yet.
 TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   Watchers seen;
   Trial trial(shipped("tennis_ball"), seen.options(30.0));
@@ -366,7 +368,7 @@ TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   EXPECT_EQ(sent(Mode::follow), 1);
 }
 
-// For how long a prop has been where it is wanted, also after more ticks than are kept.
+// The time for which a prop has been at its target, also after more ticks than the buffer keeps.
 
 constexpr double kWithin = 2e-3;  // m
 

@@ -1,4 +1,4 @@
-// A scene with [camera] whose camera is real: vision has its own thread, and only then a real arm is armed.
+// A scene with a real camera in [camera]: vision gets its own thread, and only then a real arm can be armed.
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::AllOf, testing::HasSubstr, testing::Not;
 
-// An arm that stays at home, and a camera that shows grey walls as the rig promises.
+// An arm that stays at home, and a camera that shows grey walls at the rig's rate.
 class Arm final : public HapticArm {
  public:
   explicit Arm(const Offer& offer)
@@ -83,7 +83,7 @@ TEST_F(RealCamera, HasAThreadOfItsOwnBesideAnArmedArm) {
   Trial trial(wall("live", "live"), options(true));
   const TrialResult result = trial.run();
   EXPECT_TRUE(result.vision.threaded);
-  EXPECT_GE(result.vision.frames, 3);  // at 20 Hz in half a second, on a busy machine
+  EXPECT_GE(result.vision.frames, 3);  // half a second at 20 Hz, on a busy machine
   EXPECT_EQ(static_cast<std::int64_t>(result.vision.ages.size()), result.vision.frames);
   for (const double age : result.vision.ages) EXPECT_GE(age, 0.0);
   EXPECT_EQ(static_cast<std::int64_t>(result.period_ns.size()), result.ticks - 1);
@@ -92,7 +92,7 @@ TEST_F(RealCamera, HasAThreadOfItsOwnBesideAnArmedArm) {
   EXPECT_EQ(result.devices[1].words, "fingertip of grey walls, in a thread of its own");
 }
 
-// Then the run keeps wall time, whatever the camera could do.
+// The run then keeps wall time, whatever the camera can do.
 TEST_F(RealCamera, OneThatPlaysHasAThreadBesideARealArmAlone) {
   EXPECT_EQ(refusal("live", "played"), "");
   TrialOptions free = options(false);
@@ -104,7 +104,7 @@ TEST_F(RealCamera, OneThatPlaysHasAThreadBesideARealArmAlone) {
   for (const double age : once.vision.ages) EXPECT_NEAR(age, 0.050, 1e-9);
   for (const double interval : once.vision.intervals) EXPECT_NEAR(interval, 0.050, 1e-9);
   EXPECT_TRUE(once.period_ns.empty());
-  free.pace = 1.0;  // a pace changes when, never what
+  free.pace = 1.0;  // a pace changes the time, never the result
   const TrialResult paced = Trial(wall("sim", "played"), free).run();
   EXPECT_FALSE(paced.vision.threaded);
   EXPECT_EQ(paced.hash, once.hash);

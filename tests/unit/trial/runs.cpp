@@ -40,7 +40,7 @@ void Onlooker::see(const trial::Glance& g) {
   if (g.out.mode == Mode::hold) {
     holds += last == Mode::hold ? 0 : 1;
     held_for_ = last == Mode::hold ? held_for_ + dt : 0.0;
-    // From 50 mm/s at 0.41 m/s^2 it is at rest after 0.122 s.
+    // The tip stops from 50 mm/s at 0.41 m/s^2 after 0.122 s.
     if (held_for_ > 0.125) moved_in_hold = std::max(moved_in_hold, velocity.norm() * dt);
     reasons |= g.out.why & kHoldReasons;
     last_hold = g.tick.t;

@@ -1,5 +1,4 @@
-// Scenes that come with Encounter, whole runs of the tennis ball, and an onlooker who knows what must hold on
-// every tick.
+// Scenes that come with Encounter, whole runs of the tennis ball, and an observer that checks every tick.
 #pragma once
 
 #include <functional>
@@ -13,20 +12,21 @@ namespace enc::test {
 
 using Set = std::vector<std::string>;
 
-// With the rig that the scene names, or with this one.
+// A shipped scene with the rig that it names, or with this one.
 [[nodiscard]] models::Setup shipped(const std::string& name, const Set& set = {},
                                     const std::string& rig = {});
 [[nodiscard]] models::Setup scene(const std::string& name, const Set& set = {});
-// One press of 4 mm, met 0.6 + 0.75 s after the start: 30 mm at 50 mm/s, the first 0.3 s of it speeding up.
+// One press of 4 mm, met 0.6 + 0.75 s after the start: 30 mm at 50 mm/s, with acceleration in the first 0.3
+// s.
 [[nodiscard]] Set quick(const Set& more = {});
 // One slow press to the object's limit.
 inline const Set kDeep{"user.approach_mm_s=[20]", "user.press_s=4", "user.hold_s=0.3", "user.release_s=2"};
 
 trial::TrialResult run(const models::Setup& setup, trial::TrialOptions options = {});
 
-// Watches a run for what must hold under any fault.
+// Checks a run for the conditions that hold under any fault.
 struct Onlooker {
-  double fastest = 0.0, hardest = 0.0;            // of commands, m/s and m/s^2
+  double fastest = 0.0, hardest = 0.0;            // commands, m/s and m/s^2
   double true_fastest = 0.0, true_hardest = 0.0;  // of the machine
   double outside = -1.0;                          // m, of the tip outside the undeformed ball
   double moved_in_hold = 0.0;                     // m, of commands once at rest
@@ -54,7 +54,7 @@ struct Seen {
 Seen look(const models::Setup& setup, trial::TrialOptions options = {},
           std::function<void(const trial::Glance&)> also = {});
 
-// Of a run of one press: the force at the limit, N; how many contacts it had, and its deepest deflection, m.
+// A run of one press: the force at the limit, N; the number of contacts, and the deepest deflection, m.
 double force_at_limit(const models::Setup& setup, std::int32_t& contacts, double& deepest);
 
 }  // namespace enc::test

@@ -1,5 +1,5 @@
-// Whole runs, as `run` and the benchmarks make them: the same to the bit whatever the wall clock does, and
-// from wherever they go on.
+// Whole runs, as `run` and the benchmarks make them: equal to the bit whatever the wall clock does, and from
+// any saved state.
 #include "trial/trial.h"
 
 #include <cerrno>
@@ -30,7 +30,7 @@ using std::chrono::milliseconds;
 using test::Loop, test::kToolRadius, test::kTop, test::quick, test::run, test::scene;
 using testing::HasSubstr, testing::Not;
 
-// Sleeps now and then, at random: a loaded machine.
+// Sleeps now and then, at random, like a loaded machine.
 class Stalled : public Clock {
  public:
   Stalled(std::unique_ptr<Clock> clock, int& stalls) : clock_(std::move(clock)), stalls_(stalls) {}
@@ -102,7 +102,7 @@ TEST(Trial, HoursTakeNoMoreMemoryThanMinutes) {
   EXPECT_LE(trial.result().step_ns.capacity(), static_cast<std::size_t>(trial::TrialResult::kMostTimed));
 }
 
-// The devices whose samples stay in Inputs between packets, tapped for where that is: Trial gives no way to
+// The devices whose samples stay in Inputs between packets, tapped for their state: Trial gives no access to
 // it.
 class TappedTracker : public PoseTracker {
  public:
@@ -167,7 +167,7 @@ void goes_on_from(int saved_at) {
   const Stamped<DentSample> dent_then = *dent;
 
   const std::vector<std::uint64_t> first = trace(trial, 400);
-  for (int i = 0; i < 2; ++i) {  // twice: restoring may not use up what was saved
+  for (int i = 0; i < 2; ++i) {  // twice: restoring must not use up the saved state
     trial.world().restore(world);
     trial.state() = state;
     *tool = tool_then;
@@ -180,8 +180,8 @@ TEST(TrialSave, GoesOnTheSameFromTheApproach) { goes_on_from(900); }
 TEST(TrialSave, GoesOnTheSameFromAPress) { goes_on_from(2200); }
 TEST(TrialSave, GoesOnTheSameFromARelease) { goes_on_from(4300); }
 
-// The tracker loses the tool and finds it again: what is believed is at once what is seen, and nothing of the
-// time between gets into the zero of the force. What is smoothed is the command.
+// The tracker loses the tool and finds it again: the believed pose equals the seen one at once, and the force
+// zero learns nothing in between. Only the command is smoothed.
 
 Point<'W'> at_gap(double gap, double x = 0.0) { return {x, 0, kTop + kToolRadius + gap}; }
 
@@ -213,7 +213,7 @@ TEST(DropOut, AToolThatPressesAfterItWasUnseenIsInContactAtOnce) {
   }
 }
 
-// The belief leaps, the machine does not: it goes there within its limits.
+// The believed pose leaps, the machine does not: it goes there within its limits.
 TEST(DropOut, TheCommandCatchesUpWithoutALeap) {
   Loop loop = waiting(0.040);
   const Point<'W'> before = loop.tip();
@@ -222,7 +222,7 @@ TEST(DropOut, TheCommandCatchesUpWithoutALeap) {
   loop.tool_tip = at_gap(0.040, 0.012);
   loop.tool_seen = true;
   loop.tick(2);
-  EXPECT_NEAR(loop.out.view.tip.xyz[0], 0.012, 1e-4);  // where the tool is believed
+  EXPECT_NEAR(loop.out.view.tip.xyz[0], 0.012, 1e-4);  // the believed place of the tool
   EXPECT_LT((loop.tip() - before).norm(), 1e-5);
   loop.tick(1000);
   EXPECT_NEAR(loop.tip().xyz[0], 0.012, 1e-6);
@@ -230,7 +230,7 @@ TEST(DropOut, TheCommandCatchesUpWithoutALeap) {
   EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
 }
 
-// A black-out of 0.3 s while the hand comes down at 200 mm/s: the press that follows is felt.
+// A black-out of 0.3 s while the hand comes down at 200 mm/s: the press after it is felt.
 TEST(DropOut, APressAfterABlackOutIsFelt) {
   const auto peak = [](const char* at) {
     const models::Setup setup = test::shipped(
@@ -259,7 +259,7 @@ TEST(Retare, NotWhileTheToolIsUnseen) {
     Loop loop = waiting(0.150, rig);  // away
     ASSERT_EQ(loop.out.mode, Mode::away);
     loop.tool_seen = false;
-    loop.tick(200);  // it is no longer known
+    loop.tick(200);  // the zero is no longer known
     loop.force = Vec<'W'>(0, 0, -5.0);
     loop.tick(5000);
     EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
@@ -286,10 +286,10 @@ TEST(Retare, NotWhenThePoseIsOldAndNotInAHold) {
   EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
   loop.spoil = {};
   loop.tick(500);
-  EXPECT_LT(recall<CommandState>(loop.state).force_zero.xyz[2], -0.1);  // and then it is learnt
+  EXPECT_LT(recall<CommandState>(loop.state).force_zero.xyz[2], -0.1);  // and then the zero learns
 }
 
-// Before the first zero is known nothing is learnt of a tool that is not seen either.
+// Before the first zero the core also learns nothing from an unseen tool.
 TEST(Retare, TheFirstZeroNeedsAToolThatIsSeenToBeClear) {
   Loop loop(prepare(test::plane_scene(), RigSpec{}));
   loop.tool_seen = false;
@@ -304,8 +304,8 @@ TEST(Retare, TheFirstZeroNeedsAToolThatIsSeenToBeClear) {
   EXPECT_NEAR(recall<CommandState>(loop.state).force_zero.norm(), 0.0, 1e-6);
 }
 
-// A clock that keeps wall time and falls behind: real devices lose the cycles, a simulation goes on where it
-// was, and neither makes them up in a burst.
+// A clock that keeps wall time and falls behind: real devices lose the cycles, a simulation continues at its
+// old time, and neither catches up in a burst.
 
 using Wall = std::chrono::steady_clock;
 
@@ -315,7 +315,7 @@ double seconds_since(Wall::time_point start) {
 
 std::unique_ptr<Clock> counting() { return std::make_unique<trial::CountingClock>(1000.0); }
 
-// Ticks that happen within 20 ms after a stall of 0.2 s: 20, or so; of a burst it would be 220.
+// Ticks within 20 ms after a stall of 0.2 s: about 20; in a burst 220.
 int ticks_after_a_stall(sim::Paced& clock) {
   for (int i = 0; i < 20; ++i) clock.next();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -333,7 +333,7 @@ TEST(LateClock, RealDevicesLoseTheCyclesOfAStall) {
   const Tick tick = clock.next();
   const std::int64_t missed = clock.missed();
   EXPECT_GE(missed, 195);
-  EXPECT_EQ(tick.index, missed + 1);  // none is made up
+  EXPECT_EQ(tick.index, missed + 1);  // no lost tick is repeated
   EXPECT_NEAR(seconds(tick.t.time_since_epoch()), seconds_since(start), 0.1);
   EXPECT_GE(clock.lateness().longest, 0.19);
   sim::Paced again(counting(), 1.0, sim::Late::skip);
@@ -351,7 +351,7 @@ TEST(LateClock, ASimulationGoesOnWhereItWas) {
   EXPECT_LE(ticks_after_a_stall(again), 30);
 }
 
-// A pace that would last for years can be left.
+// A pace that would last for years can be stopped.
 TEST(LateClock, WaitingCanBeStopped) {
   bool stop = false;
   sim::Paced clock(counting(), 1e-12, sim::Late::wait, [&] { return stop; });
@@ -362,11 +362,11 @@ TEST(LateClock, WaitingCanBeStopped) {
   EXPECT_LT(seconds_since(start), 5.0);
 }
 
-// Counts what a machine is sent, and stalls once.
+// Counts the commands to a machine, and stalls once.
 class Stalling final : public Manipulator {
  public:
   struct Log {
-    std::vector<std::int64_t> missed;  // of the tick on which each command came
+    std::vector<std::int64_t> missed;  // missed ticks at the tick of each command
     std::int64_t commands = 0;
   };
   Stalling(std::unique_ptr<Manipulator> machine, Log& log) : machine_(std::move(machine)), log_(log) {}
@@ -383,8 +383,8 @@ class Stalling final : public Manipulator {
   Log& log_;
 };
 
-// Armed, with the sample driver: a stall is a hold on the first tick after it, and nothing is sent for what
-// was lost. With a simulated tracker beside it, whose world follows.
+// An armed run with the sample driver and a simulated tracker, whose world follows. A stall is a hold on the
+// first tick after it, and the run sends no command for the lost ticks.
 TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
   setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
   for (const char* scene : {"rig_A", "tennis_ball"}) {
@@ -424,7 +424,7 @@ TEST(RealTimeRefusal, AUserIsSentToLimitsConf) {
   EXPECT_THAT(real_time_refusal(EPERM, {.most = 39}), HasSubstr("limits.conf")) << "less than is asked for";
 }
 
-// EPERM although the right is there: by CAP_SYS_NICE, as root has it, or by the limit.
+// EPERM in spite of the permission: CAP_SYS_NICE, as for root, or the limit.
 TEST(RealTimeRefusal, AContainerWithoutABudgetIsNotSentToLimitsConf) {
   for (const RealTimeRights& rights :
        {RealTimeRights{.root = true, .sys_nice = true},
@@ -451,7 +451,7 @@ TEST(RealTimeRefusal, AnotherErrorIsNamed) {
               HasSubstr("the system refuses SCHED_FIFO: Function not implemented"));
 }
 
-// Whatever this system grants, the words say it and the thread is as before afterwards.
+// The words state this system's result, and the thread is as before afterwards.
 TEST(RealTimeRefusal, ATrialOfThePriorityLeavesTheThreadAsItWas) {
   int before = 0, after = 0;
   sched_param parameter{};
@@ -466,7 +466,7 @@ TEST(RealTimeRefusal, ATrialOfThePriorityLeavesTheThreadAsItWas) {
   EXPECT_EQ(before, after);
 }
 
-// What a result says of its program, machine and time.
+// The provenance of a result: program, machine and time.
 
 TEST(Provenance, TimesAreUtcInIso8601) {
   const WallTime epoch{};
@@ -490,7 +490,7 @@ TEST(Provenance, OnlyARunOnTheWallClockSaysWhenItStarted) {
   }
 }
 
-// A program that links no commit says so. So no test is linked anew for each commit.
+// A program that links no commit reports that. So a new commit does not relink the tests.
 TEST(Provenance, WithoutACommitItIsUnknown) {
   EXPECT_STREQ(built_commit().name, "unknown");
   EXPECT_THAT(program_words(), testing::MatchesRegex("Encounter [0-9.]+, commit unknown of unknown"));

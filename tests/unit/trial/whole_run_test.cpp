@@ -45,7 +45,7 @@ TEST(TrialPress, TwelveNewtonAtTheLimitFromEveryPolarAngle) {
   }
 }
 
-// The machine begins where it stands: its tip may be outside of the object until it has got there.
+// The machine begins at its present place: its tip may be outside the object until it arrives.
 TEST(TrialPress, AnObjectThatStandsAsideIsEnteredWithoutAHold) {
   for (const char* set : {"object.ball.position_mm=[20,0,-20]", "object.ball.position_mm=[-15,15,-20]"}) {
     const trial::TrialResult result = run(scene("tennis_ball", quick({set})));
@@ -73,12 +73,12 @@ TEST(TrialPress, TheLimitIsHeldUnderThirtyNewton) {
   }
 }
 
-// The tip of a whole run against a dented surface that knows nothing of dent.h.
+// The tip of a whole run against a dented surface that does not use dent.h.
 
-// The ball dented by the true tool, as a mesh: rings of points around the tool's axis, each pushed radially
-// inwards along a raised cosine of the width that a thin ball dimples over, tip radius + sqrt(R depth)
-// [sources/ball 2], and further where it would still be inside the tool's tip. It passes through the tool's
-// lowest point. Made from the truth and nothing of dent.h.
+// The ball dented by the true tool, as a mesh: rings of points around the tool's axis. Each is pushed
+// radially inwards along a raised cosine of the width that a thin ball dimples over, tip radius + sqrt(R
+// depth) [sources/ball 2], and further if it would still be inside the tool's tip. The mesh passes through
+// the tool's lowest point. It uses the ground truth and no code of dent.h.
 class DentedBall {
  public:
   DentedBall(const Vec3& centre, double radius, const Vec3& tool, double tool_radius)
@@ -96,7 +96,7 @@ class DentedBall {
             std::cos(angle) * axis_ + std::sin(angle) * (std::cos(turn) * x_ + std::sin(turn) * y_);
         const double beside = std::min(1.0, radius * angle / width);
         double at = radius - depth * 0.5 * (1.0 + std::cos(std::numbers::pi * beside));
-        // Where the ray enters the tool's sphere, if it does.
+        // The point at which the ray enters the tool's sphere, if it does.
         const double along = u.dot(way);
         const double inside = along * along - way.squaredNorm() + tool_radius * tool_radius;
         if (inside > 0.0) at = std::min(at, along - std::sqrt(inside));
@@ -202,7 +202,7 @@ TEST(TrialDent, TheTipIsInsideAnIndependentDentedBallWithinTheMargin) {
   EXPECT_GT(slow.ticks, 300);
   EXPECT_GT(slow.deepest, 5.5e-3);
   EXPECT_LE(slow.worst_excess, 0.0);
-  EXPECT_LE(slow.worst, 0.8e-3);  // a slow press needs nothing of what age allows
+  EXPECT_LE(slow.worst, 0.8e-3);  // a slow press uses none of the age allowance
   const Margin fast = margin_of(quick());
   EXPECT_GT(fast.ticks, 100);
   EXPECT_GT(fast.deepest, 3.5e-3);
@@ -213,13 +213,13 @@ TEST(TrialDent, TheTipIsInsideAnIndependentDentedBallWithinTheMargin) {
   RecordProperty("worst_um", static_cast<int>(1e6 * std::max({slow.worst, fast.worst, oblique.worst})));
 }
 
-// Whole runs whose devices fail or err: right all the same, and within all limits on every tick.
+// Whole runs with faulty devices: correct, and within all limits on every tick.
 
 std::string number(double x) { return std::to_string(x); }
 
 // The newest pose is at most a frame (1/120 s) older than the beginning of the black-out, and is lost when it
-// is older than 100 ms. It ends with the first packet: a frame, 3.5 ms of latency, a server slot of 10 ms,
-// and the network's delay, which exceeds 30 ms once in half a million (e^-13).
+// is older than 100 ms. The loss ends with the first packet: a frame, 3.5 ms of latency, a server slot of 10
+// ms, and the network's delay, which exceeds 30 ms once in half a million (e^-13).
 void black_out(double at, Mode during) {
   constexpr double kFor = 0.4;
   Mode before = Mode::hold;
@@ -272,8 +272,8 @@ TEST(TrialFault, LostPacketsAreNoLostTool) {
   EXPECT_EQ(seen.result.contacts, 1);
 }
 
-// 0.91 kg hang on the sensor: 8.92 N of its 12 N. So 3.08 N of the tool are the most that it can tell, less
-// 0.37 N of inertia (0.91 kg x 0.41 m/s^2), some noise, and steps of 0.025 N.
+// The sensor carries 0.91 kg: 8.92 N of its 12 N. So it can measure 3.08 N of the tool at most, less 0.37 N
+// of inertia (0.91 kg x 0.41 m/s^2), some noise, and steps of 0.025 N.
 TEST(TrialFault, ASaturatedForceSensorHoldsUntilItReadsAgain) {
   double force_at_hold = kUnset;
   bool good_before = true;
@@ -322,7 +322,7 @@ TEST(TrialFault, AToolAtFiveMetresASecondIsStoppedByTheTip) {
   seen.onlooker.expect_within_limits();
 }
 
-// A range of 3 N is less than the weight of what it carries: nothing ever moves.
+// A range of 3 N is less than the weight of the sensor's load: nothing ever moves.
 TEST(TrialFault, ASensorThatCannotCarryItsLoadNeverLetsTheMachineMove) {
   const Seen seen = look(scene("tennis_ball", quick({"truth.force.range_N=3"})));
   ASSERT_EQ(seen.result.holds.size(), 1U);
@@ -334,8 +334,8 @@ TEST(TrialFault, ASensorThatCannotCarryItsLoadNeverLetsTheMachineMove) {
   EXPECT_EQ(seen.onlooker.true_fastest, 0.0);
 }
 
-// Off by 0.3 mm along each axis, both ways: one contact, and no pressing goes unnoticed for longer than the
-// force filter needs (5 Hz: 1 N reads as 0.1 N after 3.4 ms; 0.3 N after 13 ms; 30 ms with noise and
+// The tool is off by 0.3 mm along each axis, both ways: one contact, and every press is detected within the
+// time of the force filter (5 Hz: 1 N reads as 0.1 N after 3.4 ms; 0.3 N after 13 ms; 30 ms with noise and
 // threshold).
 TEST(TrialFault, ARegistrationErrorOf300MicrometresNeverHidesAPress) {
   for (int axis = 0; axis < 3; ++axis)
@@ -358,9 +358,8 @@ TEST(TrialFault, ARegistrationErrorOf300MicrometresNeverHidesAPress) {
     }
 }
 
-// A sensor turned by 5 degrees about x takes cos 5 = 0.9962 of a force along z for the whole: 12.08 N feel
-// like 12.03, and the ball answers 0.05 N too hard. The weight's share, 8.92 N x sin 5 = 0.78 N sideways, is
-// tared away.
+// A sensor turned by 5 degrees about x reads cos 5 = 0.9962 of a force along z: 12.08 N read as 12.03, and
+// the ball answers 0.05 N too hard. The tare removes the weight's share, 8.92 N x sin 5 = 0.78 N sideways.
 TEST(TrialFault, ASensorTurnedByFiveDegreesIsAForceErrorOfFourPerMille) {
   std::int32_t contacts = 0;
   double deepest = 0.0;
@@ -377,7 +376,7 @@ TEST(TrialFault, ASensorTurnedByFiveDegreesIsAForceErrorOfFourPerMille) {
   }
 }
 
-// Ball, drum and tiles as they are shipped: a tracker of 20 Hz, 50 ms late, judged by the truth.
+// Ball, drum and tiles as shipped: a tracker of 20 Hz, 50 ms late, judged by the ground truth.
 
 trial::TrialOptions seeded(std::uint64_t seed) {
   trial::TrialOptions options{.seed = seed};
@@ -402,7 +401,7 @@ TEST(ShippedBall, IsOneContactAHit) {
   }
 }
 
-// What the display draws holds no machine that follows its tool.
+// The drawn surface causes no hold while the machine follows its tool.
 TEST(ShippedDisplay, HoldsNoMachine) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tests::thorough(6, 20)); ++seed) {
     trial::Trial trial(shipped("tennis_ball"), seeded(seed));
@@ -413,7 +412,7 @@ TEST(ShippedDisplay, HoldsNoMachine) {
 }
 
 // The twin with the controller, contact and admittance settings of the laboratory rig, whose set-points come
-// each 10 ms.
+// every 10 ms.
 TEST(ShippedLaboratory, RendersTheTennisBall) {
   const std::string scene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
   const models::Setup there = models::load(scene, "laboratory", {"user.approach_mm_s=[50]"});
@@ -432,7 +431,7 @@ TEST(ShippedLaboratory, RendersTheTennisBall) {
   EXPECT_NEAR(peak, 12.05, 0.5);  // the press law at its limit of 6 mm, and the overshoot of the stop
 }
 
-// Contacts that begin though nothing has touched lately, and s of contact with nothing there.
+// Contacts that begin without a recent touch, and seconds of contact without an object.
 struct Unfounded {
   int begun = 0;
   double lasting = 0.0;
@@ -451,7 +450,7 @@ Unfounded unfounded_of(trial::Trial& trial) {
   return found;
 }
 
-// Beside the ball the prop goes along with the finger, and lags: that is no hit.
+// Beside the ball the prop moves along with the finger, and lags: that is no hit.
 TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
   for (const char* tilt : {"45", "60"})
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
@@ -461,7 +460,7 @@ TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
     }
 }
 
-// A ball that is hardly pushed, that is soon where it waits, and one that is too heavy to go.
+// A ball that is hit slowly, one with a short travel, and one that is too heavy to move.
 TEST(ShippedBall, IsLetGoWhenNothingIsFelt) {
   for (const char* hard : {"user.approach_mm_s=[2]", "behaviour.hit_ball.interaction.travel_mm=10",
                            "behaviour.hit_ball.interaction.mass_kg=100"}) {
@@ -471,7 +470,7 @@ TEST(ShippedBall, IsLetGoWhenNothingIsFelt) {
   }
 }
 
-// The ball gets no more than the finger has put in.
+// The ball gets no more energy than the finger has put in.
 TEST(ShippedBall, GainsNoEnergy) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     trial::Trial trial(shipped("hit_ball"), seeded(seed));
@@ -505,8 +504,8 @@ TEST(ShippedDrum, IsSmoothUnderTheFinger) {
   }
 }
 
-// The depth of the finger leaps with each picture, and the push of a tile goes by its rate: a push that is
-// gone for a tick is felt as a knock, 20 times a second.
+// The depth of the finger leaps with each picture, and the push of a tile depends on its rate: a push that
+// vanishes for a tick feels like a knock, 20 times a second.
 TEST(ShippedTiles, PushWithoutGaps) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     trial::Trial trial(shipped("tiles"), seeded(seed));

@@ -1,5 +1,4 @@
-// The trackers on drawn pairs: place, velocity, window, occlusion, frames that cannot be used, stamps and
-// stalls.
+// The trackers on drawn pairs: place, velocity, window, occlusion, unusable frames, stamps and stalls.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -53,7 +52,7 @@ TEST(FingerTracker, SeesATipWhereItIs) {
   EXPECT_EQ(finger.exposed, at_frame(1));
   EXPECT_LT((finger.tip.e() - hand.tip).norm(), 2e-3);
   const Triplet truth = seen_at(tracker.pair(), Point<'C'>(hand.tip));
-  // A finger of 13 px in a mask that is made of tiles of 5 px.
+  // A finger of 13 px in a mask of tiles of 5 px.
   EXPECT_LT(std::hypot(finger.column - truth.column, finger.row - truth.row), 2.0);
   EXPECT_NEAR(finger.disparity, truth.disparity, 0.5);
   EXPECT_GT(finger.score, 0.9);
@@ -71,7 +70,8 @@ TEST(FingerTracker, CamerasMayBeCrookedAndLensesBend) {
   EXPECT_LT((finger.tip.e() - hand.tip).norm(), 2e-3);
 }
 
-// 300 mm/s across: foreseen places are nearer than held ones, the small window finds what the frame has.
+// 300 mm/s across: predicted places are nearer than held ones, and the small window gives the result of the
+// whole frame.
 TEST(FingerTracker, FollowsAMovingFingerInAWindow) {
   FingerTracker tracker = ready(), whole = ready();
   double held = 0.0, ahead = 0.0, speed = 0.0;
@@ -176,7 +176,7 @@ TEST(FingerTracker, BlackSaturatedAndFlatFramesHaveNoFinger) {
   }
 }
 
-// The same image twice: no disparity, so nothing of it is at a depth.
+// One image for both eyes: no disparity, so no part of it has a depth.
 TEST(FingerTracker, ZeroDisparityIsNoFinger) {
   FingerTracker tracker = ready();
   const drawn::HandAt hand = hand_at(0.06, 0.01, 0.45);
@@ -201,8 +201,8 @@ TEST(FingerTracker, StampsFarApartAreNoHarm) {
   EXPECT_NE(finger.state, FingerState::seen);
 }
 
-// It goes out past a corner, so that its search window is beside the image: it is away, and seen when it
-// comes back wherever that is.
+// The finger leaves past a corner, so its search window lies beside the image. It is away, and vision finds
+// it wherever it returns.
 TEST(FingerTracker, AFingerThatLeavesPastACornerComesBackAnywhere) {
   for (const double side : {-1.0, 1.0}) {
     TrackSpec track{.window_growth = 1.0};
@@ -238,7 +238,7 @@ TEST(FingerTracker, ImpossibleSpecsAreRefused) {
   EXPECT_THROW(FingerTracker(small(), drawn::segmentation(), {}, {}, {}, {700, 0, 900, 100}), Error);
 }
 
-// Vision as a tracker: when it tells, what it stamps, and what becomes of a camera that stalls.
+// Vision as a tracker: the times of its results, their stamps, and the effect of a stalled camera.
 
 Time at_ms(std::int64_t ms) { return Time(Duration(1'000'000) * ms); }
 
@@ -246,7 +246,7 @@ struct Fed : StereoCamera {
   std::map<Time, StereoFrame> frames;  // there as soon as they are exposed
   bool up = true;
   ImageSize px;
-  Time ahead = Time::max();  // the frame of then has a stamp of an hour later
+  Time ahead = Time::max();  // the frame of this time has a stamp an hour later
   [[nodiscard]] ImageSize size() const override { return px; }
   [[nodiscard]] std::vector<std::string> remarks() const override { return {"drawn so"}; }
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
@@ -275,7 +275,7 @@ struct Set {
     tracker = std::make_unique<VisionTracker>(std::move(fed), small(),
                                               FingerTracker(small(), drawn::segmentation(), {}, {}));
   }
-  // True if something was told in that span; polled each millisecond.
+  // Return true if there was a result in that span; polled each millisecond.
   bool told(int from, int to) {
     bool any = false;
     for (int ms = from; ms <= to; ++ms) any = tracker->poll(at_ms(ms), newest) || any;
@@ -299,15 +299,15 @@ TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   EXPECT_EQ(set.newest.value.tool, VisionTracker::kFinger);
   EXPECT_TRUE(set.newest.value.X_CT.valid());
   EXPECT_LT((set.newest.value.X_CT.p() - set.hand.tip).norm(), 2e-3);
-  // Depth comes of a small difference of two pictures, what is beside of one of them.
+  // Depth comes from a small difference of two pictures, the sideways place from one picture.
   EXPECT_GT(set.newest.value.along, 2.0 * set.newest.value.across);
   EXPECT_NEAR(square_sum(set.newest.value), set.tracker->finger().shown_covariance.trace(), 1e-12);
   EXPECT_EQ(set.tracker->finger().state, FingerState::seen);
   EXPECT_FALSE(set.told(151, 160));
 }
 
-// The core filters by itself: a finger that leaps is told where the frame shows it, not where the filter of
-// the search has got to.
+// The core filters by itself: vision reports a finger that leaps where the frame shows it, not at the
+// filter's place of the search.
 TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
   Set set;
   for (int ms = 100; ms <= 400; ms += 50) set.camera->frames[at_ms(ms)] = set.seen.frame();
@@ -323,7 +323,7 @@ TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
   EXPECT_GT((finger.tip - finger.shown).norm(), 1e-5);
 }
 
-// In wall time the latency is what the work takes.
+// In wall time the latency is the duration of the work.
 TEST(VisionTracker, TellsAtOnceWhereItIsAskedTo) {
   Set set;
   std::unique_ptr<Fed> fed = std::make_unique<Fed>();
@@ -372,7 +372,7 @@ TEST(VisionTracker, FramesThatCannotBeUsedAreAStall) {
   EXPECT_EQ(set.newest.health, Health::stale);
 }
 
-// What is seen the wrong way round is nowhere: nothing is told of it, and it is said.
+// Exchanged images show no finger: the tracker reports no result and names the reason.
 TEST(VisionTracker, LeftAndRightExchangedIsAStallThatIsSaid) {
   Set set;
   set.camera->frames[at_ms(100)] = set.seen.frame();
@@ -410,7 +410,7 @@ TEST(VisionTracker, SaysWhatItIsAndWhetherItIsLinked) {
   EXPECT_FALSE(set.tracker->linked());
 }
 
-// What a person would not see otherwise stands in the report of the run.
+// The report of the run lists faults that a person would not notice otherwise.
 TEST(VisionTracker, SaysAfterwardsWhatWentWrong) {
   Set good;
   good.camera->frames[at_ms(100)] = good.seen.frame();
@@ -442,7 +442,7 @@ TEST(VisionTracker, SaysAfterwardsWhatWentWrong) {
   EXPECT_THAT(other.tracker->remarks(), Contains(HasSubstr("2 frames were not used: another size")));
 }
 
-// One wrong stamp must not blind it for the frames that come after.
+// One wrong stamp must not blind it for later frames.
 TEST(VisionTracker, AStampThatIsStillToComeIsNotBelieved) {
   Set set;
   set.camera->frames[at_ms(100)] = set.seen.frame();

@@ -1,4 +1,4 @@
-// OpenIGTLink byte by byte: against what Debian's libOpenIGTLink wrote.
+// OpenIGTLink byte by byte, compared with the output of Debian's libOpenIGTLink.
 #include "hw_drivers/igtl/wire/message.h"
 
 #include <algorithm>
@@ -59,8 +59,8 @@ TEST(IgtlMessage, ReadsWhatLibOpenIGTLinkWrote) {
   EXPECT_FALSE(read_transform(message.content, X_CT));
 }
 
-// Columns of the matrix, one after another, then the place in mm, as OpenIGTLink's protocol has them
-// (TRANSFORM: R11 R21 R31 R12 R22 R32 R13 R23 R33 TX TY TZ).
+// Columns of the matrix, one after another, then the place in mm, as in OpenIGTLink's protocol (TRANSFORM:
+// R11 R21 R31 R12 R22 R32 R13 R23 R33 TX TY TZ).
 TEST(IgtlMessage, AMatrixIsWrittenColumnByColumn) {
   const std::vector<std::byte> body = from_hex(
       "000000003f80000000000000"
@@ -80,7 +80,7 @@ TEST(IgtlMessage, AMatrixIsWrittenColumnByColumn) {
   EXPECT_EQ(std::to_integer<int>(written[12]), 0xbf) << "R12 = -1 comes fourth";
 }
 
-// The body that is written is the one that libOpenIGTLink writes, behind an extended header.
+// The written body equals that of libOpenIGTLink, behind an extended header.
 TEST(IgtlMessage, WritesTheSameContent) {
   const std::vector<std::byte> theirs = from_hex(kTransformV1);
   const auto content = transform(Pose<'C', 'T'>::shift(0.001, 0.002, 0.003));
@@ -92,7 +92,7 @@ TEST(IgtlMessage, WritesTheSameContent) {
   EXPECT_TRUE(std::equal(theirs.begin() + 2, theirs.begin() + 38, ours.bytes().begin() + 2));
 }
 
-// Whole: header and body are those that libOpenIGTLink writes, but for its rounding of half a second.
+// Header and body equal those of libOpenIGTLink, except for its rounding of half a second.
 TEST(IgtlMessage, WritesVersionOneToTheByte) {
   std::vector<std::byte> theirs = from_hex(kTransformV1);
   const Written ours("TRANSFORM", "ToolToTracker", 1'500'000'000,
@@ -153,7 +153,7 @@ TEST(IgtlMessage, WhatIsNoRotationIsNoPose) {
   EXPECT_FALSE(read_transform(content, X_CT));
 }
 
-// A number behind the largest 32 bits of seconds is not a time that anybody means; nothing overflows.
+// A number beyond the largest 32 bits of seconds is no plausible time; nothing overflows.
 TEST(IgtlMessage, MetadataIsLeftAlone) {
   const Written plain("TRANSFORM", "stylusToTracker", 17, 4, transform(Pose<'C', 'T'>::shift(0, 0, 1)));
   std::vector<std::byte> bytes(plain.bytes().begin(), plain.bytes().end());
@@ -168,7 +168,7 @@ TEST(IgtlMessage, MetadataIsLeftAlone) {
   EXPECT_EQ(message.content.size(), kTransform);
 }
 
-// What messages say of tools, byte by byte: against what Debian's libOpenIGTLink wrote.
+// Messages about tools, byte by byte, compared with the output of Debian's libOpenIGTLink.
 
 // Tracker, one element: Tool, of type 2, at 1, 2, 3 mm; stamped 1.5 s.
 const std::string kTdata =
@@ -239,7 +239,7 @@ TEST(IgtlContent, APositionTurnsByAQuaternionWithOrWithoutItsLastNumber) {
   EXPECT_FALSE(read_position(singles({10, 20, 30, 0, 0, NAN}), X_CT));
 }
 
-// As PLUS has it: "TransformValid" and "TransformStatus" of each pose.
+// PLUS sends "TransformValid" and "TransformStatus" of each pose.
 TEST(IgtlContent, AServerSaysWhereATransformIsNotValid) {
   const auto says = [](const char* key, const char* value) {
     const Written written("TRANSFORM", "stylusToTracker", 1, 1, transform({Pose<'C', 'T'>::shift(0, 0, 1)}),
@@ -256,7 +256,7 @@ TEST(IgtlContent, AServerSaysWhereATransformIsNotValid) {
   EXPECT_FALSE(says("TransformValid", "false"));
 }
 
-// Messages of a stream, in whatever pieces it comes.
+// Messages of a stream that arrives in any pieces.
 
 using Bytes = std::vector<std::byte>;
 
@@ -264,7 +264,7 @@ Bytes bytes_of(const Written& message) { return {message.bytes().begin(), messag
 Bytes pose(std::int64_t stamp_ns) {
   return bytes_of({"TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(0, 0, 1))});
 }
-// A message whose body is so long, of zeros.
+// A message with a body of this length, of zeros.
 Bytes picture(std::uint64_t body) {
   Bytes bytes = bytes_of({"IMAGE", "ultrasound", 7, {}});
   net::put(std::span(bytes), 42, body);
@@ -276,7 +276,7 @@ Bytes operator+(Bytes a, const Bytes& b) {
   return a;
 }
 
-// The stamps of what it gives, where `bytes` come in pieces of at most so many.
+// The stamps of the messages, if `bytes` come in pieces of at most this many.
 std::vector<std::int64_t> stamps(Stream& stream, std::span<const std::byte> bytes, std::size_t most,
                                  std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -337,11 +337,11 @@ TEST(IgtlStream, WhatIsNoHeaderEndsIt) {
   }
 }
 
-// Several tools in view: the one that a person holds, and no other.
+// Several tools in view: the one in the person's hand counts, and no other.
 
 struct Frames {
   explicit Frames(double rate = 100.0) : frame(std::llround(1e9 / rate)) {}
-  // A frame: where each tool is seen; which one is in the hand, -1: none. In the frame of a change both are,
+  // A frame: the places of the tools, and the one in the hand, -1: none. In the frame of a change both are,
   // and the later one stays.
   int see(const std::vector<std::pair<std::size_t, Vec3>>& tools) {
     ++count;
@@ -363,7 +363,7 @@ TEST(IgtlInHand, OfOneInViewItIsThatOneFromItsFirstFrame) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(frames.see({{1, moving(i)}}), 1) << i;
 }
 
-// Whichever of the two a message names first, however often frames come, also while the hand's is hidden.
+// The order of the two in a message, the frame rate and a hidden hand make no difference.
 TEST(IgtlInHand, WhatLiesOnTheTableDoesNotTakeItsPlace) {
   for (const double rate : {20.0, 30.0, 60.0, 100.0, 335.0})
     for (const bool table_first : {false, true}) {
@@ -393,7 +393,7 @@ TEST(IgtlInHand, WhatIsPickedUpTakesThePlaceOfWhatWasLaidDown) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(frames.see({{0, down}, {1, kTable}}), 1);
 }
 
-// A hand presses with one, and holds still; somebody knocks at the table on which the other lies.
+// A hand presses with one tool and holds still; somebody knocks at the table on which the second tool lies.
 TEST(IgtlInHand, WhatIsPushedOnTheTableIsNotPickedUp) {
   Frames frames;
   for (int i = 0; i < 100; ++i) frames.see({{0, moving(i)}, {1, kTable}});

@@ -1,4 +1,4 @@
-// Datagrams that are lost, late, doubled or of another clock.
+// Datagrams that are lost, late, doubled or from another clock.
 #include "hw_drivers/igtl/drive/reception.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ TEST(IgtlReception, NumbersGoRound) {
   EXPECT_EQ(bench.reception.counts().missing, 2);
 }
 
-// However it loses, turns round and doubles: stamps only grow, what is newest stays, doubles change nothing.
+// Any loss, reordering and doubling: stamps only grow, the newest stays, doubles change nothing.
 TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     std::mt19937_64 random(seed);
@@ -96,7 +96,7 @@ TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
   }
 }
 
-// Of a frame in which two tools are seen the one in the hand counts.
+// If a frame shows two tools, the one in the hand counts.
 TEST(IgtlReception, OfTwoToolsInViewTheOneInTheHandCounts) {
   Bench bench(false);
   for (std::uint32_t n = 1; n <= 50; ++n) {
@@ -108,7 +108,7 @@ TEST(IgtlReception, OfTwoToolsInViewTheOneInTheHandCounts) {
   EXPECT_EQ(bench.reception.counts().aside, 50);
 }
 
-// A clock that is set back is a clock that is new.
+// A clock that is set back counts as a new clock.
 TEST(IgtlReception, AClockThatIsSetBackIsNew) {
   Bench bench(false);
   EXPECT_TRUE(bench.take(pose(0.1, 1'000'000'000, 1), 100.0));
@@ -120,7 +120,7 @@ TEST(IgtlReception, AClockThatIsSetBackIsNew) {
   EXPECT_EQ(bench.newest.t, Time(ms(120)));
 }
 
-// By less than two sources may differ, too: but those are never behind twice running.
+// Two sources may also differ by less than that, but such messages are never late twice in a row.
 TEST(IgtlReception, AClockThatIsSetBackByLittleIsNewFromItsSecondMessageOn) {
   for (const char* transport : {"udp", "tcp"}) {
     Bench bench{std::string(transport)};
@@ -144,7 +144,8 @@ TEST(IgtlReception, AClockThatIsSetBackByLittleIsNewFromItsSecondMessageOn) {
   }
 }
 
-// Without numbers a stamp that is earlier by more than any datagram is late is of a clock that was set back.
+// Without numbers, a stamp that is earlier by more than any datagram's delay comes from a clock that was set
+// back.
 TEST(IgtlReception, WithoutNumbersAClockThatIsSetBackByMoreThanASecondIsNew) {
   Bench bench(false);
   const auto plain = [](std::int64_t stamp_ns) {
@@ -157,7 +158,7 @@ TEST(IgtlReception, WithoutNumbersAClockThatIsSetBackByMoreThanASecondIsNew) {
   EXPECT_EQ(bench.reception.counts().steps, 1);
 }
 
-// As PLUS has it, whose transforms begin with a large letter.
+// PLUS begins the names of its transforms with a capital letter.
 TEST(IgtlReception, TheFirstLetterOfADeviceMayBeLarge) {
   Bench bench(std::string("tcp"));
   EXPECT_TRUE(bench.take(pose(0.25, 10'000'000, 1, "StylusToTracker")));
@@ -165,7 +166,7 @@ TEST(IgtlReception, TheFirstLetterOfADeviceMayBeLarge) {
   EXPECT_EQ(bench.reception.counts().unknown, 1);
 }
 
-// In a stream nothing is overtaken: its messages need no number, and an earlier stamp is another clock.
+// A stream keeps the order: its messages need no number, and an earlier stamp is another clock.
 TEST(IgtlReception, OfAStreamTheOrderIsThatOfItsMessages) {
   Bench bench(std::string("tcp"));
   const auto plain = [](double x, std::int64_t stamp_ns) {
@@ -182,12 +183,12 @@ TEST(IgtlReception, OfAStreamTheOrderIsThatOfItsMessages) {
   EXPECT_EQ(bench.reception.counts().old, 1);
 }
 
-// The same pose in each of its forms; a TDATA of several tools, of which the scene names one.
+// One pose in each of its forms; a TDATA of several tools, of which the scene names one.
 TEST(IgtlReception, TakesPosesInEachForm) {
   Bench bench(std::string("tcp"));
   const Pose<'C', 'T'> X_CT = Pose<'C', 'T'>::shift(0.25, 0.5, 1);
   std::vector<std::byte> all;
-  for (const char* name : {"hammerToTracker", "stylus"}) {  // by the tool's name alone, too
+  for (const char* name : {"hammerToTracker", "stylus"}) {  // also by the tool's name alone
     const auto one = element(name, X_CT);
     all.insert(all.end(), one.begin(), one.end());
   }
@@ -218,8 +219,8 @@ TEST(IgtlReception, WhatTheServerReportsIsKept) {
   EXPECT_EQ(bench.reception.counts().status, 17);
 }
 
-// A server that stamps nothing, or whole seconds alone: the first is taken, the next is a message that came
-// twice, and from then on the stamp stands still.
+// A server without stamps, or with whole seconds only: the first message counts, the next is a double, and
+// from then on the stamp stands still.
 TEST(IgtlReception, AStampThatStandsStillIsCountedApart) {
   Bench bench(std::string("tcp"));
   for (std::int64_t second = 0; second < 3; ++second)
@@ -252,8 +253,8 @@ TEST(IgtlReception, AWrongChecksumIsCountedApartFromWhatIsNoMessage) {
   EXPECT_EQ(bench.reception.counts().wrong, 1);
 }
 
-// The quickest was 12.7 ms under way, and that is what is taken off; one that comes much later is late, and
-// stays late however long it lasts.
+// The quickest was 12.7 ms under way, and the tie subtracts that. A much later message is late, and stays
+// late however long the delay lasts.
 TEST(IgtlReception, TheLeastDelayIsTakenOffAndADelayThatLastsIsNoClock) {
   Bench bench(false, 12.7e-3);
   for (std::uint32_t n = 1; n <= 100; ++n)
@@ -265,7 +266,7 @@ TEST(IgtlReception, TheLeastDelayIsTakenOffAndADelayThatLastsIsNoClock) {
   EXPECT_GE(seconds(bench.newest.t.time_since_epoch()), 20.0 - 1e-6);
 }
 
-// A clock that began elsewhere and goes 50 ppm too fast, a network of 0.2 ms at least and 2 ms on average.
+// A clock with another start that is 50 ppm too fast, and a network of 0.2 ms at least and 2 ms on average.
 TEST(IgtlReception, AnotherClockIsTiedToThisOne) {
   std::mt19937_64 random(7);
   std::exponential_distribution<double> more(1.0 / 2e-3);

@@ -21,7 +21,7 @@
 namespace enc::net {
 namespace {
 
-constexpr Duration kSoon{2'000'000'000};  // for what comes at once, on a busy machine too
+constexpr Duration kSoon{2'000'000'000};  // limit for data that comes at once, on a busy machine too
 
 std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
@@ -36,7 +36,7 @@ Socket accepted(Socket& server) {
   server.wait(kSoon);
   return server.accept();
 }
-// Some containers have none.
+// Some containers lack IPv6.
 bool has_ipv6() {
   try {
     return listen_tcp("::1", 0).is_open();
@@ -45,7 +45,7 @@ bool has_ipv6() {
   }
 }
 
-// Whoever reads late is told when it came, by datagrams and in a stream.
+// A late reader gets the time of arrival, by datagrams and in a stream.
 TEST(Socket, SaysWhenWhatItGaveHadCome) {
   Socket there = bind_udp("127.0.0.1", 0);
   Socket here = connect_udp("127.0.0.1", there.port());
@@ -98,7 +98,7 @@ TEST(Socket, SaysThatTheOtherEndHasGone) {
   EXPECT_EQ(client.send(bytes_of("x")), 0U) << "and no signal ends the program";
 }
 
-// A client that sends and nobody who reads: in the end the system takes no more, and says so.
+// A client sends and its peer does not read: in the end the system accepts no more and reports it.
 TEST(Socket, TakesNoMoreThanTheSystemDoes) {
   Socket server = listen_tcp("127.0.0.1", 0);
   Socket client = connect_tcp("127.0.0.1", server.port(), kSoon);
@@ -143,24 +143,24 @@ TEST(Socket, RefusesInClearWords) {
   const Socket taken = listen_tcp("127.0.0.1", 0);
   EXPECT_THAT(test::refusal([&] { return listen_tcp("127.0.0.1", taken.port()); }),
               HasSubstr("the port is taken"));
-  for (const auto& listen : {listen_tcp, bind_udp})  // an address of documentation, which nobody has
+  for (const auto& listen : {listen_tcp, bind_udp})  // a documentation address that no machine has
     EXPECT_THAT(
         test::refusal([&] { return listen("192.0.2.1", 0); }),
         testing::AllOf(HasSubstr("192.0.2.1:0: "), HasSubstr("an address of this machine is needed")));
   EXPECT_EQ(place("::1", 80), "[::1]:80");
 }
 
-// A device's clock, tied to the loop's over a network that delays as it likes.
+// A device's clock, tied to the loop's over a network with random delays.
 
 // A device that stamps a message each 10 ms, and a network of 0.2 ms at least and 1 ms more on average.
 struct Device {
-  double ahead = 3.0, drift = 50e-6;  // of its clock, at 0 s
+  double ahead = 3.0, drift = 50e-6;  // its clock's lead at 0 s
   std::uint64_t seed = 1;
   ClockTie tie{from_seconds(kLeast)};
   std::mt19937_64 random{seed};
   double t = 0.0, late = 0.0;
-  double worst = 0.0;     // of what it was told to be and what it was, s: since the last look
-  double youngest = 0.0;  // s: by how much it was told to be younger than it was, at most
+  double worst = 0.0;     // greatest error of the reported age, s: since the last look
+  double youngest = 0.0;  // s: most by which the reported age was too young
 
   static constexpr double kLeast = 0.2e-3, kPeriod = 0.01;
   [[nodiscard]] double says(double at) const { return 1700.0 + at + ahead + drift * at; }
@@ -177,7 +177,7 @@ struct Device {
   double look() { return std::exchange(worst, 0.0); }
 };
 
-// All within what is promised, and nearly all within the spread that it says.
+// All errors are within the stated bound, and nearly all within the stated spread.
 TEST(ClockTie, FindsOffsetAndDriftWithinThirtySeconds) {
   int within = 0;
   constexpr int kSeeds = 100;
@@ -215,8 +215,7 @@ TEST(ClockTie, SaysNothingOfADriftBeforeItCanKnowIt) {
   EXPECT_NEAR(device.tie.estimate().ahead, 3.0, 1e-3);
 }
 
-// What it is told after a step forward is right but for what the first message was late by, and soon as good
-// as before.
+// After a step forward the time is right except for the first message's delay, and soon as good as before.
 TEST(ClockTie, AClockThatIsSetForwardIsANewOne) {
   for (const double step : {0.05, 1.0, 3600.0}) {
     Device device;
@@ -233,7 +232,7 @@ TEST(ClockTie, AClockThatIsSetForwardIsANewOne) {
   }
 }
 
-// Also by less than what is called a step, and after a long time in which clocks may have parted.
+// Also for less than a step's threshold, and after a long time in which clocks may have drifted apart.
 TEST(ClockTie, AClockThatIsSetForwardByLittleIsFollowed) {
   for (const double step : {0.005, 0.015, 0.05, 0.5})
     for (const double after : {20.0, 200.0, 600.0, 3600.0}) {
@@ -253,7 +252,7 @@ TEST(ClockTie, AClockThatIsSetForwardByLittleIsFollowed) {
     }
 }
 
-// As who reads the stamps says of one that is set back.
+// The reader of the stamps calls forget() if a clock is set back.
 TEST(ClockTie, AClockThatIsSetBackIsForgotten) {
   Device device;
   device.run(20.0);
@@ -266,8 +265,8 @@ TEST(ClockTie, AClockThatIsSetBackIsForgotten) {
   EXPECT_EQ(device.tie.estimate().forward, 0);
 }
 
-// Set back while nothing came, so that no stamp goes back, or all on its way late from then on: nobody can
-// tell, and what is old is never taken for fresh.
+// If the clock is set back during silence, so that no stamp goes back, or all messages are late from then on,
+// the tie cannot detect it. It never takes old data for fresh.
 TEST(ClockTie, WhatMayBeADelayIsTakenForOneHoweverLongNothingCame) {
   for (const double silent : {0.0, 3.0, 33.0, 300.0}) {
     Device device{.drift = 0.0};
@@ -279,8 +278,8 @@ TEST(ClockTie, WhatMayBeADelayIsTakenForOneHoweverLongNothingCame) {
   }
 }
 
-// 50 ms more on the way, for as long as it likes: the clock is where it was, and parts no faster than
-// crystals do. When the delay is over it is no clock that was set forward.
+// 50 ms more on the way, for any time: the clock stays the same, and drifts no faster than crystals do. The
+// end of the delay is not a step forward.
 TEST(ClockTie, ADelayThatLastsIsNoClock) {
   for (const int lasts : {60, 150, 400}) {
     Device device{.drift = 0.0};
@@ -306,7 +305,7 @@ TEST(ClockTie, ADelayThatLastsIsNoClock) {
   }
 }
 
-// What is wrong with the least delay is wrong with the offset, and no spread tells.
+// An error of the least delay is an error of the offset, and no spread shows it.
 TEST(ClockTie, ALeastDelayThatIsNotTrueIsWrongWithTheOffset) {
   Device device;
   device.tie = ClockTie(Duration{});
@@ -323,7 +322,7 @@ TEST(ClockTie, SaysInWordsWhatItKnows) {
             "that; it was set forward 2 times");
 }
 
-// What a bad line does to messages, and that a good one does nothing.
+// The effect of a bad line on messages; a good line has no effect.
 
 using Kind = Trouble::Kind;
 using Wire = BadLine::Wire;
@@ -332,7 +331,7 @@ Time ms_at(int ms) { return Time(Duration(1'000'000) * ms); }
 
 std::span<const std::byte> raw(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-// All that leaves by then.
+// All messages that leave by then.
 std::vector<std::string> left(BadLine& line, Time now) {
   std::vector<std::string> all;
   for (auto next = line.take(now); next; next = line.take(now)) {
@@ -343,7 +342,7 @@ std::vector<std::string> left(BadLine& line, Time now) {
   return all;
 }
 
-// A number each millisecond, and which of them came when.
+// A number each millisecond; return each number that came, with its time.
 std::vector<std::pair<int, int>> sent(BadLine& line, int count) {
   std::vector<std::pair<int, int>> came;
   for (int ms = 0; ms < count + 100; ++ms) {

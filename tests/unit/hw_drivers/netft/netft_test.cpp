@@ -231,7 +231,7 @@ TEST(NetftCommand, AnswersAreTheBytesOfTheManual) {
 }
 
 TEST(NetftCommand, WhatIsWrittenIsRead) {
-  std::mt19937 random(2);  // NOLINT: the same at each run
+  std::mt19937 random(2);  // NOLINT: identical at each run
   const auto any = [&] { return static_cast<std::uint16_t>(random()); };
   for (int i = 0; i < 1000; ++i) {
     Reading reading{any(), {}};
@@ -264,7 +264,7 @@ TEST(NetftCommand, CodesAreUnitsWhoseFactorIsExact) {
   }
 }
 
-// Records that are lost, late, doubled, old or ill; and what a box must be before a run begins.
+// Records that are lost, late, doubled, old or faulty; and the required state of a box before a run.
 
 constexpr Duration ms(double n) { return from_seconds(1e-3 * n); }
 
@@ -293,7 +293,7 @@ TEST(NetftSession, CountsAreNewtonsAndNewtonMetres) {
   EXPECT_EQ(wrench.torque.xyz, (std::array<double, 3>{0.1, -0.2, 0.3}));
 }
 
-// A page in pounds and inches, as the box has them from an American factory: what comes out is SI.
+// A page in pounds and inches, as on a box from an American factory: the output is SI.
 TEST(NetftSession, CountsOfPoundsAndInchPoundsAreNewtonsAndNewtonMetres) {
   Configuration of;
   ASSERT_EQ(read_xml("<netft><prodname>Net F/T</prodname><cfgcpf>1000000</cfgcpf><cfgcpt>2000000</cfgcpt>"
@@ -309,7 +309,7 @@ TEST(NetftSession, CountsOfPoundsAndInchPoundsAreNewtonsAndNewtonMetres) {
   EXPECT_NEAR(wrench.torque.xyz[1], -0.5 * 0.1129848290276167, 1e-15);
 }
 
-// The counter goes on by 6.986 each millisecond: 0.2 % less than what it is taken for.
+// The counter advances by 6.986 each millisecond: 0.2 % less than its nominal rate.
 TEST(NetftSession, MeasuresTheRateOfItsCounterInHalfAMinute) {
   Bench bench;
   const auto record_of = [](std::uint32_t n) { return record(n, n * 6986U / 1000U); };
@@ -317,7 +317,7 @@ TEST(NetftSession, MeasuresTheRateOfItsCounterInHalfAMinute) {
   EXPECT_TRUE(std::isnan(bench.session.counted()));
   for (std::uint32_t n = 29'000; n < 40'000; ++n) bench.take(record_of(n), n);
   EXPECT_NEAR(bench.session.counted(), 6986.0, 1.0);
-  // The box begins anew.
+  // The box starts again.
   for (std::uint32_t n = 1; n < 40'000; ++n) bench.take(record(n, 7 * n - 2'000'000'000U), 60'000 + n);
   EXPECT_NEAR(bench.session.counted(), 7000.0, 1.0);
 }
@@ -372,7 +372,7 @@ TEST(NetftSession, CountersGoRound) {
   EXPECT_EQ(bench.fx(), 2e-6);
 }
 
-// After a pause of the process the socket is full of what was true before it.
+// After a pause of the process the socket is full of old records.
 TEST(NetftSession, WhatWaitedInTheSocketIsAsOldAsItIs) {
   Bench bench;
   std::uint32_t n = 0;
@@ -468,7 +468,7 @@ TEST(NetftInspect, WhatIsNotAsItMustBeIsRefusedWithAWayOut) {
               testing::HasSubstr("its netftapi2.xml has no <prodname>; see that it is a Net F/T"));
 }
 
-// The rate of a box's counter, out of records that come late, twice or in bursts.
+// The rate of a box's counter, from records that come late, twice or in bursts.
 
 // Records for 0.4 s, one a millisecond; each comes up to `late` s later than it is sent, and in order.
 CounterRate watched(double rate, double late, double set = 0.0, std::uint64_t seed = 1) {
@@ -492,7 +492,7 @@ TEST(NetftCounterRate, EachKnownBoxIsKnownWhateverTheNetwork) {
     }
 }
 
-// Sampled at 1 kHz in bursts of 50 ms: what a busy processor makes of it.
+// Sampled at 1 kHz in bursts of 50 ms, as on a busy processor.
 TEST(NetftCounterRate, BurstsDoNotChangeIt) {
   CounterRate of;
   for (int n = 0; n < 400; ++n)
@@ -509,7 +509,7 @@ TEST(NetftCounterRate, AnUnknownOneIsMeasuredAndIsKnownWhereItIsSet) {
   EXPECT_TRUE(std::isnan(watched(3906.25, 1e-3, 7000.0).known())) << "not what the rig file has";
 }
 
-// A box that is 0.7 % slow gives records that grow older by 7 ms each second.
+// The records of a box that is 0.7 % slow grow older by 7 ms each second.
 TEST(NetftCounterRate, AlmostAKnownOneIsNotKnown) {
   for (const double rate : {6950.0, 7050.0, 3880.0})
     EXPECT_TRUE(std::isnan(watched(rate, 1e-3).known())) << rate;

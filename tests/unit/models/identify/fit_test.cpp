@@ -108,8 +108,8 @@ TEST(ResponseFit, OrderOfTheCurvesAsByHand) {
   EXPECT_NEAR(fit.rmse_release, 3.0 * rms_of_ramp(), 1e-3);
 }
 
-// The ball's loop. What the constraints cost: the release curve cannot be flat below 0.5 mm, where the plant
-// has lifted off.
+// The ball's loop and the cost of the constraints: the release curve cannot be flat below 0.5 mm, where the
+// plant has lifted off.
 TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
   const auto loop = test::plant_loop({}, 4e-3, kDeepest);
   for (const double floor : {0.0, 119.0, 124.95, 300.0}) {
@@ -126,8 +126,8 @@ TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
   }
 }
 
-// The problem is convex: if no feasible neighbour is better, near or far, the minimum is found. Neighbours
-// are drawn at random and pulled towards a curve well inside the constraints until they are feasible.
+// The problem is convex: if no feasible neighbour is better, near or far, this is the minimum. Random
+// neighbours are pulled towards a curve well inside the constraints until they are feasible.
 TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
   constexpr double kLowest = 124.95;
   const auto loop = test::plant_loop({}, 4e-3, kDeepest);
@@ -171,7 +171,7 @@ TEST(ResponseFit, RandomLoopsAreAlwaysRenderable) {
         const double force = 5.0 * (a[at] + u * (a[at + 1] + u * a[at + 2])) + 0.5 * normal(random);
         loop.push_back({u * kDeepest, force, pressing});
       }
-    const ResponseFit fit = fit_response(loop, kDeepest, 119.0);  // throws where Response would refuse
+    const ResponseFit fit = fit_response(loop, kDeepest, 119.0);  // throws if Response would refuse it
     const Least l = least(fit.spec);
     ASSERT_GE(l.slope, 119.0) << "loop " << n;
     ASSERT_GE(l.gap, 0.0) << "loop " << n;
@@ -194,7 +194,7 @@ TEST(ResponseFit, RefusesLoopsThatSayTooLittle) {
   EXPECT_THAT(refused_fit(three, kDeepest, -1.0), testing::HasSubstr("lowest slope"));
 }
 
-// Readings beyond the limit belong to another response: they change nothing.
+// Readings beyond the limit belong to another response and must change nothing.
 TEST(ResponseFit, LeavesOutWhatLiesBeyondTheLimit) {
   auto loop = loop_of([](double d) { return 2.0 * d; }, [](double d) { return d; });
   const ResponseFit before = fit_response(loop, kDeepest, 119.0);
@@ -220,7 +220,7 @@ TEST(BlockFit, FindsALineAndHowWellItIsKnown) {
     EXPECT_NEAR(found.rms, 0.1, 0.005);
     held += found.values[1].holds(-3.0) ? 1 : 0;
   }
-  EXPECT_GE(held, 182);  // of 190 that 95 % would be: three standard deviations of such a count
+  EXPECT_GE(held, 182);  // 95 % of 190, less three standard deviations of such a count
 }
 
 TEST(BlockFit, SaysNothingOfWhatItCannotTellApart) {
@@ -233,12 +233,12 @@ TEST(BlockFit, SaysNothingOfWhatItCannotTellApart) {
   }
   const BlockFit::Result found = fit.solve();
   EXPECT_NEAR(found.values[0].value, 3.0, 1e-9);
-  EXPECT_TRUE(std::isnan(found.values[1].value));  // the same as the first
+  EXPECT_TRUE(std::isnan(found.values[1].value));  // equal to the first
   EXPECT_TRUE(std::isnan(found.values[2].value));  // not there
   EXPECT_NEAR(found.values[3].value, 1.0, 1e-9);
 }
 
-// Two blocks do not say how much blocks scatter: Student's t of one degree of freedom is 12.7.
+// Two blocks give no useful scatter: Student's t of one degree of freedom is 12.7.
 TEST(BlockFit, OfTwoBlocksThereIsNoInterval) {
   for (const int blocks : {1, 2, 3, 4}) {
     sim::Stream noise(1, "block fit");
@@ -257,12 +257,12 @@ TEST(BlockFit, OfNothingKnowsNothing) {
   EXPECT_TRUE(std::isnan(found.rms));
 }
 
-// Absolute orientation by hand: four corners turned a quarter, what is refused, and the way back from a
-// rotation to the angles of a file.
+// Absolute orientation by hand: four corners turned a quarter, refusals, and the angles of a file from a
+// rotation.
 
 constexpr double kQuarter = M_PI / 2;
 
-// Seen by a camera at `p` that is turned by `angles`.
+// Points seen by a camera at `p` that is turned by `angles`.
 std::vector<models::PointPair> pairs_of(const std::vector<Vec3>& camera, const Vec3& angles, const Vec3& p) {
   const Pose<'W', 'C'> X_WC(rotation_xyz(angles), p);
   std::vector<models::PointPair> pairs;
@@ -276,7 +276,7 @@ std::string refusal(const std::vector<models::PointPair>& pairs) {
 }
 
 TEST(Register, AQuarterTurnByHand) {
-  // About z: x becomes y, y becomes -x.
+  // Quarter turn about z: x becomes y, y becomes -x.
   const std::vector<models::PointPair> pairs{{{0.1, 0, 0}, {1.0, 2.1, 3.0}},
                                              {{0, 0.1, 0}, {0.9, 2.0, 3.0}},
                                              {{0, 0, 0.1}, {1.0, 2.0, 3.1}},
@@ -302,7 +302,8 @@ TEST(Register, TellsWhatIsLeftOverAlongEachAxis) {
 }
 
 TEST(Register, ConditionOfAPlateAndOfARod) {
-  // A square: about the longest axis (any in the plane) half of what is known about the normal.
+  // A square: about its longest axis (any in the plane) the points fix the turn half as well as about the
+  // normal.
   const auto square =
       pairs_of({{0.1, 0.1, 0}, {-0.1, 0.1, 0}, {-0.1, -0.1, 0}, {0.1, -0.1, 0}}, {0.3, 0, 0}, {0, 0, 1});
   EXPECT_NEAR(models::register_points(square).condition, std::sqrt(2.0), 1e-9);
@@ -327,7 +328,7 @@ TEST(Register, AMirrorImageStaysARotationAndIsTold) {
   EXPECT_NEAR(found.X_WC.q().toRotationMatrix().determinant(), 1.0, 1e-12);
   EXPECT_GT(found.rms, 0.01);
   EXPECT_LT(found.mirror_rms, 1e-7);
-  // And a set that is none says so.
+  // A wrong set gives an error.
   const models::Registration right = models::register_points(pairs_of(kCorner, {0.1, 0.2, 0.3}, {0, 0, 0.5}));
   EXPECT_GT(right.mirror_rms, 0.01);
 }
@@ -354,11 +355,11 @@ TEST(Register, RefusesWhatDoesNotFixAPose) {
   EXPECT_THAT(refusal(bad), HasSubstr("not a finite number"));
   bad[2].device.xyz[0] = std::numeric_limits<double>::infinity();
   EXPECT_THAT(refusal(bad), HasSubstr("not a finite number"));
-  // The device on a line and the camera, by its noise, a little off it: still a line.
+  // The device's points are on a line, and the camera's are slightly off it by its noise: still a line.
   std::vector<models::PointPair> line = pairs_of({0 * along, 1 * along, 2 * along, 5 * along}, turn, p);
   line[1].camera.xyz[0] += 0.02;
   EXPECT_THAT(refusal(line), HasSubstr("the device's points lie on one line"));
-  // Three are enough for who asks for three.
+  // Three points are enough if the caller asks for three.
   EXPECT_NO_THROW((void)models::register_points(pairs_of({kCorner[0], kCorner[1], kCorner[2]}, turn, p), 3));
 }
 

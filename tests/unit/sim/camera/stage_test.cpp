@@ -1,5 +1,5 @@
-// What a stage's pictures are: the same for the same seed, with the light, exposure and colours asked for;
-// an office without skin's hue; two stages at a time; EGL beside OSMesa.
+// A stage's pictures: equal for equal seeds, with the requested light, exposure and colours; an office
+// without skin's hue; two stages at a time; EGL beside OSMesa.
 #include "sim/camera/stage.h"
 
 #include <algorithm>
@@ -263,7 +263,7 @@ std::vector<char> drawn_by(const char* kind) {
   return bytes;
 }
 
-// The fingertip in six frames of a hand that moves, m; NaN where it is not seen.
+// The fingertip in six frames of a moving hand, m; NaN without a find.
 std::vector<double> followed() {
   Stage stage(small());
   Image left, right;
@@ -342,7 +342,7 @@ TEST(StageRenderer, EglAndOsMesaDrawTheSame) {
     most = std::max(most, d);
   }
   std::printf("EGL and OSMesa: %zu of %zu values differ, by at most %d of 255\n", differ, kPicture, most);
-  // Where EGL draws with a graphics card the edges are its own.
+  // EGL with a graphics card draws slightly different edges.
   EXPECT_LT(differ, kPicture / 20);
   for (std::size_t i = 0; i < kTips; ++i) {
     double a = kUnset, b = kUnset;
@@ -358,7 +358,7 @@ TEST(StageRenderer, AnUnknownOneIsRefused) {
   unsetenv("ENCOUNTER_GL");
 }
 
-// Where things are in the stage's pictures: a fingertip's cap, both cameras, bent lenses, depth.
+// Positions in the stage's pictures: a fingertip's cap, both cameras, bent lenses, depth.
 
 constexpr double kWidth = 0.020;  // m, of the finger
 
@@ -446,8 +446,8 @@ TEST(StageGeometry, ABentLens) {
   expect_in_place(spec);
 }
 
-// Of the right camera there is no truth. So another stage looks with the same lens as its left camera, from
-// where the right one is: there the cap has the same pixels, which are those that differ from the background.
+// The stage gives no truth for the right camera. So another stage looks through the same lens as left camera,
+// from the right one's place: its cap has the same pixels, which are those that differ from the background.
 TEST(StageGeometry, TheRightCameraIsWhereItsPoseSays) {
   StageSpec spec = still();
   spec.camera.X_CD = {Quat(Eigen::AngleAxisd(0.05, Vec3(0.3, -1.0, 0.4).normalized())),
@@ -474,11 +474,11 @@ TEST(StageGeometry, TheRightCameraIsWhereItsPoseSays) {
         differ += on != truth.skin.at(x, y) ? 1 : 0;
       }
     EXPECT_GT(cap, 500);
-    EXPECT_LE(differ, 4) << tip.transpose();  // of about 60 along its edge: 0.1 px
+    EXPECT_LE(differ, 4) << tip.transpose();  // out of about 60 along its edge: 0.1 px
   }
 }
 
-// A ball is where a pinhole has it, a rod and a box are as large as they are, and none of it is skin.
+// A pinhole gives the place of a ball; a rod and a box have their true size; nothing counts as skin.
 TEST(StageGeometry, ThingsAreWhereTheyAreShown) {
   const StageSpec spec = still();
   Stage stage(spec);
@@ -502,15 +502,15 @@ TEST(StageGeometry, ThingsAreWhereTheyAreShown) {
   EXPECT_NEAR(ball.row, wanted.row, 0.1);
   EXPECT_NEAR(ball.area / wanted.area, 1.0, 0.01);
 
-  const double px = spec.camera.left.focal_x / 0.5;  // of a metre at that depth
+  const double px = spec.camera.left.focal_x / 0.5;  // px per metre at that depth
   const Mat3 along_x = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()).toRotationMatrix();
   shown.things = {{ThingShape::capsule, Point<'C'>(0, 0, 0.5), along_x, {0.004, 0, 0.06}, {}}};
   const double edge = 0.5 / px * (2.0 * 0.12 + 2.0 * M_PI * 0.004);  // half a pixel all round
   EXPECT_NEAR(pixels(shown).area / (px * px), 0.12 * 0.008 + M_PI * 0.004 * 0.004, edge);
   shown.things = {{ThingShape::box, Point<'C'>(0, 0, 0.5), Mat3::Identity(), {0.04, 0.02, 1e-4}, {}}};
-  EXPECT_NEAR(pixels(shown).area / (px * px), 0.08 * 0.04, 0.5 / px * 2.0 * (0.08 + 0.04));  // likewise
+  EXPECT_NEAR(pixels(shown).area / (px * px), 0.08 * 0.04, 0.5 / px * 2.0 * (0.08 + 0.04));  // half a px, too
 
-  // What is nearer hides what is behind it.
+  // The nearer object hides the one behind it.
   shown.hand = true;
   shown.pose = {Point<'C'>(0, 0, 0.45), {0, -1, 0}, 0.0};
   const double shown_box = pixels(shown).area;
@@ -533,7 +533,7 @@ TEST(StageGeometry, TheOutlinesRadiusFollowsTheDepth) {
       stage.draw(&hand, untapered(), {}, 0, left, right, &truth);
       const double expected = spec.camera.left.focal_x * 0.5 * kWidth / z;
       EXPECT_NEAR(truth.radius, expected, 1.0);
-      // And in the picture: across the finger behind its cap, where that is round.
+      // The picture agrees: measured across the finger behind its cap, where it is round.
       int wide = 0;
       const int row = static_cast<int>(std::lround(truth.row));
       for (int c = 0; c < 640; ++c) wide += truth.skin.at(c, row) ? 1 : 0;

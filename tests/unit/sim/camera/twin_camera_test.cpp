@@ -1,4 +1,4 @@
-// The twin's camera draws when an exposure is due, looks at that time's hand, and falls silent when told.
+// The twin's camera draws when an exposure is due, shows the hand of that time, and falls silent on request.
 #include "sim/camera/twin_camera.h"
 
 #include <algorithm>
@@ -53,10 +53,10 @@ TEST(TwinCamera, DrawsAtItsRateAndLooksAtThatTime) {
     }
   EXPECT_EQ(stamps, asked);
   ASSERT_EQ(stamps.size(), 7U);                      // 0, 1/30 .. 6/30 s
-  EXPECT_EQ(stamps[1], Time(Duration(34'000'000)));  // the first tick after: then the hand was there
+  EXPECT_EQ(stamps[1], Time(Duration(34'000'000)));  // the first tick after: the hand was there at that time
   EXPECT_EQ(camera.drawn(), 7U);
 
-  // The same as the stage's own, of the pose at the exposure.
+  // Equal to the stage's own image, for the pose at the exposure.
   Stage stage(spec().stage);
   const Shown then = moving(stamps.back());
   Image left, right;
@@ -93,7 +93,7 @@ TEST(TwinCamera, ASilentOneSaysItOnce) {
   EXPECT_EQ(frame.value.left.width, 160);
 }
 
-// Not the link's own doing that it is believed again: who resumes asks whether it is there.
+// The link does not clear the fault by itself: the caller that resumes checks whether the camera is there.
 TEST(TwinCamera, OneThatComesBackIsLinkedAgain) {
   TwinCameraSpec away = spec();
   away.stalls = Time(from_seconds(0.3));
@@ -150,7 +150,7 @@ TEST(TwinCamera, BadSpecsAreRefused) {
   EXPECT_THROW(TwinCamera(spec(), nullptr), Error);
 }
 
-// Noise of a sensor: as much as was asked, the same for the same frame, cut at 0 and 255.
+// Noise of a sensor: of the requested size, equal for equal frames, cut at 0 and 255.
 
 Image grey(std::uint8_t value) {
   Image image(320, 240);
@@ -206,7 +206,7 @@ TEST(SensorNoise, IsCutWhereASensorEnds) {
   EXPECT_THROW(SensorNoise(kUnset, 1), Error);
 }
 
-// Lenses by hand and there and back; what a warp does to a drawing.
+// Lenses by hand and there and back; the effect of a warp on a drawing.
 
 Lens bent() {
   Lens lens;
@@ -283,7 +283,7 @@ TEST(Warp, ALensThatFoldsThePictureIsRefused) {
   EXPECT_THROW(Warp(lens, 640, 480), Error);
 }
 
-// The twin draws an arm where its shape says, and a belief of the same shape covers it while right.
+// The twin draws an arm at the place of its shape, and a correct belief of that shape covers it.
 
 const Pose<'W', 'C'> kCamera(rotation_xyz({-2.18, 0.0, 0.52}), Vec3(0.236, -0.426, 0.457));
 
@@ -320,7 +320,7 @@ TEST(ArmInView, IsWhereItsShapeSays) {
     EXPECT_GT(share_in(kCamera.inverse(), 0.0, beyond), 0.985);  // an edge is half a pixel off
     EXPECT_LT(beyond, 0.015);
     EXPECT_EQ(share_in(kCamera.inverse(), 1.5, beyond), 1.0);
-    // The camera believed 5 mm beside where it is: 5 px.
+    // The camera is believed 5 mm beside its place: 5 px.
     const Pose<'W', 'C'> off = kCamera * Pose<'C', 'C'>(Quat::Identity(), Vec3(0.005, 0, 0));
     EXPECT_LT(share_in(off.inverse(), 0.0, beyond), 0.95);
   }

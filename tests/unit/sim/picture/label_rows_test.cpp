@@ -17,7 +17,7 @@ TEST(LabelRows, StandApartAndInOrder) {
   EXPECT_EQ(labels[3].row, kBottom);
 }
 
-// More labels than there is room for: closer together, and never up into the title.
+// More labels than the space allows: they move closer together, and never up into the title.
 TEST(LabelRows, NeverStandInTheTitle) {
   std::vector<LabelRow> labels(40, LabelRow{true, 100, 900});
   spread_rows(labels, kPitch, kTop, kBottom);
@@ -27,7 +27,7 @@ TEST(LabelRows, NeverStandInTheTitle) {
   }
 }
 
-// A tool that is longer reaches above the picture: its line ends below the title, on the way there.
+// A longer tool reaches above the picture: its line ends below the title, on the way there.
 TEST(LabelRows, ALineEndsBelowTheTitle) {
   LabelRow above{true, 500, -120, 90};
   end_below(above, 200, kClear);
@@ -40,8 +40,8 @@ TEST(LabelRows, ALineEndsBelowTheTitle) {
   EXPECT_TRUE(below.dot);
 }
 
-// Two labels at the right margin in the order of what they name, the upper of which is farther away: its line
-// would cross the other text. Their rows are exchanged.
+// Two labels at the right margin in the order of their objects, the upper of which is farther away: its line
+// would cross the second text. So their rows are exchanged.
 TEST(LabelRows, LinesCrossNeitherLinesNorTexts) {
   std::vector<LabelRow> labels{{false, 400, 480, 200, 1000, 950}, {false, 750, 250, 230, 1000, 700}};
   uncross(labels);

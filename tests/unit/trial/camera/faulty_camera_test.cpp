@@ -1,5 +1,5 @@
-// Whole runs through the twin's camera with what can go wrong with it: nothing is done from what is old, and
-// what is wrong ends when its cause has.
+// Whole runs with faults of the twin's camera: the core never acts on old data, and each fault ends with its
+// cause.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@
 namespace enc::trial {
 namespace {
 
-// As the modules have them, without loading one.
+// The modules' devices, without loading a module.
 const ModuleInfo& modules(const std::string& name) {
   static const VisionModule vision{
       [](std::unique_ptr<StereoCamera> camera, const StereoRig& rig, const VisionRig& v, Release release) {
@@ -47,16 +47,16 @@ models::Setup press(const std::vector<std::string>& more) {
 }
 
 struct Seen {
-  double oldest = 0.0;         // s, of a finger that something is done from
+  double oldest = 0.0;         // s, greatest age of a finger that the core acts on
   double first_hold = kUnset;  // s
-  double force_in_hold = 0.0;  // N, of the law
+  double force_in_hold = 0.0;  // N, force of the law
   bool contact = false, contact_after = false;
   std::uint32_t why = 0;
 };
 
 class CameraFaults : public testing::Test {
  protected:
-  static constexpr double kFrom = 3.5;  // s: in the middle of the press
+  static constexpr double kFrom = 3.5;  // s: the middle of the press
   Seen seen;
   std::unique_ptr<Trial> trial;
   void begin(const std::vector<std::string>& set) {
@@ -87,7 +87,7 @@ class CameraFaults : public testing::Test {
   }
 };
 
-// Two frames that stay out are no loss: the next one goes on.
+// Two missing frames are no loss: the next frame continues.
 TEST_F(CameraFaults, AShortStallIsNotFelt) {
   begin({"truth.camera.stalls_at_s=3.5", "truth.camera.back_at_s=3.6"});
   end();
@@ -98,7 +98,7 @@ TEST_F(CameraFaults, AShortStallIsNotFelt) {
   EXPECT_EQ(trial->outputs().mode, Mode::away);
 }
 
-// A link that was lost is believed again when somebody says so, and not before.
+// A lost link stays unused until somebody resumes it.
 TEST_F(CameraFaults, ALostLinkHoldsUntilItIsResumed) {
   begin({"truth.camera.stalls_at_s=3.5", "truth.camera.back_at_s=4.0"});
   until(4.4);
@@ -117,7 +117,7 @@ TEST_F(CameraFaults, ALostLinkHoldsUntilItIsResumed) {
   EXPECT_EQ(trial->gate().links().size(), 1U);
 }
 
-// The frames come, and tell nothing: the finger grows old, and it is found again when they are right.
+// The frames arrive without information: the finger ages, and vision finds it again in correct frames.
 TEST_F(CameraFaults, ExchangedImagesHoldAFingerThatTouches) {
   begin({"truth.camera.swapped_at_s=3.5"});
   end();

@@ -1,4 +1,4 @@
-// The folder in which a run keeps what its camera sees: nothing of it is left behind a run without a frame.
+// The folder in which a run keeps its camera's frames: a run without a frame leaves nothing behind.
 #include "trial/camera/kept_frames.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// MCAP files: the writer byte by byte, and what a record becomes.
+// MCAP files: the writer byte by byte, and the contents for a record.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 struct McapRecord {
   int op = 0;
   std::string content;
-  std::size_t at = 0;  // in the file; of what is in a chunk: in its data
+  std::size_t at = 0;  // offset in the file; for a record of a chunk: in its data
   bool in_chunk = false;
 };
 
@@ -82,7 +82,7 @@ void walk_mcap(std::string_view bytes, bool in_chunk, std::vector<McapRecord>& r
   return records;
 }
 
-// The container of MCAP: its bytes, and that what its indexes name is there.
+// The container of MCAP: its bytes, and that its indexes point to existing records.
 
 std::string hex_of(std::string_view bytes) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -94,7 +94,7 @@ std::string hex_of(std::string_view bytes) {
   return hex;
 }
 
-// The check value of CRC-32 that its catalogues have; and that it goes on over pieces, wherever they are cut.
+// The check value of CRC-32 from the catalogues; the sum continues over pieces, wherever they are cut.
 TEST(McapWriter, TheCrcIsThatOfZip) {
   EXPECT_EQ(crc32(""), 0U);
   EXPECT_EQ(crc32("123456789"), 0xCBF43926U);
@@ -106,7 +106,7 @@ TEST(McapWriter, TheCrcIsThatOfZip) {
     EXPECT_EQ(crc32(bytes.substr(cut), crc32(bytes.substr(0, cut))), one_by_one);
 }
 
-// Each field as https://mcap.dev/spec has it, so that no two mistakes of writer and reader meet.
+// Each field as in https://mcap.dev/spec, so that errors of writer and reader cannot cancel.
 TEST(McapWriter, TheBytesOfATinyFile) {
   std::string file;
   McapWriter writer([&](std::string_view bytes) { file += bytes; }, "L");
@@ -146,7 +146,7 @@ TEST(McapWriter, TheBytesOfATinyFile) {
       "0a3200000000000000 1a00000000000000 3200000000000000 0000000000000000 0000000000000000 "
       "0300000000000000 0100000061 0100000074",
       "0d1500000000000000 4c00000000000000 1c00000000000000 010000006d",  // metadata index
-      // where each kind of these begins, and its size
+      // start of each kind of these, and its size
       "0e1100000000000000 03 2901000000000000 2400000000000000",
       "0e1100000000000000 04 4d01000000000000 1f00000000000000",
       "0e1100000000000000 0b 6c01000000000000 4100000000000000",
@@ -161,7 +161,7 @@ TEST(McapWriter, TheBytesOfATinyFile) {
   EXPECT_EQ(hex_of(file), expected);
 }
 
-// A chunk is full with the message that reaches its size; every place that an index names has what it says.
+// A chunk is full with the message that reaches its size; every index entry points to the right place.
 TEST(McapWriter, ChunksAreOfTheirSizeAndIndexesNameWhatIsThere) {
   constexpr std::size_t kSize = 500;
   std::string file;
@@ -189,7 +189,7 @@ TEST(McapWriter, ChunksAreOfTheirSizeAndIndexesNameWhatIsThere) {
       chunk = std::string(cursor.take(cursor.number(8)));
       EXPECT_EQ(chunk.size(), size);
       EXPECT_EQ(crc32(chunk), crc);
-      EXPECT_LT(chunk.size(), kSize + 40);  // a message more than it holds
+      EXPECT_LT(chunk.size(), kSize + 40);  // at most one message more than its size
     } else if (record.op == 5) {
       ++messages;
       EXPECT_TRUE(record.in_chunk);
@@ -232,7 +232,7 @@ TEST(McapWriter, ChunksAreOfTheirSizeAndIndexesNameWhatIsThere) {
   EXPECT_EQ(indexes, chunks);
 }
 
-// A record without a tick gives a file without a message; it is still one, with its schemas.
+// A record without a tick gives a file without a message; it is still a valid file, with its schemas.
 TEST(McapWriter, AFileWithoutMessagesIsAFile) {
   std::string file;
   McapWriter writer([&](std::string_view bytes) { file += bytes; }, "L");
@@ -243,7 +243,7 @@ TEST(McapWriter, AFileWithoutMessagesIsAFile) {
   EXPECT_EQ(ops, "1 6 3 4 15 3 4 11 8 14 14 14 14 2 ");
 }
 
-// A long record is never in memory as a whole: what is full has left before the end.
+// A long record is never in memory as a whole: full chunks are written before the end.
 TEST(McapWriter, BytesLeaveAsChunksAreFull) {
   std::size_t bytes = 0, most = 0;
   McapWriter writer(
@@ -259,7 +259,7 @@ TEST(McapWriter, BytesLeaveAsChunksAreFull) {
   writer.close();
 }
 
-// What of a record is said on which channel of an MCAP file, and what is left out.
+// The channel of an MCAP file for each part of a record, and the omitted parts.
 
 using Json = nlohmann::json;
 
@@ -318,7 +318,7 @@ models::Setup ball_setup() {
   return setup;
 }
 
-// Exports the ticks of a scene; what a test changes is in `ticks`.
+// Export the ticks of a scene; a test changes them in `ticks`.
 ReadMcap exported(const models::Setup& setup, const std::vector<RecordedTick>& ticks,
                   const RecordTexts& texts = {}, const RecordTexts& ends = {},
                   std::string_view state = "whole") {
@@ -370,7 +370,7 @@ void expect_pose(const Json& said, const char* frame, const Pose<A, B>& X) {
   EXPECT_EQ(xyz_of(said.at("pose").at("position")), X.xyz);
   EXPECT_EQ(xyzw_of(said.at("pose").at("orientation")), X.xyzw);
 }
-// No two of its seven numbers are alike.
+// Its seven numbers are all different.
 const Pose<'R', 'H'> kTurned(Quat(0.4, 0.2, -0.4, 0.8), Vec3(0.011, -0.023, 0.047));
 
 TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
@@ -402,7 +402,7 @@ TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
   EXPECT_EQ(core.at("gap_m").get<double>(), ticks[9].out.gap);
 }
 
-// A camera that stands anywhere, turned: an exchange of parent and child, or of ways, shows.
+// A camera at any place, turned: an exchange of parent and child, or of directions, shows.
 TEST(RecordMcap, FramesAreWhereTheRigHasThem) {
   models::Setup setup = ball_setup();
   setup.rig.frames.W_C = {{0.3, -0.9, 0.6}, {-1.9, 0.2, 0.4}};
@@ -417,7 +417,7 @@ TEST(RecordMcap, FramesAreWhereTheRigHasThem) {
   EXPECT_EQ(xyzw_of(frames[0].at("rotation")), scene.X_WR.xyzw);
   EXPECT_EQ(frames[1].at("parent_frame_id"), "W");
   EXPECT_EQ(frames[1].at("child_frame_id"), "C");
-  // About the fixed x, then y, then z, written out.
+  // Rotations about the fixed x, then y, then z, written out.
   const Quat q_WC = Quat(std::cos(0.2), 0, 0, std::sin(0.2)) * Quat(std::cos(0.1), 0, std::sin(0.1), 0) *
                     Quat(std::cos(-0.95), std::sin(-0.95), 0, 0);
   const Xyzw said = xyzw_of(frames[1].at("rotation"));
@@ -452,7 +452,7 @@ TEST(RecordMcap, WhatADeviceHasNotSaidYetHasNoStamp) {
   check(arm, "/arm", &Inputs::arm);
 }
 
-// A log must not count one packet twice; a packet that names no tool, or is at fault, tells no pose.
+// A log must not count one packet twice; a packet without a tool, or with a fault, has no pose.
 TEST(RecordMcap, APacketOfTheTrackerIsOneMessage) {
   const models::Setup setup = ball_setup();
   std::vector<RecordedTick> ticks = ticks_of(setup, 12);
@@ -463,14 +463,14 @@ TEST(RecordMcap, APacketOfTheTrackerIsOneMessage) {
   }
   const std::vector<ReadMessage> seen = exported(setup, ticks).topics.at("/tool");
   ASSERT_EQ(seen.size(), 2U);
-  EXPECT_EQ(seen[0].publish, 0U);  // before the experiment began: MCAP knows no such time
+  EXPECT_EQ(seen[0].publish, 0U);  // before the start of the experiment: MCAP has no such time
   EXPECT_EQ(seen[1].publish, 2'999'500U);
   EXPECT_EQ(seen[1].log, static_cast<std::uint64_t>(ticks[9].tick.t.time_since_epoch().count()));
   EXPECT_EQ(seen[1].json.at("timestamp"), Json({{"sec", 0}, {"nsec", 2'999'500}}));
   EXPECT_EQ(seen[1].json.at("frame_id"), "C");
 }
 
-// So is a surface that was drawn; before the first there is none.
+// A drawn surface is also one message; before the first there is no message.
 TEST(RecordMcap, ASurfaceThatWasDrawnIsOneMessage) {
   models::Setup setup;
   setup.scene = test::two_balls();
@@ -489,7 +489,7 @@ TEST(RecordMcap, ASurfaceThatWasDrawnIsOneMessage) {
   EXPECT_EQ(drawn[1].json.at("depth_m").get<double>(), 2e-3);
 }
 
-// JSON has no NaN. A pose with one cannot be drawn.
+// JSON has no NaN, and a viewer cannot draw a pose that contains one.
 TEST(RecordMcap, WhatIsNotKnownIsLeftOut) {
   const models::Setup setup = ball_setup();
   std::vector<RecordedTick> ticks = ticks_of(setup, 2);
@@ -512,7 +512,7 @@ TEST(RecordMcap, WhatIsNotKnownIsLeftOut) {
   EXPECT_EQ(read.topics.at("/core")[1].json.at("mode"), mode_name(ticks[1].out.mode));
 }
 
-// Viewers take no list of types, and each field needs one of those that they know.
+// Viewers accept no list of types, and each field needs one of the types that they support.
 void expect_plain(const Json& schema, const std::string& at) {
   ASSERT_TRUE(schema.at("type").is_string()) << at;
   const std::string type = schema.at("type");
@@ -526,7 +526,7 @@ TEST(RecordMcap, SchemasHaveOneTypeForEachField) {
   for (const auto& [topic, schema] : exported(setup, {}).schemas) expect_plain(schema, topic);
 }
 
-// A name may have any sign.
+// A name may contain any character.
 TEST(RecordMcap, NamesAndTextsAreQuoted) {
   models::Setup setup = ball_setup();
   setup.scene.objects.front().name = "a\"b\\c\n\x01 ä";
@@ -535,7 +535,7 @@ TEST(RecordMcap, NamesAndTextsAreQuoted) {
   EXPECT_EQ(exported(setup, ticks).topics.at("/core")[0].json.at("object"), setup.scene.objects.front().name);
 }
 
-// Nothing that the record says of itself is lost; what was missed is counted.
+// The file keeps all information of the record, and counts missed ticks.
 TEST(RecordMcap, TheFileSaysWhatTheRunWas) {
   const models::Setup setup = ball_setup();
   std::vector<RecordedTick> ticks = ticks_of(setup, 5);
@@ -554,7 +554,7 @@ TEST(RecordMcap, TheFileSaysWhatTheRunWas) {
           {"missed_cycles", "4"}, {"seed", "7"}, {"state", "whole"}, {"ticks", "5"}, {"weather", "rain"}}));
 }
 
-// Texts that have one name, or that of something else that is said.
+// Several texts with one name, or with the name of another entry.
 TEST(RecordMcap, NoTextTakesThePlaceOfAnother) {
   const ReadMcap read = exported(ball_setup(), {}, {{"seed", "7"}, {"state", "wet"}, {"a\xE8", "1"}},
                                  {{"seed", "8"}, {"a\\xe8", "2"}});
@@ -568,14 +568,14 @@ TEST(RecordMcap, NoTextTakesThePlaceOfAnother) {
                                                             {"ticks", "0"}}));
 }
 
-// Readers take a file with a text that is not UTF-8 for no MCAP file.
+// Readers reject an MCAP file with a text that is not UTF-8.
 TEST(RecordMcap, TextsAreUtf8AndKeepTheirLines) {
   const std::vector<std::array<std::string, 2>> texts{
       {"models/caf\xE9.toml", "models/caf\\xe9.toml"},  // Latin-1
       {"caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8E\xBE", "caf\u00E9 \u20AC \U0001F3BE"},
       {"cut \xE2\x82", "cut \\xe2\\x82"},
       {"\x80\xC3(\xFF", "\\x80\\xc3(\\xff"},
-      {"\xC0\xAF \xE0\x9F\xBF \xF0\x8F\xBF\xBF",  // longer than need be
+      {"\xC0\xAF \xE0\x9F\xBF \xF0\x8F\xBF\xBF",  // longer than necessary
        "\\xc0\\xaf \\xe0\\x9f\\xbf \\xf0\\x8f\\xbf\\xbf"},
       {"\xED\xA0\x80 \xF4\x90\x80\x80 \xF5",  // half of a pair; beyond the last letter
        "\\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \\xf5"},

@@ -1,4 +1,4 @@
-// Energy in whole runs: the passivity controllers of arm and hexapod, and the ledger.
+// Energy in whole runs: the passivity controllers of arm and hexapod, and the energy balance.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,8 @@ namespace {
 using test::Set;
 using testing::HasSubstr;
 
-// It acts, and the record of that replays to the same bits. `time_s` unset: as long as the user goes on.
+// The controller acts, and the record of that run replays to the same bits. `time_s` unset: until the user
+// ends.
 void expect_acts_and_replays(const models::Setup& setup, double time_s = kUnset) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("controlled.encrec");
@@ -58,7 +59,7 @@ models::Setup setup_of(const std::string& scene, Set set = {}, const Set& more =
   return test::shipped(scene, set);
 }
 
-// Of a wall that lies flat, by what is true: the tip's place and not what its encoders say.
+// Energy of a flat wall from ground truth: the tip's true place and not its encoder reading.
 struct TrueEnergy {
   double given = 0.0, most = 0.0;  // J: more out than in, in this contact; and the most
   double height = 0.0, pushed = 0.0;
@@ -114,7 +115,7 @@ TEST(TrialPassivity, TheShippedWallGivesOutNothingAndFeelsAsItDid) {
   EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
 }
 
-// Of no use to a hand: the law rings against it. It gives out no energy to ring with.
+// This wall is useless to a hand, as its law rings. The controller withholds the energy for the ringing.
 TEST(TrialPassivity, AWallThatRingsGivesOutLittle) {
   const Set stiff{"behaviour.phantom_wall.stiffness_N_per_mm=5", "user.depth_mm=1"};
   const Felt off = felt_in(setup_of("wall", stiff)), on = felt_in(setup_of("wall", stiff, kControlled));
@@ -125,8 +126,8 @@ TEST(TrialPassivity, AWallThatRingsGivesOutLittle) {
   EXPECT_GT(on.controller.acted, 0.1);
 }
 
-// Whoever is touched, over seeds. A prop that is struck while it is on its way is pushed on by what no law
-// foresees: there it is 0.14 mJ at most (16 seeds), and stays within F v T of one cycle.
+// Every object, over seeds. A finger that strikes a moving prop pushes it on in a way that no law foresees:
+// that gives 0.14 mJ at most (16 seeds), and stays within F v T of one cycle.
 TEST(TrialPassivity, NoShippedSceneGivesOutMoreThanATenthOfAMillijoule) {
   for (const char* scene : {"wall", "button", "keypad", "hit_ball", "reaching"})
     for (int seed = 1; seed <= tests::thorough(1, 4); ++seed) {
@@ -137,9 +138,9 @@ TEST(TrialPassivity, NoShippedSceneGivesOutMoreThanATenthOfAMillijoule) {
     }
 }
 
-// A finger that is lost while it presses, and found again deep inside, gets nothing for that: at the shipped
-// stiffness as anywhere; at 2.7 times that 0.11 to 0.30 mJ over eight seeds, where 17 to 25 are given if a
-// contact begins with the spring's whole energy.
+// A finger that is lost while it presses, and found again deep inside, gains no energy. At 2.7 times the
+// shipped stiffness it gains 0.11 to 0.30 mJ over eight seeds, against 17 to 25 if a contact begins with the
+// spring's whole energy.
 TEST(TrialPassivity, AContactThatIsFoundAgainIsNoGift) {
   const Set lost{"truth.tracker.blackout_at_s=2.5", "truth.tracker.blackout_for_s=0.6"};
   const Set stiff{"behaviour.phantom_wall.stiffness_N_per_mm=1.6", lost[0], lost[1]};
@@ -215,8 +216,8 @@ TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
   EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
 }
 
-// Hands that bounce off, come back while the tip returns, and change their tool. Where only the way that is
-// left under a push of now is looked at, a hand that meets the tip on its way gets 0.30 mJ (seeds 2 and 21).
+// Hands that bounce off, return while the tip returns, and change their tool. A controller that only checks
+// the way left under the present push gives 0.30 mJ to a hand that meets the tip on its way (seeds 2 and 21).
 TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
     const Pressed on = pressed_in(setup_of("session", {}, kControlledHexapod), seed);
@@ -226,8 +227,8 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   }
 }
 
-// A hand that comes on while the tip, deep inside of a tooth, is still on its way out: 0.70 and 0.28 mJ where
-// nothing is reckoned for that.
+// A hand that comes on while the tip, deep inside a tooth, is still on its way out: 0.70 and 0.28 mJ if the
+// controller ignores that.
 TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {15U, 27U, 41U}) {
     const Pressed on = pressed_in(setup_of("training", {"follow.inset_mm=0.1"}, kControlledHexapod), seed);
@@ -236,7 +237,7 @@ TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
   }
 }
 
-// Waiting 0.1 mm inside, the tooth is hardly rendered with the controller; at 0.01 mm it is.
+// The controller hardly renders the tooth if the tip waits 0.1 mm inside; at 0.01 mm it does.
 TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   const Set near{"follow.inset_mm=0.01"};
   const Pressed off = pressed_in(setup_of("training", near), 3),
@@ -247,12 +248,12 @@ TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
 }
 
-// A tip that is late is 26 mm off its tool: it comes, and does not stand where it was when the hand had come.
+// A late tip is 26 mm off its tool: it comes, and does not stay at its place when the hand arrived.
 TEST(TrialSpare, ATipThatIsLateComesWithTheController) {
   EXPECT_LT(pressed_in(setup_of("session", {}, kControlledHexapod), 24).controller.acted, 10.0) << "s";
 }
 
-// A wall of 0.03 N/mm, of which the certificate says from 0.106 on.
+// A wall of 0.03 N/mm; the certificate asks for 0.106 or more.
 const Set kSoft{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0",
                 "behaviour.spring.stiffness_N_per_mm=0.03", "pusher.hold_s=3", "pusher.repeats=2"};
 
@@ -263,7 +264,7 @@ TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
   EXPECT_GT(on.controller.acted, 0.1) << "s";
 }
 
-// J, by the truth: what a contact gave out more than was put in, at any moment, until the tip is back.
+// J, ground truth: most net energy that a contact gave out at any moment, until the tip is back.
 double given_out(const models::Setup& setup, std::uint64_t seed) {
   double given = 0.0, most = 0.0;
   TrialOptions options{.seed = seed, .work = true};
@@ -276,8 +277,8 @@ double given_out(const models::Setup& setup, std::uint64_t seed) {
   return most;
 }
 
-// The zero of a sensor is never quite known: what it is off by pays for nothing. 0.4 mJ where a reading below
-// zero counts as a pull, or the threshold is not taken off.
+// The zero of a sensor is never exact, and its error must not add energy. It is 0.4 mJ if a reading below
+// zero counts as a pull, or if the threshold is not subtracted.
 TEST(TrialSpare, ASensorThatIsOffPaysForNothing) {
   using Hand = std::pair<const char*, const char*>;
   for (const auto& [hand, damper] : {Hand{"0.7", "4"}, Hand{"2", "8"}}) {
@@ -296,11 +297,12 @@ TEST(TrialSpare, ASensorThatIsOffPaysForNothing) {
   }
 }
 
-// A hand that is gone pays no debts: the tip comes back all the same, and is there for the next touch.
+// A deficit ends with its contact: after the hand has gone, the tip comes back and is ready for the next
+// touch.
 TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   Set set = kSoft;
   for (const char* more : {"pusher.rest_s=25", "pusher.depth_mm=5"}) set.emplace_back(more);
-  double held = 0.0, longest = 0.0;  // s, with nobody there
+  double held = 0.0, longest = 0.0;  // s, without a hand
   TrialOptions options;
   options.watch = [&](const Glance& glance) {
     const bool alone = !glance.truth.touching && (glance.out.why & kPassive) != 0;
@@ -328,7 +330,7 @@ TEST(TrialSpare, WhereNothingIsRenderedItIsRefused) {
   EXPECT_THAT(refused(empty), HasSubstr("the scene has no object"));
 }
 
-// The energy ledger: terms that are known beforehand, and whole runs of the twin.
+// The energy balance: terms that are known beforehand, and whole runs of the twin.
 
 std::vector<ContactLedger> ledger_of(const models::Setup& setup, std::uint64_t seed, double time_s) {
   TrialOptions options;
@@ -355,7 +357,8 @@ TEST(ArmLaw, OfAFreeTipIsASpringAndADamper) {
   EXPECT_TRUE(ideal_force(law, tip).isApprox(Vec3(-0.3, 0, 0.6 + 1.0)));
 }
 
-// What is stored in a button is the integral of its force: along the way through its trigger and its bottom.
+// The energy stored in a button is the integral of its force along the way through its trigger and its
+// bottom.
 TEST(ArmLaw, StoresInAButtonWhatItsForceTakes) {
   const models::Setup setup = setup_of("button");
   const Trial trial(setup, {});
@@ -382,8 +385,8 @@ TEST(Ledger, OpensByWhatIsLeftOut) {
   EXPECT_EQ(ContactLedger{}.closure(), 0.0);
 }
 
-// A button is pressed: the target stands, so nothing is carried; a machine that pushes what it is asked for
-// has no limits; and all of it adds up, whoever presses.
+// A button is pressed: the target stands, so the balance has no transport term; a machine that pushes as
+// commanded has no limits. All terms add up, for any hand.
 TEST(Ledger, OfAButtonCloses) {
   for (int i = 1; i <= tests::thorough(1, 4); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
@@ -399,11 +402,11 @@ TEST(Ledger, OfAButtonCloses) {
   }
 }
 
-// Both sides are measured apart: a truth that is told wrong opens it.
+// Both sides are measured separately: a wrong truth opens the balance.
 TEST(Ledger, IsRedWhereAPartIsWrong) {
   const models::Setup hit = setup_of("hit_ball");
   models::Setup heavier = hit;
-  heavier.twin.arm.mass_scale = 1.5;  // the arm flies on when it has let go of the ball
+  heavier.twin.arm.mass_scale = 1.5;  // the arm flies on after it has released the ball
   TrialOptions options;
   LedgerMeasure measure(heavier, options);
   options.seconds = 3.0;
@@ -414,7 +417,7 @@ TEST(Ledger, IsRedWhereAPartIsWrong) {
   for (const ContactLedger& one : measure.contacts()) EXPECT_GT(one.closure(), 0.05);
   const models::Setup setup = setup_of("keypad");
   for (ContactLedger one : ledger_of(setup, 1, 6.0)) {
-    one.joints = 0.0;  // a quarter of the work is theirs
+    one.joints = 0.0;  // they do a quarter of the work
     EXPECT_GT(one.closure(), 0.1);
   }
 }
@@ -427,7 +430,7 @@ TEST(Ledger, OfATennisBallCloses) {
   }
 }
 
-// A plane presses and releases alike: it takes nothing, also where the tip waited inside it.
+// A plane has one curve for press and release: it takes nothing, also if the tip waited inside it.
 TEST(Ledger, OfALosslessPlaneTakesNothing) {
   for (const char* set :
        {"follow.inset_mm=0.1", "follow.inset_mm=0.5", "follow.inset_mm=1", "rig.force.threshold_N=0.5"}) {
@@ -441,9 +444,8 @@ double surplus_of(const std::string& scene, const Set& set, double time_s, std::
   return worst_surplus(ledger_of(setup_of(scene, set), seed, time_s));
 }
 
-// Out beyond what was put in: nothing of a wall within its bound, over which a finger slides, and much of one
-// beyond it, along the normal and across alike; of a soft plane that a hexapod renders, much less with the
-// controller.
+// Net energy out: nothing from a wall within its bound under a sliding finger, and much from one beyond it,
+// along the normal and across. The controller reduces that of a hexapod's soft plane greatly.
 TEST(Ledger, TellsWhatCameOutBeyondWhatWasPutIn) {
   EXPECT_LT(surplus_of("wall", {}, 12.0), 0.02e-3);
   EXPECT_GT(surplus_of("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=5"}, 12.0), 10e-3);
@@ -452,15 +454,15 @@ TEST(Ledger, TellsWhatCameOutBeyondWhatWasPutIn) {
   EXPECT_GT(surplus_of("session", {form + "none"}, 20.0), 0.3e-3);
 }
 
-// A prop that is met on its way: what its law gives to the machine's own motion before the touch is nobody's
-// (0.21 mJ), and there the controller stands aside (1.8 mJ where it takes from the push that sends the prop).
+// A prop that is met on its way. The energy of its law before the touch goes into the machine's own motion
+// (0.21 mJ), and the controller does not act on it (1.8 mJ if it takes from the push that moves the prop).
 TEST(Ledger, OfAPropThatIsMetOnItsWay) {
   EXPECT_LT(surplus_of("reaching", {}, 46.1, 19), 0.1e-3);
   EXPECT_LT(surplus_of("reaching", {"rig.arm.passivity=controlled"}, 27.0, 12), 0.1e-3);
 }
 
-// A prop that is pressed, and leaps because the finger slides away under it, is still looked after: without
-// that this hand gets 172 mJ. Others get as much sideways, where nothing is controlled (reference/stability).
+// The controller still acts on a pressed prop that leaps because the finger slides away under it: otherwise
+// this hand gets 172 mJ. Others get as much sideways, where there is no control (reference/stability).
 TEST(Ledger, OfAPropThatLeapsUnderItsFinger) {
   EXPECT_LT(surplus_of("wall",
                        {"rig.arm.passivity=controlled", "behaviour.phantom_wall.stiffness_N_per_mm=2.4",
@@ -469,14 +471,15 @@ TEST(Ledger, OfAPropThatLeapsUnderItsFinger) {
             1e-3);
 }
 
-// A hand that pushes a tip past the depth that its object is known to: what is stored there is counted, too.
+// A hand that pushes a tip past the known depth of its object: the balance also counts the energy stored
+// there.
 TEST(Ledger, OfATooStiffToothTakesNothing) {
   for (const ContactLedger& one : ledger_of(setup_of("training"), 5, 60.0))
     EXPECT_GT(one.law, -0.05 * one.largest() - 0.05e-3) << one.contact;
 }
 
-// Closure does not see how the hexapod's generated energy is shared out: its parts are known here. A filter
-// of 5 Hz is what is late; counts and noise of a closed way cancel; nothing is limited.
+// The closure of the balance does not show the parts of the hexapod's generated energy, which are known here.
+// The filter of 5 Hz is late; counts and noise of a closed path cancel; there is no limit.
 TEST(Ledger, OfATennisBallNamesWhatIsLate) {
   const auto first = [](const Set& set) { return ledger_of(setup_of("tennis_ball", set), 1, 20.0).front(); };
   const ContactLedger one = first({}), late = first({"rig.force.filter_hz=2.5"});
@@ -489,7 +492,8 @@ TEST(Ledger, OfATennisBallNamesWhatIsLate) {
   EXPECT_NEAR(late.law, one.law, 0.02 * one.law) << "what the ball takes is the same";
 }
 
-// It looks on: a run is the same to the bit whether its work is counted or not, and counts none unasked.
+// The balance only observes: a run is the same to the bit with and without it, and without a request it
+// counts nothing.
 TEST(Ledger, LeavesTheRunAlone) {
   for (const char* scene : {"keypad", "tennis_ball"}) {
     const models::Setup setup = setup_of(scene);

@@ -37,22 +37,23 @@ std::size_t departures(const std::string& scene, std::uint64_t seed, const Set& 
   return presses.departures().size();
 }
 
-// The tip stays 5 um inside, which of a tooth of 200 N/mm is 1 N: no fault of force or machine. A zero that
-// drifts is one.
+// The tip stays 5 um inside, which is 1 N for a tooth of 200 N/mm: no fault of force or machine. A zero that
+// drifts is a fault.
 TEST(PressMeasure, AToothIsSmallerByTheSkinAndStillItself) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_EQ(departures("training", seed), 0U) << seed;
   EXPECT_GT(departures("tennis_ball", 1, {"truth.force.drift_N_per_sqrt_s=0.5"}), 0U);
 }
 
-// A sensor whose zero is wrong and that is believed: seed 6 makes the true force too hard, seed 2 too soft,
-// of a ball as of a tooth.
+// A sensor whose zero is wrong but trusted: seed 6 makes the true force too hard, seed 2 too soft, for a ball
+// and for a tooth.
 TEST(PressMeasure, NamesAForceThatIsTooHardAndOneThatIsTooSoft) {
   const Set off{"rig.force.tare=start", "rig.force.tare_time_s=0", "truth.force.zero_N=2"};
   for (const char* scene : {"tennis_ball", "training"})
     for (const std::uint64_t seed : {2U, 6U}) EXPECT_GT(departures(scene, seed, off), 0U) << scene << seed;
 }
 
-// The tooth of 200 N/mm is met with the tip 0.1 mm deep: its response is 20 N there, before the hand pushes.
+// The tip is 0.1 mm deep when the finger meets the tooth of 200 N/mm: its response is 20 N there, before the
+// hand pushes.
 TEST(PressMeasure, NamesAnInsetThatIsAForce) {
   EXPECT_GT(departures("training", 1, {"follow.inset_mm=0.1"}), 0U);
 }
@@ -85,8 +86,8 @@ TEST(PressMeasure, ALimitIsReachedWhereTheDeflectionComesToIt) {
   }
 }
 
-// A reach is drawn: its bound is what a machine of this speed and acceleration can follow of it. One that is
-// slower than the rig believes misses by more.
+// A drawn reach: its bound is the part that a machine of this speed and acceleration can follow. A machine
+// slower than the rig assumes misses by more.
 TEST(PressMeasure, ADrawnReachIsBoundedByItsOwnPath) {
   const auto missed = [](const PressMeasure& measure) {
     int n = 0;
@@ -95,14 +96,14 @@ TEST(PressMeasure, ADrawnReachIsBoundedByItsOwnPath) {
   };
   const models::Setup session = shipped("session");
   for (const std::uint64_t seed : {9U, 12U}) EXPECT_EQ(missed(measured(session, seed)), 0) << seed;
-  // The machine is slower than believed.
+  // The machine is slower than assumed.
   const models::Setup slow = shipped("session", {"truth.hexapod.servo_hz=1", "user.session.duration_s=40"});
   EXPECT_GT(missed(measured(slow, 9)), 0);
 }
 
-// What a run is judged by where there is no truth, and what a hand's strength is.
+// The measures of a run without ground truth, and the strength of a hand.
 
-// As of a real arm and a real finger: the measure is not shown what is true.
+// As for a real arm and a real finger: the measure does not get the ground truth.
 std::size_t empty_contacts(const models::Setup& setup, bool withheld = false) {
   TouchMeasure touches;
   TrialOptions options;
@@ -126,7 +127,7 @@ TEST(TouchMeasure, AnArmKnowsWithoutATruthThatNothingPushedItsProp) {
 }
 
 // A hand breaks through a wall that no motor holds and strikes the arm's stop. Then its mass rings on its
-// grip about what it pushes with: by the speed of the impact times sqrt(k m).
+// grip about its force: by the speed of the impact times sqrt(k m).
 TEST(TouchMeasure, AHandPushesHarderThanItsStrengthOnlyByTheImpactOfItsMass) {
   constexpr double kAverage = 1.0;  // s
   const models::Setup setup = shipped("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=1000"});
@@ -147,7 +148,7 @@ TEST(TouchMeasure, AHandPushesHarderThanItsStrengthOnlyByTheImpactOfItsMass) {
   EXPECT_LT(most, hand.strength + speed * std::sqrt(hand.grip_stiffness * hand.mass));
 }
 
-// Presses tell that the tracker, or the camera, does not stand where it was registered.
+// Presses reveal that the tracker, or the camera, does not stand at its registered place.
 
 // Two presses of 6 mm with little between them.
 SeenMeasure seen(const std::string& scene, const Set& more, std::uint64_t seed = 1) {
@@ -161,7 +162,7 @@ SeenMeasure seen(const std::string& scene, const Set& more, std::uint64_t seed =
   set.insert(set.end(), more.begin(), more.end());
   SeenMeasure measure;
   TrialOptions options{.seed = seed};
-  const sim::Truth none;  // as of real devices
+  const sim::Truth none;  // as for real devices
   options.watch = [&](const Glance& glance) {
     measure.see({glance.scene, glance.tick, none, glance.in, glance.out, false});
   };
@@ -180,7 +181,7 @@ TEST(SeenMeasure, AFingerIsSeenWhereItPushesTheProp) {
   }
 }
 
-// Too high a finger pushes before the core believes it, too low a one lies on the prop.
+// A finger seen too high pushes before the core detects it; a finger seen too low lies on the prop.
 TEST(SeenMeasure, ACameraThatHasMovedIsFoundWithItsWay) {
   for (const double mm : {5.0, -5.0, 3.0, -3.0}) {
     const SeenMeasure measure = seen("wall", {"truth.tracker.bias_mm=[0, 0, " + std::to_string(-mm) + "]"});
@@ -191,7 +192,7 @@ TEST(SeenMeasure, ACameraThatHasMovedIsFoundWithItsWay) {
   }
 }
 
-// As it is registered, by pose and not by bias: the rig believes that it stands 5 mm lower.
+// A wrong registration by pose and not by bias: the rig assumes a place 5 mm lower.
 TEST(SeenMeasure, ARegistrationThatIsOffIsFound) {
   Vec3 off = shipped("wall").rig.frames.W_C.position * 1e3;
   off.z() -= 5.0;
@@ -202,7 +203,7 @@ TEST(SeenMeasure, ARegistrationThatIsOffIsFound) {
   EXPECT_NEAR(moved(measure).z() * 1e3, 5.0, 0.6);
 }
 
-// Aside of the normal nothing is told, and nothing wrong either.
+// Presses give no result across the normal, and no wrong one.
 TEST(SeenMeasure, AcrossTheNormalAPressTellsNothing) {
   const SeenMeasure measure = seen("wall", {"truth.tracker.bias_mm=[5, 0, 0]"});
   ASSERT_EQ(measure.presses().size(), 2U);
@@ -226,7 +227,7 @@ TEST(SeenMeasureLong, NeverInVainAndAlwaysFoundOverSeeds) {
   }
 }
 
-// Error against run time: the hand is the same whatever the step, and the cheapest setting is the cheapest.
+// Error against run time: the hand is independent of the step, and the advice names the cheapest setting.
 
 std::vector<Vec3> tool_path(const std::string& scene, const Set& set, double seconds) {
   std::vector<Vec3> path;
@@ -236,7 +237,7 @@ std::vector<Vec3> tool_path(const std::string& scene, const Set& set, double sec
   return path;
 }
 
-// Tremor, drift and plan: 0.15 mm rms of drift that was drawn at each step made another hand of each.
+// Tremor, drift and plan: 0.15 mm rms of drift that was drawn at each step made another hand for each step.
 TEST(Precision, AHandIsTheSameWhateverTheStep) {
   for (const char* scene : {"tennis_ball", "session"}) {
     const std::vector<Vec3> coarse = tool_path(scene, {}, 1.5);
@@ -304,7 +305,7 @@ TEST(Precision, AdviceNamesTheSettingAndTheFloor) {
             HasSubstr("failed: diverged at tick 7"), HasSubstr("the next cheaper, discrete at 1000 us")));
   EXPECT_THAT(app::advice_text(made(), {0.03}), HasSubstr("as it is"));
   EXPECT_THAT(app::advice_text(made(), {0.012}), HasSubstr("none of these"));
-  // Two converged runs differ by the floor: so may a third one from them.
+  // Two converged runs differ by the floor, so a third one may differ from them by as much.
   EXPECT_THAT(app::advice_text(made(), {0.051}),
               AllOf(HasSubstr("by another converged run 0.0300 to 0.0500 N"), Not(HasSubstr("may be more"))));
   EXPECT_THAT(app::advice_text(made(), {0.045}),
@@ -337,7 +338,8 @@ TEST(Precision, ASceneWithoutAHandIsRefused) {
   EXPECT_THROW((void)precision_of(tracking, {}), Error);
 }
 
-// A short press of a plane: what ships errs no more than two converged runs and a count of the sensor.
+// A short press of a plane: the shipped setting errs no more than two converged runs and a count of the
+// sensor.
 TEST(PrecisionLong, ThePlaneHoldsAtWhatShips) {
   PrecisionOptions options;
   options.seconds = 5.0;
@@ -354,7 +356,7 @@ TEST(PrecisionLong, ThePlaneHoldsAtWhatShips) {
   EXPECT_LT(shipped->cpu * 8.0, all.converged.cpu) << "in one run";
 }
 
-// A period that has no end in decimals, and what ships is no part of it that the grid has.
+// The period has no finite decimal form, and the shipped time step is not among the grid's fractions of it.
 TEST(Precision, AnyHapticRateIsTakenAndWhatShipsIsAPoint) {
   PrecisionOptions options;
   options.seconds = 4.0;
@@ -377,7 +379,7 @@ TEST(Precision, AnyHapticRateIsTakenAndWhatShipsIsAPoint) {
   EXPECT_DOUBLE_EQ(all.tick * 1500.0, 1.0);
 }
 
-// An arm that hastens to where a reach will touch is where it is told when they meet.
+// An arm that hastens to the place of a reach's touch is at its commanded place when they meet.
 
 // m, sorted: between the tip and its target along the surface, at each touch of random reaches.
 std::vector<double> apart_when_they_meet(const char* scene) {
@@ -405,7 +407,7 @@ std::vector<double> apart_when_they_meet(const char* scene) {
   return apart;
 }
 
-// Without its acceleration told to the law the tip lags: 0.5 mm in the middle, 1.6 mm in one of ten.
+// The tip lags if the law does not get the target's acceleration: 0.5 mm in the middle, 1.6 mm in one of ten.
 TEST(Haste, TheTipIsWhereItsTargetIsWhenTheFingerTouches) {
   const std::vector<double> apart = apart_when_they_meet("wall");
   ASSERT_GE(apart.size(), 10U);
@@ -413,7 +415,7 @@ TEST(Haste, TheTipIsWhereItsTargetIsWhenTheFingerTouches) {
   EXPECT_LT(apart[apart.size() * 9 / 10], 0.6e-3);
 }
 
-// Two keys, one 20 mm above the other: from the plane of each the finger comes to the other one.
+// Two keys, one 20 mm above the other: from the plane of each key the finger reaches the other one.
 TEST(Haste, TheChosenKeyDoesNotFlickerBetweenPictures) {
   for (const std::uint64_t seed : {1U, 5U, 29U}) {
     models::Setup setup =
@@ -436,15 +438,14 @@ TEST(Haste, TheChosenKeyDoesNotFlickerBetweenPictures) {
   }
 }
 
-// What vision changes of what is felt: a wall, pressed by a finger that is seen at 20 Hz, with results that
-// come up to a frame early or late, beside the same with results that come when they are due; and with a
-// picture, beside the same without it.
+// The effect of vision on the force: a finger seen at 20 Hz presses a wall, with results up to a frame early
+// or late, beside a run with punctual results; and a run with a picture beside one without it.
 
 constexpr Duration kFrame{50'000'000};
 constexpr std::size_t kFrameTicks = 50;
 constexpr double kForceStep = 0.2;  // N, between frames
 
-// Without a latency of its own, so that a result can be early.
+// The tracker has no latency of its own, so that a result can be early.
 FeltWay press(Duration jitter, std::uint64_t seed) {
   FeltWay way;
   TrialOptions options{.seed = seed};
@@ -468,14 +469,14 @@ TEST(Jitter, OfAFrameChangesNothingThatIsFeltByMoreThanTheForceStep) {
   }
 }
 
-// Eight frames late the finger is lost: what is felt is another thing, and the measure shows it.
+// Eight frames late the finger is lost: the force changes, and the measure shows it.
 TEST(Jitter, OfEightFramesIsFelt) {
   EXPECT_GT(felt_apart(press({}, 1), press(8 * kFrame, 1), kFrameTicks).frame, 1.0);
 }
 
 struct FastPress {
   FrameForce frames;
-  double too_deep = 0.0;  // m, of what the core believes beyond what is true
+  double too_deep = 0.0;  // m, depth that the core assumes beyond the truth
   TrialResult result;
 };
 FastPress press_fast(std::uint64_t seed, bool beside = true) {
@@ -498,15 +499,14 @@ FastPress press_fast(std::uint64_t seed, bool beside = true) {
   return pressed;
 }
 
-// A finger that comes fast is stopped by the prop 100 ms before a picture shows it. Carried on with what the
-// pictures say it would be 20 mm deep, and lost when they say otherwise.
-// With seed 12 pictures leap to the side, too, while it is pressed.
+// The prop stops a fast finger 100 ms before a picture shows it. By the pictures' prediction the finger would
+// be 20 mm deep, and lost at the next picture. With seed 12 pictures also leap sideways during the press.
 TEST(FrameForce, APictureInContactIsNotFelt) {
   for (const std::uint64_t seed : {1U, 2U, 12U}) {
     const FastPress pressed = press_fast(seed);
     EXPECT_GT(pressed.frames.changes().size(), 40U);
     EXPECT_LE(greatest_change(pressed.frames.changes(), true), kForceStep) << seed;
-    EXPECT_GT(greatest_change(pressed.frames.changes(), false), 0.0) << seed;  // of when the touch begins
+    EXPECT_GT(greatest_change(pressed.frames.changes(), false), 0.0) << seed;  // at the start of the touch
     EXPECT_LT(pressed.too_deep, 1e-3) << seed;
     EXPECT_EQ(pressed.result.hash, press_fast(seed, false).result.hash) << "the second core disturbs it";
   }
@@ -515,7 +515,8 @@ TEST(FrameForce, APictureInContactIsNotFelt) {
   EXPECT_EQ(greatest_change({{true, 0.1}, {false, kUnset}, {true, 0.2}}, true), 0.2);
 }
 
-// Five ticks, one of them not in contact: two whole frames of two ticks, of 4 N and 0, of 1 N and -1 N.
+// Five ticks, one of them not in contact: two whole frames of two ticks, with 4 N and 0, and with 1 N and -1
+// N.
 TEST(FeltApart, IsOfTicksInWhichBothAreInContactAndOfWholeFramesOfThem) {
   const auto way = [](const std::vector<double>& newtons) {
     const Scene scene;
@@ -532,7 +533,7 @@ TEST(FeltApart, IsOfTicksInWhichBothAreInContactAndOfWholeFramesOfThem) {
   const FeltApart apart = felt_apart(way({-5, -5, -5, -5, -5}), way({-5, -9, kUnset, -6, -4}), 2);
   EXPECT_EQ(apart.ticks, 4U);
   EXPECT_DOUBLE_EQ(apart.tick, 4.0);
-  EXPECT_DOUBLE_EQ(apart.frame, 2.0);  // of the first two
+  EXPECT_DOUBLE_EQ(apart.frame, 2.0);  // from the first two
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The person at a run: signals from anywhere, keys on the terminal of a process of its own; and afterwards
-// the terminal and the signals are as they were.
+// The person at a run: signals from anywhere, keys on the terminal of its own process. Afterwards the
+// terminal and the signals are as before.
 #include "trial/operator/operator.h"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ TEST(SignalsDeathTest, EndTheProgramAtOnceBeforeAnythingHasBegun) {
       testing::ExitedWithCode(128 + SIGQUIT), "");
 }
 
-// A fault of the program itself is still its end.
+// A fault of the program itself still ends it.
 TEST(SignalsDeathTest, AFaultOfTheProgramIsNoWish) {
   EXPECT_DEATH(
       {
@@ -117,9 +117,9 @@ TEST(SignalsDeathTest, AFaultOfTheProgramIsNoWish) {
 // ---- keys
 // -----------------------------------------------------------------------------------------------------------
 
-constexpr tcflag_t kLines = ICANON | ECHO;  // a terminal waits for the end of a line, and shows what is typed
+constexpr tcflag_t kLines = ICANON | ECHO;  // a terminal waits for the end of a line, and echoes typed text
 
-// In a process whose terminal that is: writes a letter for each thing that the person wants.
+// Runs in the process that owns the terminal, and writes a letter for each of the person's requests.
 [[noreturn]] void be_at_terminal(const char* name, int says) {
   const auto say = [says](char what) { static_cast<void>(!write(says, &what, 1)); };
   setsid();
@@ -164,7 +164,7 @@ TEST(Operator, ReadsTheKeysOfATerminalWhichIsAfterwardsAsItWas) {
   EXPECT_EQ(heard(says[0]), 'k');
   press(' ');
   EXPECT_EQ(heard(says[0]), 'h');
-  press('x');  // is for nobody
+  press('x');  // a key without a meaning
   press('r');
   EXPECT_EQ(heard(says[0]), 'r');
   press('q');
@@ -203,7 +203,7 @@ TEST(RunWatch, EachChangeIsOneEvent) {
   see(Mode::hold, kToolLost, 1);
   see(Mode::hold, kToolLost, 1);
   see(Mode::hold, kToolLost | kForceLost, 1);
-  see(Mode::hold, kForceLost, 1);  // a reason that goes is no news
+  see(Mode::hold, kForceLost, 1);  // a reason that ends is no news
   see(Mode::contact, 0, 1);
   see(Mode::restore, 0, 1);
   watch->note(RunEvent::Kind::ends, SIGTERM);
@@ -242,9 +242,9 @@ TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
   EXPECT_THAT(app::status_text(status, false), testing::HasSubstr("STOPPED BY HAND"));
 }
 
-// A terminal that takes nothing keeps nobody waiting.
+// A terminal that accepts no output delays nothing.
 
-// Standard error is a terminal that nobody reads, or a pipe, while this is there.
+// Standard error is an unread terminal, or a pipe, in the lifetime of this object.
 class Unread {
  public:
   explicit Unread(bool terminal) {
@@ -298,7 +298,7 @@ TEST(StandardError, WithoutAReaderSwallowsAll) {
   EXPECT_EQ(error.write("hello"), 5U);
 }
 
-// Faults that somebody switches on change what the core reads, and end with their cause.
+// Faults that somebody switches on change the core's inputs, and end with their cause.
 
 // A tracker with a new sample every 8 ticks of 1 ms, and a force sensor.
 class SwitchedFaults : public testing::Test {
@@ -317,7 +317,7 @@ class SwitchedFaults : public testing::Test {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) tick();
   }
-  // Age of what the core is told, ms.
+  // Age of the core's tracker sample, ms.
   [[nodiscard]] double age() const {
     return 1e3 * seconds(Time{} + from_seconds(1e-3 * (ticks_ - 1)) - in_.tool.t);
   }
@@ -370,7 +370,7 @@ TEST_F(SwitchedFaults, ASaturatedSensorSaysSo) {
   EXPECT_EQ(in_.wrench.health, Health::ok);
 }
 
-// What a record keeps of a steered hand.
+// The part of a record that holds a steered hand.
 
 HandWord to(double x, double y, double z) { return {Point<'W'>(x, y, z)}; }
 
@@ -413,7 +413,7 @@ TEST(SteeringLog, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(refusal("1,1,0,0\n"), HasSubstr(":2:"));
 }
 
-// A steered hand lays its tool on the tray, takes the other one, and back.
+// A steered hand puts its tool on the tray, takes the second one, and returns.
 
 class SteeredToolChange : public testing::Test {
  protected:

@@ -1,4 +1,4 @@
-// The model of skin out of images and masks: what synthetic skin was made with, also over red; refusals.
+// The skin model from images and masks: the parameters of the synthetic skin, also over red; refusals.
 #include "core/vision/segmentation/skin.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct Hands {
   }
 };
 
-// Within 1 % of what it was made with: the mean in shares of the spread where it lies at 0.
+// Within 1 % of the synthetic parameters: the mean as a share of the spread if it lies at 0.
 TEST(Skin, IsWhatItWasMadeWith) {
   std::uint32_t seed = 1;
   for (const double hue : {0.45, 0.0, kTurn - 0.05, 0.1, 2.1, 4.0})
@@ -97,7 +97,7 @@ TEST(Skin, RefusesWhatItCannotLearnFrom) {
   EXPECT_THROW((void)learner.model(), Error);  // every hue alike
 }
 
-// Counts of what was found and of what is there; an ROC whose rates grow with what is let through.
+// Counts of found and of true pixels; an ROC whose rates grow with the thresholds.
 
 TEST(Roc, CountsWhatIsFoundAndWhatIsThere) {
   Mask found(5, 2), truth(5, 2);
@@ -118,7 +118,7 @@ TEST(Roc, CountsWhatIsFoundAndWhatIsThere) {
   EXPECT_THROW((void)compare(Mask(3, 3), Mask(3, 2)), Error);
 }
 
-// Left half skin before blue; the right half skin in the background already.
+// The left half shows skin before blue; the right half shows skin in the background already.
 TEST(Roc, GrowsWithBothThresholds) {
   Image background(40, 20), image(40, 20);
   Mask truth(40, 20);
@@ -149,7 +149,7 @@ TEST(Roc, GrowsWithBothThresholds) {
   EXPECT_EQ(points[2].found.true_positive_rate(), 0.0);  // everything matches
   EXPECT_EQ(points[5].found.iou(), 1.0);
   EXPECT_EQ(points[8].found.false_positive_rate(), 1.0);  // nothing does
-  EXPECT_LT(points[4].found.true_positive_rate(), 1.0);   // narrower than this skin is
+  EXPECT_LT(points[4].found.true_positive_rate(), 1.0);   // narrower than the spread of this skin
   EXPECT_GT(points[4].found.true_positive_rate(), 0.0);
 }
 
@@ -164,8 +164,8 @@ TEST(Roc, RefusesAPairWithoutTruthOrBackground) {
     EXPECT_THROW((void)roc(spec, {&pair, 1}, one, one), Error);
 }
 
-// Skin too dim for a hue of its own: what its surroundings must have, how far they reach, that a background
-// of skin's hue keeps its shadow, and what light's colour does.
+// Skin too dim for a hue of its own: the required surroundings and their reach, shadows on a background of
+// skin's hue, and the light's colour.
 
 constexpr int kSide = 40;
 constexpr std::uint16_t kWhite[3] = {256, 256, 256};
@@ -191,11 +191,11 @@ class HuelessTest : public testing::Test {
     std::fill(background_.green.begin(), background_.green.end(), static_cast<std::uint8_t>(colour[1]));
     std::fill(background_.blue.begin(), background_.blue.end(), static_cast<std::uint8_t>(colour[2]));
   }
-  // Skin is 10 to 33 degrees of hue.
+  // Hues of 10 to 33 degrees are skin.
   Mask found(const Region& region = {0, 0, kSide, kSide}, const std::uint16_t (&white)[3] = kWhite) {
     Mask skin(kSide, kSide);
     Hueless hueless(kSide);
-    for (int i = 0; i < 2; ++i)  // nothing is left of the time before
+    for (int i = 0; i < 2; ++i)  // nothing remains of earlier frames
       hueless.find(image_.view(), background_, hueless_, region, white, cut_of({43, 100}, HueRule{}), skin);
     return skin;
   }
@@ -248,7 +248,7 @@ TEST_F(HuelessTest, NoiseHidesLittle) {
   EXPECT_LT(count(found()), 0.005 * kSide * kSide);
 }
 
-// Brown, in a shadow.
+// A brown background in a shadow.
 TEST_F(HuelessTest, ABackgroundOfSkinsHueKeepsItsShadow) {
   paint({15, 11, 9});
   behind({60, 45, 38});
@@ -257,7 +257,7 @@ TEST_F(HuelessTest, ABackgroundOfSkinsHueKeepsItsShadow) {
   EXPECT_EQ(count(found()), kSide * kSide);
 }
 
-// Two pixels, neither of which is enough, 2 px apart and 3.
+// Two pixels, 2 px and 3 px apart, each of which alone is not enough.
 TEST_F(HuelessTest, SurroundingsReachTwoPixels) {
   paint({27, 20, 16});  // a chroma of 11
   for (const auto& [x, y] : {std::pair{22, 20}, {18, 20}, {20, 22}, {20, 18}, {22, 18}}) {
@@ -286,7 +286,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb kRed{200, 20, 20}, kGreen{20, 200, 20}, kBlue{20, 20, 200}, kGrey{90, 90, 90},
     kPaper{250, 250, 250}, kBlack{0, 0, 0};
 
-// The first `first` pixels of a colour, then another.
+// The first `first` pixels have one colour, the rest another.
 Image filled(int width, int height, const Rgb& a, const Rgb& b = {}, int first = 1 << 20) {
   Image image(width, height);
   for (int i = 0; i < width * height; ++i) {
@@ -296,8 +296,8 @@ Image filled(int width, int height, const Rgb& a, const Rgb& b = {}, int first =
   return image;
 }
 
-// H of one tile: the largest share of it that still counts as matched. Everything is skin, so that what is
-// left of the tile is foreground.
+// H of one tile: the largest share that still counts as matched. Everything is skin, so the rest of the tile
+// is foreground.
 double intersection(const Image& seen, const Image& model, int tile = 5) {
   const Cut cut = cut_of({0, kHues}, HueRule{});
   const Grid grid{seen.width, seen.height, tile};
@@ -324,7 +324,7 @@ TEST(Tiles, HaveTheIntersectionOfEquation1) {
             1.0);  // 225 pixels: a byte holds them
 }
 
-// A grey tile has no hue: it is like other grey ones, and unlike a hand; as red as OpenCV's hue 0 it is not.
+// A grey tile has no hue: it matches other grey ones, but neither a hand nor OpenCV's hue 0, which is red.
 TEST(Tiles, WithoutAHueAreAlikeAndUnlikeTheRest) {
   const Image grey = filled(5, 5, kGrey);
   EXPECT_EQ(intersection(filled(5, 5, kGrey, kRed, 24), filled(5, 5, kPaper, kRed, 24)), 1.0);
@@ -337,7 +337,7 @@ TEST(Tiles, WithoutAHueAreAlikeAndUnlikeTheRest) {
 TEST(Tiles, NeedAWholeNumberOfPixels) {
   EXPECT_EQ(needed(0.5, 25), 13);
   EXPECT_EQ(needed(0.5, 24), 12);
-  EXPECT_EQ(needed(0.6, 25), 15);  // not 16 for a rounding
+  EXPECT_EQ(needed(0.6, 25), 15);  // not 16 from rounding
   EXPECT_EQ(needed(0.0, 25), 0);
   EXPECT_EQ(needed(1.0, 25), 25);
   EXPECT_EQ(needed(7.0, 25), 26);  // never reached: all is foreground

@@ -1,5 +1,5 @@
-// Matching: random dots of a known disparity, what is not matched and why, the kernels bit by bit, the error
-// of depth by Z^2 sigma / (f B).
+// Matching: random dots of a known disparity, unmatched pixels and their reasons, the kernels bit by bit, the
+// error of depth by Z^2 sigma / (f B).
 #include "core/vision/stereo/match.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST(Match, FindsDisparitiesBetweenPixels) {
   std::printf("disparity error: worst %.3f px rms of 5 disparities\n", worst);
 }
 
-// The same sigma of disparity, whatever the depth: so depth scatters with the square of it.
+// The sigma of disparity does not depend on depth, so the scatter of depth grows with its square.
 TEST(Match, DepthScattersAsItsSquare) {
   for (const double z : {0.3, 0.6, 0.9}) {
     const double d = 721.0 * 0.09 / z;
@@ -96,7 +96,7 @@ TEST(Match, DepthScattersAsItsSquare) {
     const double law = z * z * sigma_d / (721.0 * 0.09);
     EXPECT_NEAR(sigma_z / law, 1.0, 0.05) << z;
     EXPECT_NEAR(-slope_of(kPair, {0, 0, d})(2, 2) * sigma_d / law, 1.0, 1e-9);
-    // Block and noise are the same at all depths.
+    // Block and noise are equal at all depths.
     EXPECT_LT(sigma_d, 0.12) << z;
     std::printf("z %.1f m: sigma_d %.3f px, sigma_z %.2f mm\n", z, sigma_d, 1e3 * sigma_z);
   }
@@ -115,12 +115,12 @@ TEST(Match, SaysWhyThereIsNone) {
   EXPECT_EQ(why(3, 30), Matched::outside);
   EXPECT_EQ(why(300, 2), Matched::outside);
   EXPECT_EQ(why(300, kHeight - 2), Matched::outside);
-  EXPECT_EQ(why(40, 30), Matched::outside);  // all of its places are outside of the right image
+  EXPECT_EQ(why(40, 30), Matched::outside);  // all of its places are outside the right image
   draw_dots(0.0, 0.0, 1, left, right);       // at infinity
   EXPECT_NE(why(300, 30), Matched::yes);
 }
 
-// A finger of 4 px before something farther: most of a block is what is behind.
+// A finger of 4 px before something farther: most of a block shows the background.
 TEST(Match, WithAMaskWhatIsBehindDoesNotCount) {
   Grey left(kWidth, kHeight), right(kWidth, kHeight), front(kWidth, kHeight), there(kWidth, kHeight);
   draw_dots(70.0, 0.0, 1, left, right);
@@ -153,18 +153,19 @@ TEST(Match, ARepeatingPatternIsNotUnique) {
   EXPECT_EQ(strict.at(left, right, 300, 30).matched, Matched::not_unique);
 }
 
-// What only the left camera sees: the right one has another thing there, which fits elsewhere better.
+// A patch that only the left camera sees: the right image shows another patch there, which fits elsewhere
+// better.
 TEST(Match, WhatTheRightImageDoesNotHaveIsNotMutual) {
   Grey left(kWidth, kHeight), right(kWidth, kHeight), other(kWidth, kHeight), unused(kWidth, kHeight);
   draw_dots(100.0, 0.0, 1, left, right);
-  for (int y = 20; y < 40; ++y)  // a copy with some change, of what is at 300
+  for (int y = 20; y < 40; ++y)  // a slightly changed copy of the patch at 300
     for (int x = 0; x < 24; ++x)
       *left.at(340 + x, y) = static_cast<std::uint8_t>(0.9 * *left.at(290 + x, y) + (x * y) % 7);
   MatchSpec spec{.uniqueness = 0.0};
   Matcher asks(spec, kPair);
   spec.agreement = -1.0;
   Matcher trusts(spec, kPair);
-  EXPECT_EQ(trusts.at(left, right, 352, 30).matched, Matched::yes);  // at 150 px, wrongly
+  EXPECT_EQ(trusts.at(left, right, 352, 30).matched, Matched::yes);  // wrongly matched at 150 px
   EXPECT_EQ(asks.at(left, right, 352, 30).matched, Matched::not_mutual);
   EXPECT_EQ(asks.at(left, right, 302, 30).matched, Matched::yes);
 }
@@ -177,7 +178,7 @@ TEST(Match, KernelsAreEqualToTheBit) {
   for (Grey* g : {&a, &b})
     for (auto& level : g->level)
       level = static_cast<std::uint8_t>(256 * drawn::hashed(static_cast<int>(n++), 1, 2));
-  for (int x = 0; x < 40; x += 3) *b.at(x, 9) = 0;  // the mask's rows are those from 5 on
+  for (int x = 0; x < 40; x += 3) *b.at(x, 9) = 0;  // the mask's rows begin at 5
   for (int i = 0; i < 16; ++i) *a.at(20 + i, 20) = 255, *b.at(200 + i, 20) = 0;
   for (const int columns : {8, 12, 16})
     for (const int rows : {3, 11, 15})
@@ -239,7 +240,7 @@ TEST(Triangulate, ItsSlopeIsTheDifferenceQuotient) {
   EXPECT_LT((slope.col(2) - (triangulate(kPair, {400, 20, 108 + h}).e() - here) / h).norm(), 1e-7);
 }
 
-// A pixel takes the median of its nine cells: one wrong cell is none.
+// A pixel takes the median of its nine cells: one wrong cell does not count.
 TEST(DisparityMap, AWindowHasWhatTheFrameHasThere) {
   Grey left(kWidth, kHeight), right(kWidth, kHeight);
   draw_dots(100.3, 1.5, 1, left, right);

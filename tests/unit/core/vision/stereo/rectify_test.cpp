@@ -1,5 +1,5 @@
-// Rectification: points of space come to lie in one row, at the disparity of their depth; pixels are those of
-// the raw image; a pair that needs none gets none; rigs that are no pair are refused.
+// Rectification: points of space come to lie in one row, at the disparity of their depth. Pixels are those of
+// the raw image; a rectified pair stays as it is; wrong pairs are refused.
 #include "core/vision/stereo/rectify.h"
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(Rectify, ThereAndBackIsTheSamePixel) {
       }
 }
 
-// Turned against each other about the baseline by 0.1 rad: each is turned by half of it.
+// The cameras are turned against each other about the baseline by 0.1 rad: each is turned by half of it.
 TEST(Rectify, BothCamerasAreTurnedAlike) {
   StereoRig rig;
   rig.X_CD = {Quat(Eigen::AngleAxisd(0.1, Vec3::UnitX())), Vec3(0.09, 0, 0)};
@@ -120,7 +120,7 @@ TEST(Rectify, WhatIsNoPairIsRefused) {
   refused([](StereoRig& rig) { rig.X_CD = {Quat(Eigen::AngleAxisd(0.6, Vec3::UnitY())), Vec3(0.09, 0, 0)}; });
 }
 
-// The lens: by hand, there and back, and where it folds.
+// The lens: by hand, there and back, and the radius at which it folds.
 
 const Lens kBent{700, 710, 320, 240, {-0.25, 0.1, 0.001, -0.002, -0.02}};
 
@@ -144,7 +144,7 @@ TEST(Lens, ComesBackFromEveryPixel) {
 
 TEST(Lens, HasNoRayBeyondItsFold) {
   Lens folds;
-  folds.distortion[0] = -1.0;  // r (1 - r^2) has its most, 0.385, at r = 0.577
+  folds.distortion[0] = -1.0;  // r (1 - r^2) has its maximum, 0.385, at r = 0.577
   const double most = folds.focal_x * 0.3849;
   EXPECT_TRUE(std::isfinite(ray_of(folds, {folds.centre_x + 0.99 * most, folds.centre_y}).x));
   EXPECT_FALSE(std::isfinite(ray_of(folds, {folds.centre_x + 1.05 * most, folds.centre_y}).x));

@@ -1,4 +1,4 @@
-// The driver's side of the wire, byte by byte, in a time that the test makes.
+// The driver's side of the wire, byte by byte, with time set by the test.
 #include <map>
 #include <string>
 #include <utility>
@@ -26,7 +26,7 @@ struct Talk {
   Conversation conversation;
   Order order;
 
-  // With a path of the controller's own, which was told before the time begins.
+  // Path generation by the controller; the driver has set it before the time begins.
   explicit Talk(const GcsSettings& with = own_path())
       : settings(with), conversation(with, kStand, {}, Duration{}) {
     if (with.velocity > 0.0 || with.path != "own") return;
@@ -78,7 +78,7 @@ TEST(GcsConversation, ASetPointGoesOnceAndNoOftenerThanTheCycle) {
   settings.velocity = 0.02;
   Talk talk(settings);
   talk.aim(0.001, 0);
-  // The velocity is told once, and read back, before the first goes.
+  // The driver sets the velocity once, and reads it back, before the first command.
   EXPECT_EQ(talk.sent(0), "VLS 20\nVLS?\nERR?\n");
   EXPECT_FALSE(talk.conversation.moving());
   talk.heard("20.001\n0\n", 0);
@@ -105,16 +105,16 @@ TEST(GcsConversation, WithoutAFreshSetPointTheMachineIsStoppedOnce) {
   talk.aim(0.001, 0);
   EXPECT_EQ(talk.sent(0), move("1") + kAsk);
   EXPECT_EQ(talk.sent(4), "");
-  EXPECT_EQ(talk.sent(5), "\x18");  // watchdog_ms is 5: also while an answer is awaited
+  EXPECT_EQ(talk.sent(5), "\x18");  // watchdog_ms is 5: also before a pending answer
   EXPECT_EQ(talk.sent(6), "");
   EXPECT_EQ(talk.conversation.watchdogs(), 1);
   talk.heard(kZero + "0\n", 6);
   EXPECT_EQ(talk.sent(50), "\x18" + kAsk);  // the first may have overtaken the set-point
-  talk.heard(kZero + "10\n", 51);           // what our own stop leaves behind
+  talk.heard(kZero + "10\n", 51);           // the error that our own stop leaves
   EXPECT_EQ(talk.health(), Health::ok);
   EXPECT_EQ(talk.conversation.report().errors, 0);
   talk.aim(0.002, 53);
-  EXPECT_EQ(talk.sent(53), kServos);  // it took the place of whatever else there was
+  EXPECT_EQ(talk.sent(53), kServos);  // it replaced any other error
   talk.heard(kOn + "0\n", 54);
   talk.aim(0.002, 55);
   EXPECT_EQ(talk.sent(55), move("2") + kAsk);  // a command starts anew
@@ -139,7 +139,7 @@ TEST(GcsConversation, AStopGoesAtOnceEachTimeAndVoidsWhatWasToldBefore) {
   talk.heard(kZero + "10\n", 2);
   EXPECT_EQ(talk.sent(2), kServos);
   talk.heard(kOn + "0\n", 3);
-  EXPECT_EQ(talk.sent(4), kAsk);  // no MOV: it was told before
+  EXPECT_EQ(talk.sent(4), kAsk);  // no MOV: that set-point was sent before
   talk.heard(kZero + "0\n", 5);
   talk.stop();
   EXPECT_EQ(talk.sent(5), "\x18");
@@ -149,7 +149,7 @@ TEST(GcsConversation, AStopGoesAtOnceEachTimeAndVoidsWhatWasToldBefore) {
   EXPECT_EQ(talk.health(), Health::ok);
   EXPECT_EQ(talk.sent(8), kServos);
   talk.heard(kOn + "0\n", 9);
-  // Stop and command at once: first the one, then the other.
+  // Stop and command at once: the stop goes first, then the command.
   talk.stop();
   talk.aim(0.003, 30);
   EXPECT_EQ(talk.sent(30), "\x18" + move("3") + kAsk);
@@ -169,7 +169,7 @@ TEST(GcsConversation, AStopThatIsNotOursIsAFault) {
   }
 }
 
-// SIGSTOP: this side wakes up and finds what the loop gave before.
+// SIGSTOP: this side wakes up and finds the loop's earlier set-point.
 TEST(GcsConversation, WhatWasGivenBeforeAPauseIsNotSentAfterIt) {
   Talk talk;
   talk.aim(0.001, 0);
@@ -199,7 +199,7 @@ TEST(GcsConversation, AVelocityThatIsNotTakenEndsIt) {
   }
 }
 
-// A stop overtakes the lines before it: a controller may carry them out afterwards.
+// A stop overtakes the lines before it: a controller may execute them afterwards.
 TEST(GcsConversation, AStopThatOvertookASetPointGoesOnceMore) {
   Talk talk;
   talk.aim(0.001, 0);
@@ -217,7 +217,7 @@ TEST(GcsConversation, AStopThatOvertookASetPointGoesOnceMore) {
   EXPECT_EQ(talk.conversation.report().stops, 1);
 }
 
-// Error 10 is the last one; what came before it is seen by the servos.
+// Error 10 is the last one; the servo states show any earlier error.
 TEST(GcsConversation, AFaultThatOurStopHidIsFound) {
   Talk talk;
   talk.stop();
@@ -228,7 +228,8 @@ TEST(GcsConversation, AFaultThatOurStopHidIsFound) {
   EXPECT_EQ(talk.conversation.loss(), Loss::servo_off);
 }
 
-// Ours is one; after it was seen, or a question that went later was answered, it is no excuse any more.
+// Our stop explains one error 10. It explains no more errors once one was seen, or once a later question was
+// answered.
 TEST(GcsConversation, OurStopExcusesOneErrorTen) {
   for (const char* first : {"10\n", "0\n"}) {
     Talk talk;
@@ -243,7 +244,7 @@ TEST(GcsConversation, OurStopExcusesOneErrorTen) {
   }
 }
 
-// By points of 0.5 mm, which are what 50 mm/s make of a cycle of 10 ms.
+// Points of 0.5 mm: 50 mm/s for a cycle of 10 ms.
 struct PointTalk {
   std::string tell(double x, std::int64_t at) {
     ++order.number;
@@ -256,8 +257,8 @@ struct PointTalk {
   Conversation talk{GcsSettings{}, kStand, {}, Duration{}, 0.05};
 };
 
-// One point each cycle; while more than two wait at the controller none is added, and none is farther than
-// the platform gets.
+// The driver sends one point each cycle, and none while more than two wait at the controller. No point is
+// farther than the platform can get.
 TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
   PointTalk points;
   EXPECT_EQ(points.tell(0.01, 0), "SPA X 0x19001900 1\nSCT T 10\nSPA? X 0x19001900\nERR?\n");
@@ -272,7 +273,7 @@ TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
   EXPECT_EQ(points.tell(0.0009, 24), move("0.9") + "\x0b" + kAsk);
 }
 
-// For each point the controller takes a cycle: one that comes late is no longer for it.
+// The controller takes a cycle for each point: a late point no longer belongs to its cycle.
 TEST(GcsConversation, AfterALateAnswerAPointIsNoFartherThanACycleAllows) {
   PointTalk points;
   static_cast<void>(points.tell(0.0, 0));
@@ -317,7 +318,7 @@ TEST(GcsConversation, APositionIsTrueBetweenQuestionAndAnswer) {
   EXPECT_EQ(talk.conversation.report().velocity.norm(), 0.0);  // not over so short a time
   EXPECT_EQ(talk.sent(20), kAsk);
   talk.heard("X=1.5 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n0\n", 24);
-  EXPECT_NEAR(talk.conversation.report().velocity.e().x(), 0.0015 / 0.022, 1e-12);  // from zero at 0
+  EXPECT_NEAR(talk.conversation.report().velocity.e().x(), 0.0015 / 0.022, 1e-12);  // 1.5 mm in 22 ms
 }
 
 TEST(GcsConversation, ALinkIsLostForGood) {
@@ -358,13 +359,13 @@ TEST(GcsConversation, AnySegmentationOfTheAnswersGivesTheSame) {
   EXPECT_NEAR(talk.conversation.report().X_RH.p().x(), 0.00125, 1e-15);
 }
 
-// What the driver asks before anything moves, of the fake and of devices that are not as they should be.
+// The driver's questions before any motion, to the fake and to faulty devices.
 
 struct Device {
   test::FollowingMachine machine;
   Controller controller;
   GcsSettings settings;
-  std::map<std::string, std::string> instead;  // of its own answers
+  std::map<std::string, std::string> instead;  // replacements for its own answers
   std::string told;                            // all of it
 
   explicit Device(const ControllerSettings& with = {}) : controller(machine, with) {

@@ -1,4 +1,4 @@
-// The fake controller, byte by byte: every row of what PIPython 2.11.0.6 sends, and what a C-887 says to it.
+// The fake controller, byte by byte: every command of PIPython 2.11.0.6, and the answers of a C-887.
 #include "hw_drivers/gcs/fake/controller.h"
 
 #include <random>
@@ -79,7 +79,7 @@ TEST(GcsController, MovesAsTold) {
             1e-12);
 }
 
-// From rest to rest over 20 mm at 50 mm/s and 0.41 m/s2: 0.4 s and 50 / 410 s; the last steps take longer.
+// Rest to rest over 20 mm at 50 mm/s and 0.41 m/s2: 0.4 s and 50 / 410 s; the last steps take longer.
 TEST(GcsController, KeepsItsVelocityAndAcceleration) {
   Bench bench;
   EXPECT_EQ(bench.say("MOV X 20\n"), "");
@@ -165,7 +165,7 @@ TEST(GcsController, LimitsAreSaidAndKept) {
   EXPECT_EQ(bench.error("MOV X " + std::to_string(most - 0.01) + " Z 15"), 7);  // together they are too far
   EXPECT_EQ(bench.say("VMO? X 1.0\n"), "1\n");
   EXPECT_EQ(bench.say("VMO? X 100\n"), "0\n");
-  EXPECT_EQ(bench.say("ERR?\n"), "0\n");  // to ask is no error
+  EXPECT_EQ(bench.say("ERR?\n"), "0\n");  // a question is no error
 }
 
 TEST(GcsController, VelocityAndPivotHaveTheirRules) {
@@ -214,15 +214,15 @@ TEST(GcsController, TakesSeveralLinesAtOnceAndOneInPieces) {
   EXPECT_EQ(bench.say("SVO X 1\nERR?\n"), "0\n");
   EXPECT_EQ(bench.say("\n\r\n\x05POS? X\r\n\x07"), "0\nX=0\n\xB1\n");
   EXPECT_EQ(bench.say("pos?"), "");
-  EXPECT_EQ(bench.say(" x Y\nPOS? X"), "");  // axes are as they are
+  EXPECT_EQ(bench.say(" x Y\nPOS? X"), "");  // axis names are case-sensitive
   EXPECT_EQ(bench.say("\nERR?\n"), "X=0\n15\n");
-  EXPECT_EQ(bench.error("MOV\x05 X 1"), 2);  // a byte is a command only where a line begins
+  EXPECT_EQ(bench.error("MOV\x05 X 1"), 2);  // a byte is a command only at the start of a line
   EXPECT_EQ(bench.say("MOV X"), "");
   bench.controller.forget_line();
   EXPECT_EQ(bench.say("ERR?\n"), "0\n");
 }
 
-// Lines of all kinds, spoiled, in any pieces.
+// Lines of all kinds, damaged, in any pieces.
 TEST(GcsController, BearsWhateverComesAndPiecesDoNotMatter) {
   std::mt19937_64 random(3);
   std::string some =

@@ -104,7 +104,7 @@ TEST(GcsError, EachNumberHasASentenceAndAWayOut) {
 
 std::string said(double number) { return std::string(Text().add(number).view()); }
 
-// What PIPython 2.11.0.6 sends for the same numbers.
+// The text of PIPython 2.11.0.6 for these numbers.
 TEST(GcsText, NumbersHaveTwelveDigits) {
   EXPECT_EQ(said(1.23456789012345), "1.23456789012");
   EXPECT_EQ(said(2.0), "2");
@@ -186,18 +186,18 @@ TEST(GcsCoordinates, EachAxisTurnsByTheRightHandAboutThePivot) {
   expect_near(pose_of({0, 0, 0, 0, 0, kQuarter}, kPlain).q() * Vec3(1, 0, 0), {0, 1, 0});
 }
 
-// First W, then V, then U, each about axes that stand: the same as U, then V, then W about axes that turn.
-// A vector along x: W = 90 makes it y; V = 90 about y leaves that; U = 90 makes it z.
-// In the other order (first U, then V, then W) x stays, becomes -z, stays.
+// First W, then V, then U, each about fixed axes, equals U, then V, then W about axes that turn. A vector
+// along x: W = 90 makes it y; V = 90 about y leaves that; U = 90 makes it z. In the reverse order (first U,
+// then V, then W) x stays, becomes -z, stays.
 TEST(GcsCoordinates, TheOrderIsUThenVThenWOfThePlatform) {
   const Quat turn = pose_of({0, 0, 0, kQuarter, kQuarter * (1 - 1e-9), kQuarter}, kPlain).q();
   EXPECT_LT((turn * Vec3(1, 0, 0) - Vec3(0, 0, 1)).norm(), 1e-8);
-  // U = 90 and W = 90: z of the platform is by U alone -y, and W about it changes nothing.
+  // U = 90 and W = 90: U alone turns z of the platform to -y, and W about it changes nothing.
   expect_near(pose_of({0, 0, 0, kQuarter, 0, kQuarter}, kPlain).q() * Vec3(0, 0, 1), {0, -1, 0});
   expect_near(pose_of({0, 0, 0, kQuarter, 0, kQuarter}, kPlain).q() * Vec3(1, 0, 0), {0, 0, 1});
 }
 
-// The pivot in the tip: it stays where it is, however it turns.
+// The pivot at the tip: the tip stays in place under any rotation.
 TEST(GcsCoordinates, ThePivotStays) {
   const Stand in_tip{{0, 0, 0.1}, {0, 0, 0.2}, {0, 0, 0.3}};
   expect_near(pose_of({0, 0, 0, 0.1, -0.2, 0.3}, in_tip).p(), {0, 0, 0.3});
@@ -228,7 +228,7 @@ TEST(GcsCoordinates, WhereUAndWAreOneItIsRefused) {
   EXPECT_NEAR(at[4], kQuarter - 1e-3, 1e-9);
 }
 
-// The catalogue gives X, Y 50 mm, Z 25 mm, U, V 15, W 30 degrees to both sides; the rig's geometry was
+// The catalogue gives X, Y 50 mm, Z 25 mm, U, V 15, W 30 degrees to both sides. The rig's geometry was
 // derived from that, and gets farther to one side of X.
 TEST(GcsTravel, IsTheCataloguesOfTheRigsMachine) {
   const Reach reach{0.05, 0.41, Hexapod{HexapodGeometry{}}};

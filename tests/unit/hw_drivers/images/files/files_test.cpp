@@ -1,4 +1,4 @@
-// Decoders: what is whole comes out as it was, what is not is one line with the file's name.
+// Decoders return the image of a complete file. For a damaged file they give one line with its name.
 #include "tests/support/files.h"
 
 #include <filesystem>
@@ -106,7 +106,7 @@ TEST(ImageFile, AnImageOfOnePixelIsAnImage) {
   EXPECT_EQ(decoded(jpeg_of(gradient(1, 1))).rgb.size(), 3U);
 }
 
-// Wherever it is cut. A PNG that lacks no more than its last mark is refused, too.
+// The file may end anywhere. The decoder also refuses a PNG that lacks only its last mark.
 TEST(ImageFile, WhatIsCutOffIsRefused) {
   for (const std::string& whole : {sim::png(gradient(40, 30)), jpeg_of(gradient(40, 30))})
     for (std::size_t size = 0; size < whole.size(); size += 1 + size / 50)
@@ -117,20 +117,20 @@ TEST(ImageFile, WhatIsCutOffIsRefused) {
   EXPECT_THAT(refusal(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("is damaged or cut off"));
 }
 
-// Every byte of a PNG is under a checksum, but for those of its length fields, which lead astray.
+// A checksum covers every byte of a PNG except its length fields, which mislead the reader.
 TEST(ImageFile, ADamagedByteOfAPngIsFound) {
   const std::string whole = sim::png(gradient(40, 30));
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string bytes = whole;
     bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
     try {
-      EXPECT_EQ(decoded(bytes).rgb, gradient(40, 30).rgb) << at;  // of no importance, or:
+      EXPECT_EQ(decoded(bytes).rgb, gradient(40, 30).rgb) << at;  // an unimportant byte, or:
     } catch (const Error&) {
     }
   }
 }
 
-// A JPEG has no checksum: damage may pass as another picture, but never as a crash.
+// A JPEG has no checksum: damage may pass as another picture, but must never crash.
 TEST(ImageFile, DamagedJpegsEndInAPictureOrInALine) {
   const std::string whole = jpeg_of(gradient(40, 30));
   for (std::size_t at = 0; at < whole.size(); ++at)
@@ -169,7 +169,7 @@ TEST(ImageFile, NamesOfImages) {
   EXPECT_FALSE(is_image_name("a.bmp") || is_image_name("png") || is_image_name("a.png.part"));
 }
 
-// Folders of stereo images: which file belongs to which, and what is missing, before anything runs.
+// Folders of stereo images: the pairing of files and the missing files, before anything runs.
 
 class PairFolder : public testing::Test {
  protected:
@@ -191,7 +191,7 @@ TEST_F(PairFolder, PairsInNaturalOrder) {
   for (const char* name :
        {"left10.png", "right10.png", "left9.png", "right9.png", "left08.png", "right08.png"})
     put(name);
-  put("chessboard.png", 3, 3);  // of no side: not asked
+  put("chessboard.png", 3, 3);  // no side in its name: ignored
   const PairList list = list_pairs(root(), Layout::pairs);
   ASSERT_EQ(list.pairs.size(), 3U);
   EXPECT_EQ(list.pairs[0].left, path("left08.png"));
@@ -262,9 +262,9 @@ TEST_F(PairFolder, TwoThatWouldBeTheSame) {
   EXPECT_THAT(refusal(Layout::pairs), HasSubstr("is the same image by its name"));
 }
 
-// Two pairs of each, as people and tools name them.
+// Two pairs for each naming style of people and tools.
 struct Naming {
-  const char *left, *right;  // with a number for {}
+  const char *left, *right;  // patterns with a number for {}
 };
 class PairNaming : public PairFolder, public testing::WithParamInterface<Naming> {
  protected:

@@ -1,4 +1,4 @@
-// A camera that plays files: which frame comes when, and what it says when there are no more.
+// A camera that plays files: the frame that comes at each time, and the message at the end.
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -101,7 +101,7 @@ TEST_F(ImageCameraTest, FrameNIsOfNOverTheRateAfterTheFirstPoll) {
   }
 }
 
-// Polled less often than frames come: the newest, and those between are passed over.
+// Polled less often than frames come: the camera gives the newest and skips the frames in between.
 TEST_F(ImageCameraTest, TheNewestThatIsDue) {
   ImageCamera camera(reel_, notes_, true);
   const std::vector<Seen> all = seen(camera, 0.0, 0.6, 0.2);
@@ -166,7 +166,7 @@ TEST_F(ImageCameraTest, WhatCanBeKnownBeforehandIsRefusedBeforehand) {
   EXPECT_THAT(refusal(), AllOf(StartsWith(folder_.file("left4.png")), HasSubstr("has no right image")));
   reel_.path = folder_.file("none");
   EXPECT_THAT(refusal(), AllOf(StartsWith(folder_.file("none")), HasSubstr("is not there")));
-  // Nobody waits for a named pipe.
+  // The camera never waits for a named pipe.
   reel_.path = folder_.file("pipe");
   ASSERT_EQ(mkfifo(reel_.path.c_str(), 0600), 0);
   EXPECT_THAT(refusal(), HasSubstr("is neither a file nor a folder; expected a folder of images or a video"));
@@ -187,7 +187,7 @@ TEST_F(ImageCameraTest, IsGoneAtOnceWhereverItIs) {
 // ---- on the wall clock: never a wait
 // -------------------------------------------------------------------------
 
-// Slower than its rate, and after some frames it waits for good.
+// A source slower than its rate, which waits for good after some frames.
 class SlowSource final : public FrameSource {
  public:
   static constexpr std::chrono::seconds kStall{10};
@@ -213,9 +213,9 @@ class SlowSource final : public FrameSource {
   std::atomic<bool> stopped_ = false;
 };
 
-// Run far ahead of the wall clock: every frame is waited for, however slowly it is read.
+// Ahead of the wall clock the run waits for every frame, however slow the reading.
 TEST(Playback, ARunThatKeepsNoWallClockWaits) {
-  std::string said;  // by a thread of its own, which ends with the playback
+  std::string said;  // set by the reader thread, which ends with the playback
   {
     Playback playback(
         std::make_unique<SlowSource>(-1), 1000.0, [&](const std::string& line) { said += line; }, true);
@@ -223,11 +223,11 @@ TEST(Playback, ARunThatKeepsNoWallClockWaits) {
     EXPECT_FALSE(playback.take(Time(Duration(4'000'000))));
     EXPECT_EQ(playback.state(), Playback::State::ended);
   }
-  EXPECT_EQ(said, "slow: ended after 4 frames");  // and nothing of a frame that came late
+  EXPECT_EQ(said, "slow: ended after 4 frames");  // and nothing about a frame that came late
 }
 
-// The wall's time is counted here, and begins when the frames before the stall are there: however busy the
-// machine is, no other one comes late.
+// The test counts the wall's time, which begins after the frames before the stall. So no other frame is late,
+// however busy the machine is.
 TEST(Playback, OnTheWallClockNobodyWaitsForAStall) {
   std::string said;
   std::mutex mutex;
@@ -240,7 +240,7 @@ TEST(Playback, OnTheWallClockNobodyWaitsForAStall) {
         said += line;
       },
       false);
-  ASSERT_TRUE(eventually([&] { return slow.asked() == 4; }));  // for the one that stalls
+  ASSERT_TRUE(eventually([&] { return slow.asked() == 4; }));  // waiting for the one that stalls
   const auto begin = std::chrono::steady_clock::now();
   const auto take = [&](int ms) { return playback.take(Time(Duration(1'000'000 * ms))); };
   for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(take(10 * frame)) << frame;
@@ -260,7 +260,7 @@ TEST(Playback, OnTheWallClockNobodyWaitsForAStall) {
   EXPECT_TRUE(eventually(said_late));
 }
 
-// A video through ffmpeg, of which a shell script plays the part: what is read, and that no child is left.
+// A video through ffmpeg, for which a shell script stands in: the frames, and that no child process remains.
 
 class Video : public testing::Test {
  protected:
@@ -279,7 +279,7 @@ class Video : public testing::Test {
     std::ifstream(folder_.file("pid")) >> pid;
     return pid > 0 && kill(pid, 0) == 0;  // a zombie is there, too
   }
-  // Of opening it and reading it to the end.
+  // Error of opening the video and reading it to the end.
   [[nodiscard]] std::string refusal() const {
     return test::refusal([&] {
       const std::unique_ptr<FrameSource> source = open_reel(reel_);
@@ -334,7 +334,7 @@ TEST_F(Video, TheChildIsGoneWithTheSource) {
   EXPECT_FALSE(child_is_there());
 }
 
-// A script that waits for another program: both are ended, or the pipe would stay open.
+// A script that waits for another program: both must end, or the pipe would stay open.
 TEST_F(Video, StopEndsAReadThatWaits) {
   ffmpeg(kFrame + "sleep 1000\n");
   const std::unique_ptr<FrameSource> source = open_reel(reel_);

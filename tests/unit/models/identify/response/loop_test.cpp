@@ -1,4 +1,4 @@
-// From a loop to a response with stops: least squares by hand, exact data, the file as text.
+// A response with stops from a loop: least squares by hand, exact data, the file as text.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -40,8 +40,8 @@ TEST(LeastSquares, NonNegativeAsByHand) {
   EXPECT_THROW(static_cast<void>(constrained_minimum(q, more, 1e-12)), Error) << "x >= 1 and x <= -1";
 }
 
-// Readings that a response with stops made are given back by the fit: the same force everywhere, weights
-// where they were. Two turns, so that one loop tells radii apart.
+// The fit recovers a response with stops from its own readings: equal force everywhere, equal weights. Two
+// turns let one loop separate the radii.
 TEST(StopsFit, FindsTheResponseThatMadeTheReadings) {
   const StopsFit grid =
       fit_stops(std::vector<std::vector<LoopPoint>>{test::plant_loop({}, 4e-3, kLimit)}, kLimit, kFloor, 1e5);
@@ -85,7 +85,7 @@ TEST(StopsFit, KeepsTheCeiling) {
   }
 }
 
-// The same text gives the same bytes; the ball itself is within the intervals.
+// Equal text gives equal bytes; the ball itself is within the intervals.
 TEST(LoopFit, IsDeterministicAndKnowsTheCurve) {
   const std::string csv = test::plant_loop_csv({}, 4e-3, kLimit);
   const LoopFit a = fit_loop(parse_loop(csv, "a.csv", kLimit), {kLimit, kFloor, kUnset});
@@ -93,10 +93,10 @@ TEST(LoopFit, IsDeterministicAndKnowsTheCurve) {
   EXPECT_EQ(response_text(a.response, a.source), response_text(b.response, b.source));
   EXPECT_EQ(a.presses, 5U);
   EXPECT_THAT(a.source, HasSubstr("SYNTHETIC"));
-  EXPECT_LT(a.repeatability, 0.05);  // N: five times the same plant, noise of 0.0125 N and steps of 0.025 N
+  EXPECT_LT(a.repeatability, 0.05);  // N: one plant five times, noise of 0.0125 N and steps of 0.025 N
   EXPECT_GT(a.repeatability, 0.0);
   ASSERT_EQ(a.press.curve.size(), 6U);
-  // The ball's force without noise, which no polynomial follows exactly, is inside of the intervals.
+  // The ball's force without noise, which no polynomial follows exactly, is inside the intervals.
   for (const LoopPoint& p : test::plant_loop({}, 4e-3, kLimit)) {
     const double mm = p.deflection * 1e3;
     const auto i = static_cast<std::size_t>(std::lround(mm));
@@ -113,7 +113,7 @@ TEST(LoopFit, IsDeterministicAndKnowsTheCurve) {
   EXPECT_GE(a.stops.rmse, a.stops.rmse_free * (1.0 - 1e-6));
 }
 
-// Positions in steps of 30 um and a pause at the top: the branches are found all the same.
+// Positions in steps of 30 um and a pause at the top: the reader still finds the branches.
 TEST(LoopCsv, CoarsePositionsAndAPauseDoNotConfuseTheBranches) {
   std::string csv = "repeat,force_N,other,deflection_mm,time_s\r\n";
   int row = 0;
@@ -189,11 +189,11 @@ TEST(LoopCsv, RefusesWithThePlaceInOneLine) {
   }
 }
 
-// The zero, the begin of contact and the branches of a press: by hand, on loops without noise.
+// The zero, the start of contact and the branches of a press: by hand, on loops without noise.
 
 constexpr double kPressedTo = 6e-3;
 
-// Deflection over time, s and mm, straight from one to the next, read at 1 kHz.
+// Deflection over time, s and mm, straight from one point to the next, read at 1 kHz.
 struct Turn {
   double time, deflection;
 };
@@ -222,7 +222,7 @@ std::string csv(const std::vector<std::vector<Turn>>& presses, const Force& forc
 }
 const std::vector<Turn> kPress{{0, -2}, {2, 6}, {4, -2}};
 
-// 1 N/mm, and how it differs from that.
+// 1 N/mm, and the deviation from it.
 LoopData read(const std::vector<std::vector<Turn>>& presses, const Force& force, bool marks_all = true) {
   return parse_loop(csv(presses, force, marks_all), "loop.csv", kPressedTo);
 }
@@ -252,7 +252,7 @@ TEST(LoopContact, AForceBeforeContactIsSubtracted) {
   expect_line(loop);
 }
 
-// From 0.1 N on it rises by 0.05 N/s: the zero is a line between before and after each press.
+// The zero rises by 0.05 N/s from 0.1 N on: it is a line between before and after each press.
 TEST(LoopContact, AZeroThatDriftsIsSubtractedAtEachTime) {
   const LoopData loop = read(
       {kPress, kPress}, [](double d, double t) { return line(d) + 0.1 + 0.05 * t; }, false);
@@ -262,7 +262,7 @@ TEST(LoopContact, AZeroThatDriftsIsSubtractedAtEachTime) {
   expect_line(loop, 5e-3);
 }
 
-// A drift of 0.2 N/s moves the zero by 0.8 N during a press of 4 s, of 6 N.
+// A drift of 0.2 N/s moves the zero by 0.8 N during a press of 4 s and 6 N.
 TEST(LoopContact, AZeroThatDriftsFarWithinAPressIsSubtracted) {
   for (const std::size_t presses : {1U, 2U, 3U})
     for (const double rate : {0.2, -0.2, 1.0})
@@ -278,7 +278,7 @@ TEST(LoopContact, AZeroThatDriftsFarWithinAPressIsSubtracted) {
       }
 }
 
-// The object holds on to the probe with 0.5 N: that is no zero, and nothing moves it.
+// The object holds on to the probe with 0.5 N: that is no zero, and the reader does not subtract it.
 TEST(LoopContact, AnotherForceAfterAPressIsToldAndNotSubtracted) {
   const auto clings = [](double d, double t) {
     return std::fmod(t, 5.0) > 2.0 ? d > 0.0 ? d : -0.5 : line(d);
@@ -309,7 +309,7 @@ TEST(LoopContact, WithoutAZeroAReleaseHasToEndWhereThePressBegan) {
   EXPECT_FALSE(read({press}, [](double d, double) { return line(d); }).doubted);
 }
 
-// A force sensor that goes up to 4 N, with its noise before its limit or after it.
+// A force sensor with a range of 4 N, with its noise before its limit or after it.
 TEST(LoopContact, ASensorAtItsLimitIsRefused) {
   const auto noise = [](double t) { return 0.02 * std::sin(1e6 * t); };
   for (const bool after : {true, false}) {
@@ -322,7 +322,7 @@ TEST(LoopContact, ASensorAtItsLimitIsRefused) {
                                             "give --limit-mm (3.9|4)"));
     EXPECT_EQ(parse_loop(csv({kPress, kPress}, clipped), "loop.csv", 3.9e-3).notes.size(), 0U);
   }
-  // An edge that is barely cut is no plateau.
+  // A slightly cut peak is no plateau.
   for (const double depth : {0.3, 0.05, 0.0})
     EXPECT_EQ(
         refusal(csv({kPress},
@@ -359,7 +359,7 @@ TEST(LoopContact, ContactThatBeginsElsewhereIsShifted) {
   }
 }
 
-// A force that leaves its zero slowly does not say where: nothing is shifted.
+// A force that leaves its zero slowly gives no place of contact: the reader does not shift it.
 TEST(LoopContact, ASoftBeginIsNoOffset) {
   const LoopData loop = read({kPress}, [](double d, double) { return std::pow(line(d), 1.5); });
   EXPECT_THAT(loop.notes, IsEmpty());
@@ -435,7 +435,7 @@ TEST(LoopBranches, ATremorOfAHoldBelongsToNeither) {
       std::string text = "time_s,deflection_mm,force_N,repeat\n";
       for (int i = 0; i <= 14000; ++i) {
         const double t = 1e-3 * i, d = way(t), from = (held_at + 2.0) / 4.0;
-        // The first stroke up to its turn still is of the press.
+        // The first stroke up to its turn still belongs to the press.
         const bool holds = t > from + 0.03 && t < from + 10.0;
         text += fmt::format("{:.3f},{:.6f},{:.6f},1\n", t, d,
                             holds      ? 5.0
@@ -453,7 +453,7 @@ TEST(LoopBranches, ATremorOfAHoldBelongsToNeither) {
     }
 }
 
-// In, part of the way back and in again: that piece is on neither curve.
+// The probe goes in, part of the way back and in again: that piece is on neither curve.
 TEST(LoopBranches, AMinorLoopBelongsToNeither) {
   const std::vector<Turn> press{{0, -2}, {1.5, 4}, {2, 2}, {3, 6}, {4, 2}, {4.5, 4}, {6, -2}};
   const LoopData loop = read({press}, [](double d, double t) {
@@ -475,7 +475,7 @@ TEST(LoopBranches, PressesUnderOneNumberAreCountedSingly) {
   expect_line(loop);
 }
 
-// What repeats alone say about a force at a deflection: Student's interval of their mean.
+// The accuracy of a force at a deflection from repeats alone: Student's interval of their mean.
 
 // Presses of one line, 2 N/mm up and 1.9 N/mm back; each as a whole higher by `shifts`, N.
 LoopData presses(const std::vector<double>& shifts) {

@@ -1,4 +1,4 @@
-// A stereo head out of chessboards: of a head that is known to the last digit, and of one that nobody knows.
+// Calibration of a stereo head from chessboards: of a head known to the last digit, and of an unknown one.
 #include "models/identify/stereo/stereo_calibration.h"
 
 #include <filesystem>
@@ -37,7 +37,7 @@ void blur(std::vector<PairCorners>& pairs, double sigma) {
       for (Eigen::Vector2d& c : *corners) c += Eigen::Vector2d(noise(engine), noise(engine));
 }
 
-// In px, mm and rad.
+// Tolerances in px, mm and rad.
 void expect_near(const StereoRig& found, const StereoRig& is, double focal, double centre, double place,
                  double turn) {
   for (const auto& [f, i] : {std::pair{found.left, is.left}, {found.right, is.right}}) {
@@ -54,7 +54,7 @@ std::string refusal(const std::vector<PairCorners>& pairs) {
   return test::refusal([&] { (void)calibrate_stereo(pairs, kDrawnBoard, 640, 480); });
 }
 
-// Corners come and go as floats: a thousandth of a pixel is all that they tell.
+// Corners are stored as floats: they resolve only a thousandth of a pixel.
 TEST(StereoCalibration, FindsAKnownHeadInExactCorners) {
   const StereoRig is = known_head(640, 480);
   const StereoCalibration found = calibrate_stereo(exact_pairs(is, 10), kDrawnBoard, 640, 480);
@@ -70,8 +70,8 @@ TEST(StereoCalibration, FindsAKnownHeadInExactCorners) {
   for (const PairResidual& pair : found.pairs) EXPECT_NEAR(pair.square, kDrawnBoard.square, 1e-6);
 }
 
-// What 0.2 px of noise leaves: three standard deviations, as the fit has them, and residuals that are the
-// noise itself. A centre that is off by a pixel is made up for by a turn of 1 / focal length.
+// The error from 0.2 px of noise: three standard deviations of the fit, and residuals equal to the noise. A
+// turn of 1 / focal length compensates a centre that is off by a pixel.
 TEST(StereoCalibrationLong, SaysHowWellNoisyCornersFit) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 13);
@@ -86,7 +86,7 @@ TEST(StereoCalibrationLong, SaysHowWellNoisyCornersFit) {
   EXPECT_LT(found.focal_deviation, 0.005);
 }
 
-// A pair that another head has taken is told from the rest, and by the calibration that has not seen it.
+// A pair from another head stands out from the rest, and in the calibration that excludes it.
 TEST(StereoCalibration, APairOfAnotherHeadStandsOut) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 10);
@@ -103,7 +103,7 @@ TEST(StereoCalibration, APairOfAnotherHeadStandsOut) {
     }
 }
 
-// Left and right of different moments: nothing fits, but without that pair all does.
+// Left and right from different moments: nothing fits, but everything fits without that pair.
 TEST(StereoCalibrationLong, APairThatIsNoneIsFound) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 8);
@@ -127,21 +127,21 @@ TEST(StereoCalibration, CornersOfDrawnBoardsAreFound) {
   ASSERT_TRUE(left && right);
   PairCorners found = in_one_order(*left, *right, kDrawnBoard);
   const PairCorners are = projected(is, kDrawnBoard, X_CO);
-  if ((found.left.front() - are.left.front()).norm() > 5.0) {  // from its other end
+  if ((found.left.front() - are.left.front()).norm() > 5.0) {  // counted from its far end
     std::reverse(found.left.begin(), found.left.end());
     std::reverse(found.right.begin(), found.right.end());
   }
   double sum = 0.0;
   for (std::size_t i = 0; i < are.left.size(); ++i)
     sum += (found.left[i] - are.left[i]).squaredNorm() + (found.right[i] - are.right[i]).squaredNorm();
-  EXPECT_LT(std::sqrt(sum / static_cast<double>(4 * are.left.size())), 0.1);  // px, of each coordinate
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(4 * are.left.size())), 0.1);  // px, each coordinate
 }
 
 TEST(StereoCalibration, FindsNoBoardWhereThereIsNone) {
   EXPECT_FALSE(find_corners(Image(640, 480).view(), kDrawnBoard));
   EXPECT_FALSE(find_corners(Image(1, 1).view(), kDrawnBoard));
   const test::DrawnPair images = drawn(known_head(320, 240), {8, 6, 0.024}, tilted_boards(kDrawnBoard, 1)[0]);
-  EXPECT_FALSE(find_corners(images.left.view(), kDrawnBoard));  // has 8 x 6
+  EXPECT_FALSE(find_corners(images.left.view(), kDrawnBoard));  // the board has 8 x 6
 }
 
 TEST(StereoCalibration, RunsAgainstEachOtherAreTurnedRound) {
@@ -165,7 +165,7 @@ TEST(StereoCalibration, CornersOfASquareBoardAreTurnedRound) {
   }
 }
 
-// What a lens with k3 bends is found in noisy corners, and places are right; a lens without has none.
+// Noisy corners suffice to find the k3 of a lens, and places are right; a lens without k3 gets none.
 double largest_place_error(const StereoRig& found, const StereoRig& is,
                            const std::vector<PairCorners>& pairs) {
   double largest = 0.0;
@@ -200,7 +200,7 @@ TEST(StereoCalibrationLong, FitsK3WhereALensHasOne) {
   }
 }
 
-// No numbers of this model describe a fisheye: pairs left out do not fit, rings of corners lie off.
+// The model cannot describe a fisheye: pairs left out do not fit, rings of corners lie off.
 TEST(StereoCalibrationLong, AFisheyeDoesNotFit) {
   StereoRig is = known_head(640, 480);
   for (Lens* lens : {&is.left, &is.right}) lens->focal_x *= 0.4, lens->focal_y *= 0.4;
@@ -221,7 +221,7 @@ TEST(StereoCalibration, UprightImagesAreCalibrated) {
   expect_near(found.rig, is, 0.01, 0.01, 0.002, 2e-5);
 }
 
-// Where a board of another size stands, its size is found, and no part of it passes for the board.
+// The search finds the size of a board of another size, and accepts no part of it as the board.
 TEST(StereoCalibration, BoardsOfOtherSizesAreMeasured) {
   for (const Board& board : {Board{9, 6, 0.024}, Board{7, 7, 0.024}}) {
     SCOPED_TRACE(board.columns);
@@ -260,7 +260,7 @@ TEST(StereoCalibration, RefusesWhatTellsNothing) {
   EXPECT_THAT(refusal(exact_pairs(below, 6)), HasSubstr("stands below the first"));
 }
 
-// The rays of exact corners meet, in the place of the corner.
+// The rays of exact corners meet at the corner.
 TEST(StereoCalibration, TriangulatesInMetres) {
   const StereoRig is = known_head(640, 480);
   const Pose<'C', 'O'> X_CO = tilted_boards(kDrawnBoard, 2)[1];
@@ -279,10 +279,10 @@ TEST(StereoCalibration, TheSamePairsGiveTheSameBits) {
 }
 
 // The 13 real pairs of chessboards of Debian's opencv-doc (./check fetches them into .deps/chessboards): the
-// whole way from files to a head, judged by pairs that the calibration has not seen.
+// whole way from files to a head, judged by pairs outside the calibration.
 
 const std::string kFolder = tests::source_dir() + "/.deps/chessboards";
-const Board kBoard{9, 6, 0.025};  // the sheet's squares are of no known size; this one is for the report
+const Board kBoard{9, 6, 0.025};  // the sheet's squares have no known size; this one is for the report
 
 std::vector<PairCorners> real_pairs() {
   images::PairReader reader(images::list_pairs(kFolder, images::Layout::pairs));
@@ -316,13 +316,14 @@ TEST(RealPairs, AHeadThatFitsPairsThatItHasNotSeen) {
   }
   fmt::print("all: rms {:.3f} px; left out: epipolar {:.3f}, rows {:.3f} px\n", found.rms, found.epipolar,
              found.rows);
-  EXPECT_EQ(found.k3, K3::zero);  // of the right lens k3 is 2.5 deviations from 0
+  EXPECT_EQ(found.k3, K3::zero);  // k3 of the right lens is 2.5 deviations from 0
   EXPECT_LE(found.rms, 0.6);
   EXPECT_LE(found.epipolar, 0.6);
   EXPECT_LE(found.rows, 0.6);
 }
 
-// Whoever counts squares or misses a row is told how many corners the sheet has, and no part passes for it.
+// The error message states the number of corners on the sheet if the user counts squares or misses a row. No
+// part of the sheet passes for it.
 TEST(RealPairs, ABoardOfAnotherSizeIsMeasured) {
   if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no pairs of chessboards in " << kFolder;
   images::PairReader reader(images::list_pairs(kFolder, images::Layout::pairs));
@@ -338,7 +339,8 @@ TEST(RealPairs, ABoardOfAnotherSizeIsMeasured) {
   }
 }
 
-// The epipolar error is of the head and not of the image: a head that is turned by half a degree has 4.6 px.
+// The epipolar error belongs to the head and not to the image: a head that is turned by half a degree has 4.6
+// px.
 TEST(RealPairs, AWrongHeadDoesNotFit) {
   if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << "no pairs of chessboards in " << kFolder;
   const std::vector<PairCorners> pairs = real_pairs();

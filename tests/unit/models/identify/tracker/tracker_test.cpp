@@ -1,5 +1,4 @@
-// A tracker's log and the tip of a tool that pivots: what is read, fitted, and refused with its place in one
-// line.
+// A tracker's log and the tip of a tool that pivots: reading, fit, and refusals with the place in one line.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -24,7 +23,7 @@ using testing::AllOf, testing::HasSubstr;
 
 const std::string kHead = "time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm\n";
 
-// Rows from `first` to `last`, one each ms, and a packet each `every` rows, each a little different.
+// Rows from `first` to `last`, one each ms, and a packet each `every` rows, each slightly different.
 std::string rows(int first, int last, int every = 10, int step = 1) {
   std::string text;
   for (int n = first; n < last; n += step) {
@@ -89,7 +88,7 @@ TEST(TrackerLog, TheTipIsWhereItWasAtItsOwnStamp) {
   std::string text = "tip_time_s," + kHead;
   for (int n = 0; n < 300; ++n) {
     const int said = n / 2 * 2;
-    const bool lost = n > 120 && n <= 270;  // nothing was heard of it: the last stands on
+    const bool lost = n > 120 && n <= 270;  // no packet: the last one stays
     text += fmt::format("{:.3f},{:.3f},{},0,0,{}\n", (lost ? 120 : said) * 1e-3 - 4e-3, n * 1e-3,
                         lost ? 120 : said, n % 10 == 0 ? fmt::format("{},0,0", n) : ",,");
   }
@@ -149,9 +148,9 @@ TEST(TrackerLog, RefusesWithThePlaceInOneLine) {
   EXPECT_EQ(refused_log(good, 1000.0), "");
 }
 
-// Pivot calibration by hand: exact poses, a constant bias, a slip, what is refused; and its log as a file.
+// Pivot calibration by hand: exact poses, a constant bias, a slip, refusals; and its log as a file.
 
-const Vec3 kTip(0.003, -0.002, -0.120), kDimple(0.1, -0.9, 0.6);  // in T and in C, m
+const Vec3 kTip(0.003, -0.002, -0.120), kDimple(0.1, -0.9, 0.6);  // tip in T and dimple in C, m
 
 // `count` poses at 50 Hz that swing to either side by these angles about x, y and z.
 std::vector<PivotPose> swung(const Vec3& sides, int count = 500) {
@@ -182,7 +181,8 @@ TEST(PivotFit, ExactPosesGiveTheTip) {
 }
 
 TEST(PivotFit, TellsByHowMuchTheDirectionsTurned) {
-  // Half of the time 20 deg to one side about x and half to the other, and likewise 10 deg about y.
+  // Half of the time 20 deg to one side about x and half to the opposite side, and 10 deg about y in the same
+  // way.
   std::vector<PivotPose> poses;
   for (int i = 0; i < 400; ++i) {
     const double x = i % 2 == 0 ? 20 : -20, y = i / 2 % 2 == 0 ? 10 : -10;
@@ -191,12 +191,12 @@ TEST(PivotFit, TellsByHowMuchTheDirectionsTurned) {
   }
   const PivotFit fit = models::fit_pivot(poses);
   EXPECT_NEAR(fit.least_turned.e().cwiseAbs().x(), 1.0, 1e-6);
-  EXPECT_NEAR(fit.swing[0], 10 * kDegree, 1e-6);  // x, by the turning about y
+  EXPECT_NEAR(fit.swing[0], 10 * kDegree, 1e-6);  // x, from the turning about y
   EXPECT_LT(fit.swing[1], fit.swing[2]);
   EXPECT_LT((fit.point().e() - kTip).norm(), 1e-12);
 }
 
-// The tip hangs on differences alone; where the camera is believed to be moves the dimple.
+// The tip depends on differences alone; the believed place of the camera moves the dimple.
 TEST(PivotFit, AConstantBiasMovesTheDimpleAndNotTheTip) {
   const Vec3 bias(0.0779e-3, 0.0659e-3, 0.1192e-3);
   std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
@@ -207,7 +207,7 @@ TEST(PivotFit, AConstantBiasMovesTheDimpleAndNotTheTip) {
   EXPECT_LT((fit.dimple.e() - kDimple - bias).norm(), 1e-12);
 }
 
-// 16.5 s about x and 3.5 s about y, in which the tip is out of its dimple: too few to be refused as a slip.
+// 16.5 s about x and 3.5 s about y, in which the tip is out of its dimple: too few poses to count as a slip.
 TEST(PivotFit, TheSwingOfWhatIsLeftHasToTellTheTip) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
@@ -241,7 +241,7 @@ TEST(PivotFit, TellsTheSwingOfWhatIsLeft) {
   EXPECT_LT((fit.point().e() - kTip).norm(), 1e-9);
 }
 
-// One turn about y, of 0.4 s, in 20 s about x: nothing says how wrong it is.
+// One turn about y, of 0.4 s, in 20 s about x: its error is unknown.
 TEST(PivotFit, OneShortTurnHasNoInterval) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
@@ -254,7 +254,7 @@ TEST(PivotFit, OneShortTurnHasNoInterval) {
                                        HasSubstr("expected turns that last; swing the tool")));
 }
 
-// A tip that slips out for a tenth of the time by 5 mm, and poses that are nowhere.
+// A tip that slips out by 5 mm for a tenth of the time, and poses without a position.
 TEST(PivotFit, ASlipIsLeftOutAndCounted) {
   std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -269,7 +269,7 @@ TEST(PivotFit, ASlipIsLeftOutAndCounted) {
   EXPECT_LT(fit.most, 0.3e-3);
 }
 
-// Poses of every second: a neighbour tells nothing of their turning.
+// One pose a second: a neighbour gives no information about their turning.
 TEST(PivotFit, PosesThatAreFarApartDo) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 40; ++i) {
@@ -292,7 +292,8 @@ TEST(PivotFit, TellsWhatItWeighedPosesWith) {
   EXPECT_TRUE(models::fit_pivot(swung(kDegree * Vec3(30, 30, 0))).neighbours);
 }
 
-// At rest for so long, with a tenth of the noise, and then swung; and 30 mm off for the last `slip` seconds.
+// The tool rests for this long, with a tenth of the noise, then swings, and is 30 mm off for the last `slip`
+// seconds.
 std::vector<PivotPose> rested(double rest, double slip = 0.0) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
@@ -318,7 +319,7 @@ TEST(PivotFit, RefusesALogThatIsMostlyRest) {
       refusal_of(rested(17.0)),
       AllOf(testing::ContainsRegex("rested for most of the log: it turned for (2.9|3)[0-9]* s of 20 s"),
             HasSubstr("expected at least 4 s; swing it about its tip for longer")));
-  // 3 s are 15 % of the log, and 30 % of what turns.
+  // 3 s are 15 % of the log, and 30 % of its turning part.
   EXPECT_THAT(refusal_of(rested(10.0, 3.0)),
               AllOf(HasSubstr("the tip did not stay"), HasSubstr("30 % more")));
 }
@@ -366,8 +367,8 @@ TEST(PivotFit, RefusesATipThatDidNotStay) {
   EXPECT_THAT(refusal_of(poses), AllOf(HasSubstr("it wandered by up to 30 mm"), HasSubstr("30 % more")));
 }
 
-// A reference in the dimple is the origin of all poses: a tool of 0.4 m is no inverted one, and one of 1.1 m
-// is doubted and not refused.
+// A reference in the dimple is the origin of all poses: a tool of 0.4 m is not inverted, and one of 1.1 m
+// gives a warning and no refusal.
 TEST(PivotDoubts, AFrameWithItsOriginAtTheDimpleIsNotInverted) {
   const auto of_length = [](double more, const Vec3& dimple) {
     std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
@@ -427,7 +428,7 @@ TEST(PivotLog, RefusesANameThatIsNotUtf8) {
                            "fspitze",
                            "\xE2\x82\xAC", "\xF0\x9F\x96\x8A", "\xED\x9F\xBF"})
     EXPECT_EQ(read(good), good);
-  // Latin-1, one that is cut, too long, a surrogate, beyond the last: one that no text has.
+  // Latin-1, a cut one, too long, a surrogate, beyond the last, and one that occurs in no text.
   for (const char* bad : {"Pr\xFC"
                           "fspitze",
                           "\xE2\x82", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\x80",

@@ -1,4 +1,5 @@
-// The ball behind loops: what whitening is by hand, exact data give the ball back, what is not told is said.
+// The ball behind loops: whitening by hand, exact data that give the ball back, and the report of
+// undetermined parameters.
 #include "trial/identify/ball/ball_fit.h"
 
 #include <cmath>
@@ -30,7 +31,7 @@ TEST(DriftingNoise, WhitensAsByHand) {
   EXPECT_NEAR(logs, std::log(2.25) + std::log(variance), 1e-12);
 }
 
-// A zero that wanders by 0.3 a second's root under readings of 1: the walk is found, and how surely.
+// A zero that wanders by 0.3 a second's root under readings of 1: the fit finds the walk and its uncertainty.
 TEST(DriftingNoise, FindsTheWalk) {
   constexpr double kWalk = 0.09;
   sim::Stream random(3, "walk");
@@ -65,7 +66,7 @@ TEST(BallFit, GivesTheBallBackFromExactReadings) {
   expect_ball(trial::fit_ball(trial::BallLoops({test::ball_pushes(ball, {})})), {ball, 0.0}, 1e-6);
 }
 
-// Far from where the search begins: 8 MPa, 75 kPa; the thickness of its felt is known.
+// Far from the start of the search: 8 MPa, 75 kPa; the thickness of its felt is known.
 TEST(BallFit, FindsABallAsPlayedWith) {
   const sim::BallParameters ball = sim::ball_set(sim::BallSet::regulation);
   trial::BallFitOptions options;
@@ -73,8 +74,8 @@ TEST(BallFit, FindsABallAsPlayedWith) {
   expect_ball(trial::fit_ball(trial::BallLoops({test::ball_pushes(ball, {})}), options), {ball, 0.0}, 1e-6);
 }
 
-// Two runs at different speeds are one ball; it stands 0.1 mm nearer than thought. The way in before the
-// first reading is then guessed, so not to the last digit.
+// Two runs at different speeds are one ball, which stands 0.1 mm nearer than assumed. The path before the
+// first reading is then guessed, so the last digit differs.
 TEST(BallFit, FindsWhereTheBallStands) {
   test::PushProgramme fast{20e-3, 6e-3, 0.0};
   test::PushProgramme slow{4e-3, 6e-3, 4.0};
@@ -105,8 +106,8 @@ TEST(BallFit, JacobianAgainstCentralDifferences) {
   }
 }
 
-// A push without a dwell is over in 0.6 s: it knows nothing of what takes 5 s, nor what makes the felt soft,
-// its modulus or its thickness. Two with a dwell, the thickness given, tell all.
+// A push without a dwell lasts 0.6 s: it does not determine a process of 5 s, nor whether modulus or
+// thickness makes the felt soft. Two with a dwell, the thickness given, determine all.
 TEST(BallFit, SaysWhatLoopsDoNotTell) {
   trial::Pushes pushes = test::ball_pushes({}, {20e-3, 6e-3, 0.0, 2.0, 1});
   test::add_noise(pushes, 1);
@@ -124,7 +125,7 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
     EXPECT_EQ(e.known(), trial::Known::well) << trial::ball_numbers()[e.number].name << " " << e.width();
 }
 
-// Without friction its travel is nothing.
+// Without friction its travel is undetermined.
 TEST(BallFit, AnIntervalMayBeInfinite) {
   sim::BallParameters ball{.friction = 0.0};
   trial::Pushes pushes = test::ball_pushes(ball, {});
@@ -137,7 +138,7 @@ TEST(BallFit, AnIntervalMayBeInfinite) {
     EXPECT_EQ(std::isinf(e.interval.half), e.number == trial::kFrictionTravel);
 }
 
-// A wall that is taken for 1 % thicker than it is: the other numbers give way as said.
+// A wall assumed 1 % thicker than it is: the remaining parameters shift as stated.
 TEST(BallFit, SaysWhatItOwesToWhatIsHeld) {
   const trial::Pushes pushes = test::ball_pushes({}, {});
   const trial::BallFit right = trial::fit_ball(trial::BallLoops({pushes}));

@@ -1,5 +1,5 @@
-// The seam between the guided registration and any stereo camera: here cameras and finders that are made up.
-// The name ends so because it needs vision.
+// The seam between the guided registration and any stereo camera, here with made-up cameras and finders. The
+// file's name ends in _camera_test because it needs vision.
 #include <gtest/gtest.h>
 
 #include "trial/identify/camera/registration_rig.h"
@@ -7,7 +7,7 @@
 namespace enc::trial {
 namespace {
 
-// A frame each time it is asked, until it stalls.
+// A frame for each call, until it stalls.
 class FakeCamera final : public StereoCamera {
  public:
   explicit FakeCamera(int frames) : frames_(frames) {}
@@ -23,7 +23,7 @@ class FakeCamera final : public StereoCamera {
   int frames_;
 };
 
-// Sees the ball a metre away in each frame but every `misses`-th.
+// Finds the ball a metre away in each frame but every `misses`-th.
 class FakeFinder final : public BallFinder {
  public:
   explicit FakeFinder(int misses) : BallFinder({}, {}), misses_(misses) {}

@@ -1,5 +1,5 @@
 // A machine that carries a clamped tool through the poses of a calibration, in the twin: it gets there, it
-// rests, and what is found is what was put in.
+// rests, and the result equals the input.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -78,7 +78,7 @@ TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
               AllOf(HasSubstr("hold"), HasSubstr("calibrate again")));
   EXPECT_THAT(said([] { CarriedTool tool(test::shipped("plane"), {}); }),
               HasSubstr("no tool is clamped in this scene"));
-  // A machine that does not do as it is told.
+  // A machine that does not follow its commands.
   EXPECT_THAT(said([] {
                 CarriedTool tool(clamped({"truth.hexapod.servo_hz=0.3"}), {});
                 tool.go(kAside);
@@ -86,7 +86,7 @@ TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
               HasSubstr("in hold"));
 }
 
-// Whatever is wrong on the way ends it at once: nothing goes on by itself.
+// Any fault on the way ends the motion at once: nothing continues by itself.
 TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
   const auto said = [](const std::function<void(double, Inputs&)>& spoil) -> std::string {
     TrialOptions options;
@@ -111,7 +111,7 @@ TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
                 if (t > 2.0) in.wrench.value.force = in.wrench.value.force + Vec<'F'>(0, 20, 0);
               }),
               HasSubstr("something is in the way"));
-  // Twice what a tilt explains and a cable pulls with, however much hangs there.
+  // Twice the force that a tilt and a pulling cable explain, at any load.
   EXPECT_THAT(said([](double t, Inputs& in) {
                 if (t > 2.0) in.wrench.value.force = in.wrench.value.force + Vec<'F'>(0, 14, 0);
               }),
@@ -120,7 +120,7 @@ TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
                 if (t > 2.0) in.grip.value = {GripPhase::opening, 0.006, 100.0, false};
               }),
               HasSubstr("the jaws do not hold the tool any more"));
-  // A machine that does not turn, and one that stood turned before.
+  // A machine that does not turn, and one that was turned before.
   EXPECT_THAT(said([](double, Inputs& in) {
                 in.tip.value.X_RH = {Quat::Identity(), Vec3(in.tip.value.X_RH.p())};
               }),
@@ -132,7 +132,7 @@ TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
       HasSubstr("the machine stands turned by 5.7 degrees"));
 }
 
-// No tick turns it faster than is said, nor is there a leap at the beginning or at the end of a way.
+// No tick turns it faster than the stated rate, and no path begins or ends with a leap.
 TEST(CarriedTool, TurnsSlowlyAndWithoutALeap) {
   TrialOptions options;
   Quat before = Quat::Identity();
@@ -153,7 +153,7 @@ TEST(CarriedTool, TurnsSlowlyAndWithoutALeap) {
   EXPECT_LT(slowest_change, 1e-3) << "rad/s from one tick to the next";
 }
 
-// As for a first run beside the machine: all of it is slow.
+// The speed of a first run beside the machine: all of it is slow.
 TEST(CarriedTool, GoesAndTurnsAsSlowlyAsItsRig) {
   TrialOptions options;
   Pose<'R', 'H'> before;
@@ -213,7 +213,7 @@ TEST(CalibrationPoses, AreInReachAndSoAreTheWaysBetween) {
   }
 }
 
-// Of a machine with half the stroke the poses are smaller, and still in reach.
+// The poses of a machine with half the stroke are smaller, and still in reach.
 TEST(CalibrationPoses, FitASmallerMachine) {
   HexapodGeometry small{.stroke = 0.008};
   const Hexapod machine{small};
@@ -249,7 +249,7 @@ TEST(MachineCalibration, FindsWhatTheRigDoesNotKnow) {
   const Point<'W'> seen = made.hand_eye->X_WC * (X_WC.inverse() * Point<'W'>(0, 0, 0));
   EXPECT_LT(seen.e().norm(), 0.02e-3);
   EXPECT_LT(made.hand_eye->X_WC.q().angularDistance(X_WC.q()), 5e-4);
-  // At its zero again.
+  // The machine is at its zero again.
   const Pose<'W', 'H'> end = tool.trial().scene().X_WR * tool.trial().inputs().tip.value.X_RH;
   EXPECT_LT(end.p().norm(), 0.2e-3);
 }
@@ -274,7 +274,8 @@ std::string refused_calibration(const std::vector<std::string>& set, double& gon
 
 TEST(MachineCalibration, RefusesWhatWouldHideInItsNumbers) {
   double gone = 0.0;
-  // 2 mm of the tip: clamped so, or a lever of the machine. In the tracker's place nobody would see it.
+  // 2 mm of the tip: clamped so, or a lever of the machine. A view from the tracker's place could not show
+  // it.
   TrialOptions lower;
   lower.disturb = [seen = Time::min()](Inputs& in) mutable {
     if (in.tool.t == seen || !in.tool.value.X_CT.valid()) return;
@@ -296,7 +297,7 @@ TEST(MachineCalibration, PosesThatTellNothingAreRefusedBeforeAnythingMoves) {
   EXPECT_EQ(gone, 0.0);
 }
 
-// Jaws that only say so, and a tool that somebody holds still beside them.
+// Jaws that only report a clamp, and a tool that somebody holds still beside them.
 TEST(MachineCalibration, AToolThatIsNotCarriedEndsItAtTheSecondStand) {
   TrialOptions options;
   Pose<'C', 'T'> still;
@@ -311,8 +312,8 @@ TEST(MachineCalibration, AToolThatIsNotCarriedEndsItAtTheSecondStand) {
   EXPECT_LT(tool.now(), 30.0);
 }
 
-// The arm of the guided registration, driven through the twin: it gets where it is sent and rests there, the
-// camera sees what is true and the device says what it believes.
+// The arm of the guided registration, driven through the twin: it reaches its target and rests there, the
+// camera sees the truth and the device reports its belief.
 
 models::Setup vishap(const std::vector<std::string>& set = {}) {
   return models::load_rig_setup(tests::source_dir() + "/models/rigs/vishap.toml", set);
@@ -391,7 +392,7 @@ TEST(DrivenArm, SaysWhatItBelievesAndIsWhereItIs) {
   misplaced.go(kPlace);
   const TipStand off = misplaced.read(0.05);
   EXPECT_LT(((off.truth - off.reading).e() - Vec3(0.001, 0.002, -0.003)).norm(), 0.05e-3);
-  DrivenArm longer(vishap({"truth.arm.machine.l2_mm=114.13"}));  // and W is where its own zero is
+  DrivenArm longer(vishap({"truth.arm.machine.l2_mm=114.13"}));  // and its own zero is at W
   longer.go(Point<'W'>(0.060, 0, 0.060));
   const TipStand tip = longer.read(0.05);
   EXPECT_GT((tip.truth - tip.reading).norm(), 0.3e-3);
@@ -409,7 +410,7 @@ TEST(DrivenArm, TheSameToTheBit) {
   EXPECT_EQ(a.reading.xyz, b.reading.xyz);
 }
 
-// Straight ahead there is where no joints get: it goes over its zero.
+// The joints cannot go straight ahead there: the path goes over the arm's zero.
 TEST(DrivenArm, GoesRoundWhatTheJointsDoNotAllow) {
   const models::Setup setup = vishap();
   const RegistrationRig rig = registration_rig(setup);
@@ -448,8 +449,8 @@ TEST(DrivenArm, GivesUpWithAReason) {
   EXPECT_THAT(refusal({"truth.arm.timestep_us=700"}, kPlace), HasSubstr("does not divide the haptic period"));
 }
 
-// What is wrong with the arm is in what is found. A base that stands elsewhere is an error in W, and none
-// between camera and arm; a longer forearm is one of both.
+// The result contains the arm's own errors. A displaced base is an error in W, but not between camera and
+// arm; a longer forearm is an error in both.
 TEST(DrivenArm, TheRegistrationShowsWhatIsWrongWithTheArm) {
   struct Errors {
     double in_W, apart;

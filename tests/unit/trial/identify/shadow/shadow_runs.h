@@ -1,4 +1,5 @@
-// Records of short runs of shipped scenes, with another truth than the twin's, and what shadow mode finds.
+// Records of short runs of shipped scenes, with another truth than the twin's, and the findings of shadow
+// mode.
 #pragma once
 
 #include <functional>
@@ -9,23 +10,23 @@
 
 namespace enc::test {
 
-// A run that tells much in a short time.
+// A run with much information in a short time.
 struct ShadowedScene {
   std::string name;
-  std::vector<std::string> set;  // of record and twin
+  std::vector<std::string> set;  // settings of record and twin
 };
 // A real object is pressed; a tool is carried; a tool presses a rendered object.
 [[nodiscard]] const ShadowedScene& probing();
 [[nodiscard]] const ShadowedScene& carrying();
 [[nodiscard]] const ShadowedScene& pressing();
 
-// The record has `altered` besides what the scene has, and the twin has `twin` over that of the record.
+// The record has `altered` on top of the scene, and the twin has `twin` on top of the record's settings.
 [[nodiscard]] trial::Shadow shadowed(const ShadowedScene& scene, std::uint64_t seed,
                                      const std::vector<std::string>& altered = {},
                                      const std::vector<std::string>& twin = {});
 
-// The same of a record with the scene's own truth, whose frames are altered: each, and its share of the
-// record that is before it.
+// Shadow of a record with the scene's own truth and altered frames: each frame, and the share of the record
+// before it.
 using AlterFrame = std::function<void(RecordedTick& frame, double share)>;
 [[nodiscard]] trial::Shadow shadowed_frames(const ShadowedScene& scene, std::uint64_t seed,
                                             const AlterFrame& alter,
@@ -34,13 +35,13 @@ using AlterFrame = std::function<void(RecordedTick& frame, double share)>;
 [[nodiscard]] trial::Shadow shadowed_beside(const models::Setup& recorded, std::uint64_t seed,
                                             const models::Setup& twin);
 
-// A shipped scene, with what is set of it and besides.
+// A shipped scene, with its settings and the given ones.
 [[nodiscard]] models::Setup set_up(const ShadowedScene& scene, const std::string& rig = "sim",
                                    const std::vector<std::string>& more = {});
 
-// "tool registration x": of all that diverge, in order; "tool gross" of what has no size, behind them.
+// "tool registration x": all divergences, in order; then "tool gross" for those without a size.
 [[nodiscard]] std::vector<std::string> named(const trial::Shadow& shadow);
-// Null where it is not in there.
+// Null if the shadow has no such divergence.
 [[nodiscard]] const trial::Divergence* found(const trial::Shadow& shadow, trial::Quantity quantity,
                                              const std::string& axis = {});
 

@@ -1,4 +1,4 @@
-// Shadow mode: verdicts and tapes; and each error of a twin is named by its own channel alone.
+// Shadow mode: verdicts and tapes; its own channel alone names each error of a twin.
 #include "trial/identify/shadow/shadow.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TEST(ShadowVerdict, FartherThanTheBoundAndThanChance) {
   EXPECT_FALSE(off_by(0.9, 0.1).diverges());
   EXPECT_TRUE(off_by(1.1, 0.1).diverges());
   EXPECT_TRUE(off_by(-1.1, 0.1).diverges());
-  EXPECT_FALSE(off_by(1.1, 0.8).diverges());  // an interval that wide is not told from the bound
+  EXPECT_FALSE(off_by(1.1, 0.8).diverges());  // an interval that wide includes the bound
   EXPECT_TRUE(off_by(1.1, 0.8).vague());
   EXPECT_TRUE(off_by(5.0, 0.8).diverges());
   EXPECT_FALSE(off_by(5.0, 0.8).vague());
@@ -58,7 +58,7 @@ TEST(ShadowTape, KnowsWhereTheMachineWasBetweenItsStamps) {
   EXPECT_EQ(trace.at(Time(from_seconds(9.0))).X_RH.p().x(), 0.5);
   EXPECT_TRUE(trace.knows(Time(from_seconds(1.001))));
   EXPECT_FALSE(trace.knows(Time(from_seconds(0.999))));
-  EXPECT_FALSE(trace.knows(Time(from_seconds(1.2))));  // nobody heard of it for half a second
+  EXPECT_FALSE(trace.knows(Time(from_seconds(1.2))));  // no data for half a second
   EXPECT_FALSE(trace.knows(Time(from_seconds(1.501))));
 }
 
@@ -80,7 +80,8 @@ TEST(ShadowTwins, AreTheSetUpWithWhatIsPutOverIt) {
               HasSubstr("did you mean"));
 }
 
-// A rig as a laboratory has it: nothing but its calibration says where its camera is. What is real is there.
+// A laboratory's rig has no truth: its calibration alone states the place of its camera, and the twin's
+// camera stands there.
 TEST(ShadowTwins, OfARigWithoutTruthSeeAsItsCalibrationSays) {
   const TemporaryFolder folder;
   const std::string frame = "position_mm = [0, -900, 600]\nrotation_deg = [0, 0, 0]\n";
@@ -101,7 +102,7 @@ TEST(ShadowTwins, OfARigWithoutTruthSeeAsItsCalibrationSays) {
   }
 }
 
-// From here on nobody hears of the machine, which goes on all the same; what it said last stands on.
+// The machine's data end here, but the machine goes on; its last reading stays.
 AlterFrame lost_from(const std::function<bool(const RecordedTick&, double share)>& begins) {
   struct Lost {
     bool is = false;
@@ -128,7 +129,7 @@ TEST(ShadowLostLink, NothingIsHeldAgainstAMachineThatIsNotHeardOf) {
   EXPECT_NE(found(carried, trial::Quantity::registration, "x"), nullptr);
 }
 
-// What packets are tied to is when they come: a delay that they all have is not seen in their stamps.
+// Packets are tied to their arrival: a delay common to all is invisible in their stamps.
 TEST(ShadowUnjudged, TheAgeByStampsOfAWireTellsNoLatency) {
   const ShadowedScene still{"clamped_tool", {}};
   models::Setup twin = set_up(still);
@@ -143,7 +144,7 @@ TEST(ShadowUnjudged, TheAgeByStampsOfAWireTellsNoLatency) {
                                                              HasSubstr("by their stamps packets come"))));
 }
 
-// Nothing goes to the machine, and it says where it stands: that is all that registration asks for.
+// The machine gets no command and reports its place: registration needs only that.
 TEST(ShadowUnjudged, ADryRunTellsRegistrationByThePress) {
   const auto dry = [](RecordedTick& frame, double) { frame.in.withheld = true; };
   const trial::Shadow shadow =
@@ -152,7 +153,7 @@ TEST(ShadowUnjudged, ADryRunTellsRegistrationByThePress) {
   EXPECT_EQ(found(shadow, trial::Quantity::machine_time), nullptr);
 }
 
-// Nothing is carried, nothing pressed, and nothing moves: it says so, and nothing fails.
+// Nothing is carried, pressed or moved: the report states that, and there is no failure.
 TEST(ShadowUnjudged, WhatARecordCannotTellIsSaid) {
   const trial::Shadow shadow = shadowed({"clamped_tool", {}}, 5);
   EXPECT_FALSE(shadow.diverges());
@@ -165,13 +166,13 @@ TEST(ShadowUnjudged, WhatARecordCannotTellIsSaid) {
   }
 }
 
-// Each injected error is found, is as large as it was made, and is named by its own channel and by no other.
+// Shadow mode finds each injected error with its size, and names it by its own channel alone.
 
 struct Injected {
   const char* what;
   const ShadowedScene& scene;
   std::vector<std::string> altered, twin;
-  std::string name;  // of the channel that has to say it
+  std::string name;  // name of the expected channel
   Quantity quantity;
   std::string axis;
   double size;  // SI
@@ -188,7 +189,7 @@ const std::vector<Injected>& injections() {
   const auto four = with("truth.hexapod.delay_cycles=4"), seven = with("truth.hexapod.delay_cycles=7");
   const auto camera = with("truth.frames.W_C.position_mm=[0,-900,600]");
   static const std::vector<Injected> kAll{
-      // All moduli of the ball and its pressure: its force is as much more at each depth.
+      // All moduli of the ball and its pressure: its force is larger by that share at each depth.
       {"5 % of stiffness", probing(), ball_of(2.73, 10.5, 0.21), ball_of(2.6, 10, 0.2), "force stiffness",
        Quantity::stiffness, "", 0.05},
       {"5 % of stiffness, softer", probing(), ball_of(2.47, 9.5, 0.19), ball_of(2.6, 10, 0.2),
@@ -203,7 +204,7 @@ const std::vector<Injected>& injections() {
        with("truth.tracker.process_ms=9.2"), "tool tool_latency", Quantity::tool_latency, "", 3e-3},
       {"3 ms of its stamps", carrying(), with("truth.tracker.stamp_error_ms=3"),
        with("truth.tracker.stamp_error_ms=0"), "tool tool_stamps", Quantity::tool_stamps, "", 3e-3},
-      // A camera that stands farther sees all nearer to it.
+      // A camera that stands farther sees everything nearer to it.
       {"1 mm of registration along x", carrying(), with("truth.frames.W_C.position_mm=[1,-900,600]"), camera,
        "tool registration x", Quantity::registration, "x", -1e-3},
       {"1 mm of registration along y", carrying(), with("truth.frames.W_C.position_mm=[0,-899,600]"), camera,
@@ -225,7 +226,7 @@ const std::vector<Injected>& injections() {
   return kAll;
 }
 
-// Nobody sees better than the machine's steps, 3 um, and 0.2 % of what is felt in each of them.
+// The resolution is limited by the machine's steps, 3 um, and by 0.2 % of the force in each of them.
 double least_seen(Quantity quantity) {
   if (quantity == Quantity::stiffness || quantity == Quantity::rendered) return 2e-3;
   return quantity == Quantity::registration ? 5e-6 : 2e-6;
@@ -243,9 +244,9 @@ TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
   }
 }
 
-// Not by the luck of one seed: of six others, each names the three errors alone, and the printed interval of
-// 95 % holds the size of at least five. Of a tracker's own latency, which goes in stairs of 1.67 ms, only
-// the name is asked for.
+// The result must not depend on one seed: each of six others names the three errors alone, and the printed
+// interval of 95 % holds the size for at least five. A tracker's own latency changes in steps of 1.67 ms, so
+// only its name is checked.
 TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
   for (const char* what :
        {"5 % of stiffness", "3 ms of the tracker", "3 ms of its server", "1 mm of registration along x"}) {
@@ -267,7 +268,7 @@ TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
   }
 }
 
-// Two at once do not hide each other: by stamps that are late, a packet that is late looks punctual.
+// Two errors at once do not hide each other: stamps that are late make a late packet look punctual.
 TEST(ShadowTable, LatencyAndStampsOfAPressingToolAreBothNamed) {
   const trial::Shadow shadow =
       shadowed(pressing(), 7, {"truth.tracker.stamp_error_ms=3", "truth.tracker.process_ms=12.2"},
@@ -275,7 +276,7 @@ TEST(ShadowTable, LatencyAndStampsOfAPressingToolAreBothNamed) {
   EXPECT_THAT(named(shadow), testing::UnorderedElementsAre("tool tool_stamps", "tool tool_latency"));
 }
 
-// What no size, place or time explains is said to be such, and not taken for nothing.
+// The report lists a divergence that no size, place or time explains as unexplained.
 TEST(ShadowTable, AForceOfAnotherLawOrAWorseSensorHasARest) {
   EXPECT_THAT(named(shadowed(probing(), 7, {"truth.force.noise_N=0.3"}, {"truth.force.noise_N=0.0125"})),
               testing::Contains("force force_rest"));
@@ -283,7 +284,7 @@ TEST(ShadowTable, AForceOfAnotherLawOrAWorseSensorHasARest) {
               testing::Contains("force force_rest"));
 }
 
-// What is too far off for a size is no less a divergence.
+// A divergence that is too large for a size estimate still counts.
 TEST(ShadowTable, AnObjectThatIsFarAwayDiverges) {
   const std::vector<std::string> believed{"truth.ball.misplaced_mm=[0,0,0]"};
   for (const char* place : {"-12", "-5", "5", "12"}) {
@@ -305,7 +306,7 @@ TEST(ShadowTable, ATurnedCameraDiverges) {
   EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("did not go where the machine carried it"));
 }
 
-// However short, and however little the twin feels: nothing but weight and inertia.
+// The report lists a push of any length, also if the twin feels little: only weight and inertia.
 TEST(ShadowTable, APushWhereTheTwinHasNothingDiverges) {
   for (const char* repeats : {"probe.repeats=1", "probe.repeats=2"}) {
     const ShadowedScene scene{"rig_identify", {repeats, "probe.dwell_s=1", "probe.rest_s=1"}};
@@ -316,7 +317,7 @@ TEST(ShadowTable, APushWhereTheTwinHasNothingDiverges) {
   }
 }
 
-// A tracker that is much noisier than the twin's is no tool that is lost, where little moves.
+// A tracker that is much noisier than the twin's does not count as a lost tool while little moves.
 TEST(ShadowTable, ANoisyTrackerThatSeesLittleMotionIsNoGrossDivergence) {
   const ShadowedScene scene{"tracking",
                             {"travel.dwell_s=3", "travel.ways=both_ways", "travel.stops_mm=[0,0.3]"}};
@@ -325,7 +326,7 @@ TEST(ShadowTable, ANoisyTrackerThatSeesLittleMotionIsNoGrossDivergence) {
   EXPECT_TRUE(shadow.gross.empty()) << shadow.gross.front().text;
 }
 
-// What hunts while it stands is not hidden by what it does on its way.
+// A limit cycle at standstill must show, whatever the machine does on its way.
 TEST(ShadowTable, AMachineThatHuntsWhereItStandsHasARest) {
   const auto hunting = [](RecordedTick& frame, double share) {
     if (frame.in.tip.value.velocity.norm() > 1e-3) return;
@@ -336,7 +337,8 @@ TEST(ShadowTable, AMachineThatHuntsWhereItStandsHasARest) {
   EXPECT_THAT(named(shadowed_frames(carrying(), 7, hunting)), testing::Contains("machine machine_rest"));
 }
 
-// Later than any tracker, and its stamps, too: as over a wire, where they are tied to when packets come.
+// The tool is later than any tracker, and its stamps, too: as over a wire, whose stamps are tied to the
+// arrival of packets.
 TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
   constexpr std::size_t kTicks = 800;
   std::deque<Stamped<TrackedTool>> under_way;
@@ -354,7 +356,7 @@ TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
   EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("no tracker is so late"));
 }
 
-// Of bounds that no truth of the twin reaches: the record is altered frame by frame.
+// No truth of the twin reaches these bounds: the test alters the record frame by frame.
 TEST(ShadowTable, AMachineThatSaysItStandsElsewhereIsNamed) {
   const auto aside = [](RecordedTick& frame, double) {
     const Pose<'R', 'H'> said = frame.in.tip.value.X_RH;
@@ -381,7 +383,7 @@ TEST(ShadowTable, AMachineThatSpeedsUpOtherwiseHasARest) {
               testing::Contains("machine machine_rest"));
 }
 
-// A platform on legs that bend is not shaken by being led: it is placed where it said that it was.
+// The replay does not shake a platform on elastic legs: it places the platform at its reported pose.
 TEST(ShadowTable, AMachineOnElasticLegsIsJudgedAsAnyOther) {
   const trial::Shadow shadow = shadowed(probing(), 3, {"truth.hexapod.form=structural"});
   EXPECT_THAT(named(shadow), ElementsAre());
@@ -390,7 +392,7 @@ TEST(ShadowTable, AMachineOnElasticLegsIsJudgedAsAnyOther) {
   EXPECT_LT(stiffness->off.half, 0.5 * stiffness->bound);
 }
 
-// Other seeds of the very set-up: none reaches a bound.
+// Other seeds of this very set-up: none reaches a bound.
 void expect_below_bounds(const ShadowedScene& scene) {
   for (int i = 1; i <= tests::thorough(4, 20); ++i) {
     const std::uint64_t seed = 100 + static_cast<std::uint64_t>(i);
