@@ -116,8 +116,8 @@ TEST_P(BuiltScene, LeavesOutWhatNothingReads) {
   EXPECT_EQ(told_by(spoiled), told_by(scene));
 }
 
-// The file with every table of rig and truth, the display if the scene may have one, drawn bodies, and a
-// record: the forces equal those of the scene with only its built values.
+// The file has every table of rig and truth, the display if the scene may have one, drawn bodies, and a
+// record. The forces equal those of the scene with only its built values.
 TEST_P(BuiltScene, WithEverythingOnGivesTheSameBits) {
   const test::TemporaryFolder folder;
   models::Setup scene = shipped(GetParam());

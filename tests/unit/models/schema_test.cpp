@@ -111,7 +111,7 @@ TEST(Schema, describes_every_member) {
   // Rig and truth are extra tables. Each base has one: [probe] and [travel].
   EXPECT_EQ(n[""], members<SceneSpec>() + 2);
   EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 11);  // no normal, nothing of mesh, button or box
-  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 11);  // no radius, and nothing of these either
+  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 11);  // no radius, nothing of mesh, button or box
   // A mesh has no keys of other shapes; its triangles and its file's material are data.
   EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 8);
   EXPECT_EQ(n["tool.stylus"], members<ToolSpec>() - 3);  // a sphere has no axis, angle or edge

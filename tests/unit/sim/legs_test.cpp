@@ -185,7 +185,7 @@ TEST(Legs, ATurnedBaseStandsAndHangsJustTheSame) {
   EXPECT_NEAR(wrench.head<3>().norm(), kMoved * kGravity, 1e-4);
 }
 
-// Also return the place of the platform after these ticks.
+// Also returns the place of the platform after these ticks.
 std::pair<std::uint64_t, double> hashed_with_place(Twin& twin, int ticks) {
   const std::uint64_t hash = hashed(twin, ticks);
   return {hash, twin.world->physics().data()->qpos[0]};

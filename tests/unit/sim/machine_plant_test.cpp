@@ -123,9 +123,9 @@ TEST(ArmPlant, ClipsAtTheMotorsPeak) {
   EXPECT_EQ(b.plant.motor_torque()[0], 0.0);
 }
 
-// A cold winding at stall torque reaches 0.8 of its rated heat when i^2 (s (1 - e^(-t/12)) + (1 - s)(1 -
-// e^(-t/612))) = 0.8, i = 0.129 / 0.0286, s = 3.1 / 17.1: after 2.6 s. Then the current folds back smoothly,
-// and the winding never exceeds its limit.
+// A cold winding at stall torque reaches 0.8 of its rated heat when
+// i^2 (s (1 - e^(-t/12)) + (1 - s)(1 - e^(-t/612))) = 0.8, i = 0.129 / 0.0286, s = 3.1 / 17.1: after 2.6 s.
+// Then the current folds back smoothly, and the winding never exceeds its limit.
 TEST(ArmPlant, AWarmWindingFoldsBackSmoothly) {
   Bench b;
   const double i2 = std::pow(0.129 / 0.0286, 2), share = 3.1 / 17.1;

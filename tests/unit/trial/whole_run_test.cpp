@@ -172,8 +172,8 @@ struct Margin {
   double deepest = 0.0;
   int ticks = 0;
 };
-// Bound: what the rig states, display.margin + display.margin_speed x age of the surface that the core has
-// (0.8 mm + 50 mm/s x 10..50 ms).
+// Bound stated by the rig: display.margin + display.margin_speed x age of the core's surface (0.8 mm + 50
+// mm/s x 10..50 ms).
 Margin margin_of(const Set& set) {
   Margin margin;
   const models::Setup setup = scene("tennis_ball", set);
@@ -202,7 +202,7 @@ TEST(TrialDent, TheTipIsInsideAnIndependentDentedBallWithinTheMargin) {
   EXPECT_GT(slow.ticks, 300);
   EXPECT_GT(slow.deepest, 5.5e-3);
   EXPECT_LE(slow.worst_excess, 0.0);
-  EXPECT_LE(slow.worst, 0.8e-3);  // a slow press uses none of the age allowance
+  EXPECT_LE(slow.worst, 0.8e-3);  // a slow press uses no part of the age allowance
   const Margin fast = margin_of(quick());
   EXPECT_GT(fast.ticks, 100);
   EXPECT_GT(fast.deepest, 3.5e-3);

@@ -54,7 +54,7 @@ TEST(Loop, AllocatesNothingAsATestRig) {
   Loop loop(prepare(test::rig_scene(), RigSpec{}));
   Outputs out;
   std::int64_t taken = 0;
-  for (int i = 0; i < 9000; ++i) {  // to the rest after the first push
+  for (int i = 0; i < 9000; ++i) {  // up to the rest after the first push
     State copy = loop.state;
     loop.tick();
     const Inputs in = loop.in;

@@ -47,7 +47,7 @@ TEST(Follow, PausesBeyondAHundredMillimetresAndResumesAtNinety) {
   EXPECT_EQ(at_gap(0.1005), Mode::away);
   EXPECT_EQ(at_gap(0.0995), Mode::away);
   EXPECT_EQ(at_gap(0.0895), Mode::follow);
-  // While it pauses, the tip brakes and stays.
+  // The tip brakes and stays during the pause.
   EXPECT_EQ(at_gap(0.2), Mode::away);
   loop.tick(200);
   const Point<'W'> waits = loop.tip();
@@ -135,8 +135,8 @@ TEST(Restore, GoesBackToTheBufferedPoint) {
   wait_under(loop, 0.001);
   loop.tool_tip = Point<'W'>(0.003, 0, kTop + kToolRadius - 0.0005);
   loop.force = Vec<'W'>(0, 0, -4.05);
-  loop.tick(2000);  // the tip was still elsewhere when the gap closed: the anchor has moved to the place
-                    // of the one felt force
+  loop.tick(2000);  // the tip was still elsewhere when the gap closed: the anchor has moved,
+                    // once, to the place of the force
   const Point<'W'> touched = loop.out.first_touch;
   EXPECT_GT((loop.tip() - touched).norm(), 1e-3);
   loop.force = Vec<'W'>::zero();

@@ -61,7 +61,7 @@ TEST(Phantom, AtZeroTheForearmHangsFromTheLevelUpperArm) {
   EXPECT_DOUBLE_EQ(home.z(), -0.1130);
   // Turret a quarter to the left, upper arm straight up, forearm level: r = l2, z = l1.
   EXPECT_LT((arm.tip({M_PI / 2, M_PI / 2, M_PI / 2}).e() - Vec3(0, 0.1130, 0.1397)).norm(), 1e-15);
-  // At q = 0 q1 moves the tip to the left, q2 up, q3 forwards.
+  // q1 moves the tip to the left at q = 0, q2 up, q3 forwards.
   const Mat3 J = arm.jacobian({});
   EXPECT_LT((J - (Mat3() << 0, 0, 0.1130, 0.1397, 0, 0, 0, 0.1397, 0).finished()).norm(), 1e-15);
 }
@@ -323,9 +323,9 @@ TEST(LoopModel, AgreesWithRouthByHand) {
   EXPECT_NEAR(lowest_stable_stiffness(loop), 100.0, 1e-6);
 }
 
-// Hand with a damper b: k_h w^3 becomes (b s + k_h) w^3. With B = b w / k, K = k_h / k: s^3 + 2 w s^2 + (2 +
-// B) w^2 s + (1 + K) w^3 = 0, stable for 2 (2 + B) > 1 + K  <=>  3 k > k_h - 2 b w. k_h = 300 N/m, b = 1 N
-// s/m, w = 30 rad/s: k > (300 - 60) / 3 = 80 N/m.
+// Hand with a damper b: k_h w^3 becomes (b s + k_h) w^3. With B = b w / k, K = k_h / k:
+//   s^3 + 2 w s^2 + (2 + B) w^2 s + (1 + K) w^3 = 0, stable for 2 (2 + B) > 1 + K  <=>  3 k > k_h - 2 b w.
+// k_h = 300 N/m, b = 1 N s/m, w = 30 rad/s: k > (300 - 60) / 3 = 80 N/m.
 TEST(LoopModel, HandDampingHelpsAsByHand) {
   constexpr double kHz = 30.0 / (2.0 * 3.14159265358979323846);
   const LoopModel loop{.hand_stiffness = 300.0,

@@ -501,8 +501,8 @@ TEST(RecordChunks, WhoeverDrainsTheBytesAreTheSame) {
   }
 }
 
-// No thread drains: the record ends when all chunks are full and reports it, and the file has all ticks so
-// far.
+// Without a draining thread the record ends when all chunks are full and reports it. The file has all ticks
+// so far.
 TEST(RecordChunks, ADiskThatDoesNotKeepUpEndsTheRecordAndLeavesNoGap) {
   const test::TemporaryFolder folder;
   constexpr std::int64_t kChunks = 3;

@@ -323,7 +323,7 @@ TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
   EXPECT_GT((finger.tip - finger.shown).norm(), 1e-5);
 }
 
-// In wall time the latency is the duration of the work.
+// The latency in wall time is the duration of the work.
 TEST(VisionTracker, TellsAtOnceWhereItIsAskedTo) {
   Set set;
   std::unique_ptr<Fed> fed = std::make_unique<Fed>();

@@ -120,7 +120,7 @@ TEST(IgtlReception, AClockThatIsSetBackIsNew) {
   EXPECT_EQ(bench.newest.t, Time(ms(120)));
 }
 
-// Two sources may also differ by less than that, but such messages are never late twice in a row.
+// Two sources may also differ by less than that, but such messages never go back twice in a row.
 TEST(IgtlReception, AClockThatIsSetBackByLittleIsNewFromItsSecondMessageOn) {
   for (const char* transport : {"udp", "tcp"}) {
     Bench bench{std::string(transport)};

@@ -265,8 +265,8 @@ TEST(ClockTie, AClockThatIsSetBackIsForgotten) {
   EXPECT_EQ(device.tie.estimate().forward, 0);
 }
 
-// If the clock is set back during silence, so that no stamp goes back, or all messages are late from then on,
-// the tie cannot detect it. It never takes old data for fresh.
+// The tie cannot detect a clock that is set back during silence, or a lasting delay of all messages. It never
+// takes old data for fresh.
 TEST(ClockTie, WhatMayBeADelayIsTakenForOneHoweverLongNothingCame) {
   for (const double silent : {0.0, 3.0, 33.0, 300.0}) {
     Device device{.drift = 0.0};

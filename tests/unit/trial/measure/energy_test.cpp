@@ -138,9 +138,9 @@ TEST(TrialPassivity, NoShippedSceneGivesOutMoreThanATenthOfAMillijoule) {
     }
 }
 
-// A finger that is lost while it presses, and found again deep inside, gains no energy. At 2.7 times the
-// shipped stiffness it gains 0.11 to 0.30 mJ over eight seeds, against 17 to 25 if a contact begins with the
-// spring's whole energy.
+// A finger that is lost while it presses, and found again deep inside, gains no energy at any stiffness. At
+// 2.7 times the shipped one it gains 0.11 to 0.30 mJ over eight seeds. It would be 17 to 25 if a contact
+// began with the spring's whole energy.
 TEST(TrialPassivity, AContactThatIsFoundAgainIsNoGift) {
   const Set lost{"truth.tracker.blackout_at_s=2.5", "truth.tracker.blackout_for_s=0.6"};
   const Set stiff{"behaviour.phantom_wall.stiffness_N_per_mm=1.6", lost[0], lost[1]};
@@ -216,8 +216,8 @@ TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
   EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
 }
 
-// Hands that bounce off, return while the tip returns, and change their tool. A controller that only checks
-// the way left under the present push gives 0.30 mJ to a hand that meets the tip on its way (seeds 2 and 21).
+// Hands that bounce off, return while the tip returns, and change their tool. A hand that meets the tip on
+// its way gets 0.30 mJ (seeds 2 and 21) if the controller only checks the way left under the present push.
 TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
     const Pressed on = pressed_in(setup_of("session", {}, kControlledHexapod), seed);
@@ -248,7 +248,7 @@ TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
 }
 
-// A late tip is 26 mm off its tool: it comes, and does not stay at its place when the hand arrived.
+// A late tip is 26 mm off its tool: it comes, and does not wait where it was when the hand arrived.
 TEST(TrialSpare, ATipThatIsLateComesWithTheController) {
   EXPECT_LT(pressed_in(setup_of("session", {}, kControlledHexapod), 24).controller.acted, 10.0) << "s";
 }
@@ -454,8 +454,8 @@ TEST(Ledger, TellsWhatCameOutBeyondWhatWasPutIn) {
   EXPECT_GT(surplus_of("session", {form + "none"}, 20.0), 0.3e-3);
 }
 
-// A prop that is met on its way. The energy of its law before the touch goes into the machine's own motion
-// (0.21 mJ), and the controller does not act on it (1.8 mJ if it takes from the push that moves the prop).
+// A prop that is met on its way. Its law gives 0.21 mJ to the machine's own motion before the touch, and the
+// controller does not act there. It would be 1.8 mJ if the controller took from the push that sends the prop.
 TEST(Ledger, OfAPropThatIsMetOnItsWay) {
   EXPECT_LT(surplus_of("reaching", {}, 46.1, 19), 0.1e-3);
   EXPECT_LT(surplus_of("reaching", {"rig.arm.passivity=controlled"}, 27.0, 12), 0.1e-3);

@@ -438,8 +438,8 @@ TEST(Haste, TheChosenKeyDoesNotFlickerBetweenPictures) {
   }
 }
 
-// The effect of vision on the force: a finger seen at 20 Hz presses a wall, with results up to a frame early
-// or late, beside a run with punctual results; and a run with a picture beside one without it.
+// The effect of vision on the force: a finger seen at 20 Hz presses a wall. One pair of runs has late or
+// early results (up to a frame) and punctual ones; the other pair runs with and without a picture.
 
 constexpr Duration kFrame{50'000'000};
 constexpr std::size_t kFrameTicks = 50;

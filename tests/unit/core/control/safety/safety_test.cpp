@@ -59,7 +59,7 @@ TEST(Passivity, WhatADamperTookIsNotLeft) {
     hold(now, 4.0, 4.0);
     const double before = depth;
     depth = i % 2 == 0 ? 2e-3 : 1e-3;
-    if (i % 2 == 1) now.pushed = 1.0;  // in against 4 N, out with 1 N
+    if (i % 2 == 1) now.pushed = 1.0;  // pushed in against 4 N, out with 1 N
     observe(now, {before - depth, depth, 1000.0 * depth}, 0.0);
   }
   EXPECT_NEAR(now.given, -1.5, 5e-3) << "J";

@@ -123,7 +123,7 @@ TEST(Edges, ThePlaceInsideIsTheNearestOne) {
     const Vec3 p(unit(random), unit(random), unit(random));
     const Vec3 exact = p.cwiseMin(in).cwiseMax(-in);
     const Vec3 found = inside.nearest_to(Point<'W'>(Vec3(p + Vec3(0, 0, kHigh)))).e() - Vec3(0, 0, kHigh);
-    // For a point outside beyond an edge the nearest face is not the nearest wall. The place found is still
+    // The nearest face of a point outside beyond an edge is not the nearest wall. The place found is still
     // inside.
     EXPECT_LE(found.cwiseAbs().maxCoeff(), in + 1e-6);
     if (p.cwiseAbs().maxCoeff() <= 0.03) {
@@ -152,7 +152,7 @@ class Gliding : public PoseTracker {
   Every frame_{120.0};
 };
 
-// The machine has the lag, the delay and the steps of the simulated machine.
+// The simulated machine adds its lag, delay and steps.
 TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
   models::Setup setup = test::shipped("hare");
   ObjectSpec& object = setup.scene.objects[0];
@@ -219,7 +219,7 @@ TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
   const std::string needle = refusal(test::mesh_scene(test::box(0.004, 0.004, 0.06), -0.022));
   EXPECT_THAT(needle, HasSubstr("it is 4.0 mm"));
   EXPECT_EQ(refusal(test::mesh_scene(test::box(0.06, 0.06, 0.012), 0.002)), "");
-  for (const double side : {0.0115, 0.012, 0.016, 0.0165})  // for meshes of any coarseness
+  for (const double side : {0.0115, 0.012, 0.016, 0.0165})  // meshes of any coarseness
     EXPECT_EQ(refusal(test::mesh_scene(test::box(side, side, side), 0.0)), "") << side;
   EXPECT_THAT(refusal(test::mesh_scene(test::box(0.0105, 0.03, 0.03), 0.0)), HasSubstr("it is 10.5 mm"));
   SceneSpec ball = test::ball_scene();
@@ -300,7 +300,7 @@ TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
   }
 }
 
-// At the machine's greatest speed rounding must not brake the tip: it moves evenly in every direction of the
+// Rounding must not brake the tip at the machine's greatest speed: it moves evenly in every direction of the
 // target.
 TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
   std::mt19937_64 random(2);

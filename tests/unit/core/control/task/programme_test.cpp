@@ -92,7 +92,7 @@ Pose<'W', 'H'> a_little_turned(int i) {
 TEST(Carry, JawsThatNoLongerHoldLetItNeitherGoNorTurn) {
   Sent sent;
   for (int i = 1; i <= 100; ++i) sent.next(a_little_turned(i));
-  sent.phase = GripPhase::opening;  // which is no hold: a hand may be taking the tool out
+  sent.phase = GripPhase::opening;  // no hold: a hand may be taking the tool out
   sent.from = 1 << 30;
   for (int i = 101; i <= 150; ++i) sent.next(a_little_turned(i));
   const Pose<'W', 'H'> stood = sent.at();

@@ -59,7 +59,7 @@ TEST(Predict, GainsOfTheSecondPoseAreThoseWorkedByHand) {
   EXPECT_EQ(motion.acceleration.xyz[0], 0.0);
 }
 
-// The same filter written with matrices.
+// The filter written with matrices.
 struct Matrices {
   Mat3 P;
   Vec3 x;

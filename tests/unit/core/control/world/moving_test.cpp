@@ -209,7 +209,7 @@ TEST(Tile, DoesNotRunThroughItsNeighbour) {
   World world;
   world.add("first", kTile, facing_minus_x(0.0), tile());
   world.add("second", kTile, facing_minus_x(0.030), tile());         // 10 mm behind the first
-  world.add("beside", kTile, facing_minus_x(0.030, 0.020), tile());  // in the next row, touching the second
+  world.add("beside", kTile, facing_minus_x(0.030, 0.020), tile());  // next row, touching the second
   InteractionSpec wall{.kind = Interaction::slide};
   world.add("block", Surface{Sphere{0.010}}, Pose<'W', 'O'>::shift(0.080, 0, 0),
             wall);  // 20 mm behind the second

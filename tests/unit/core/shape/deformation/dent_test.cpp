@@ -85,7 +85,7 @@ TEST(Dent, TheSurfaceLiesOnTheTip) {
         (at.point.xyz[2] - centre.z()) * std::sin(75 * M_PI / 180) - aside * std::cos(75 * M_PI / 180);
     EXPECT_NEAR(side, -0.002, 1e-12) << aside;
   }
-  // Along an edge of 10 mm, 4 mm deep in a plane, it lies on the edge all the way.
+  // The surface lies on the whole edge of 10 mm that is 4 mm deep in a plane.
   const DentSample edge = dent_of(kPlane, 0, edge_tip({0, 0, -0.002}, 0.002, 0.010, {0, 1, 0}));
   for (const double along : {-5e-3, 0.0, 3e-3, 5e-3})
     EXPECT_NEAR(moved(kPlane, edge, {0, along, 0}).by, 0.004, 1e-12) << along;

@@ -136,14 +136,14 @@ TEST(MeshTree, TetrahedronByHand) {
   expect_near(corner.point, Vec3(0, 0, 0), 1e-300);
   expect_near(corner.normal, -across, 1e-15);
   EXPECT_EQ(corner.feature, 0);
-  // On the corner itself: distance 0, and a normal all the same.
+  // A point on the corner itself has distance 0 and still a normal.
   const Nearest on = tree.nearest(Point<'O'>(0, 0, 0));
   EXPECT_EQ(on.distance, 0.0);
   expect_near(on.normal, -across, 1e-15);
 }
 
-// The faces at the corner (1,0,0) make 90 deg, floor and wall 45 deg, and across 60 deg: weights by angle,
-// not by number or area.
+// Angles of the faces at the corner (1,0,0): floor and wall 45 deg, the face across 60 deg. Normals are
+// weighted by angle, not by number or area.
 TEST(MeshTree, VertexNormalsAreWeightedByAngle) {
   const MeshTree tree(tetrahedron());
   const Vec3 sum = M_PI / 4 * (Vec3(0, 0, -1) + Vec3(0, -1, 0)) + M_PI / 3 * Vec3(1, 1, 1).normalized();

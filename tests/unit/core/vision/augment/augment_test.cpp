@@ -126,7 +126,7 @@ TEST(AugmentedView, AWrongBeliefMovesWhatIsReplaced) {
   }
   AugmentedView view(truth, {});
   learn(view, truth);
-  view.see(Painted(truth, kMoved).image.view(), at(kAtRest));  // and by the joints in `at`
+  view.see(Painted(truth, kMoved).image.view(), at(kAtRest));  // the believed joints place it, too
   EXPECT_LT(gone(Painted(truth, kMoved), view.removed()), 0.7);
 }
 

@@ -191,7 +191,7 @@ TEST(BallFinder, ImagesThatAreSwappedOrOfAnotherSizeHaveNone) {
 Scene behind_a_bar(double share) {
   Scene scene{{{{0.03, 0.0, 0.5}}}};
   scene.covered = [share](const Vec3& ray) {
-    const double x = 0.5 * ray.x() / ray.z() - 0.03;  // at the ball's depth, from its centre, m
+    const double x = 0.5 * ray.x() / ray.z() - 0.03;  // m from the ball's centre, at its depth
     return x > -0.03 && x < 0.012 * (2.0 * share - 1.0);
   };
   return scene;

@@ -186,9 +186,9 @@ TEST(GcsCoordinates, EachAxisTurnsByTheRightHandAboutThePivot) {
   expect_near(pose_of({0, 0, 0, 0, 0, kQuarter}, kPlain).q() * Vec3(1, 0, 0), {0, 1, 0});
 }
 
-// First W, then V, then U, each about fixed axes, equals U, then V, then W about axes that turn. A vector
-// along x: W = 90 makes it y; V = 90 about y leaves that; U = 90 makes it z. In the reverse order (first U,
-// then V, then W) x stays, becomes -z, stays.
+// First W, then V, then U, each about fixed axes, equals U, then V, then W about axes that turn.
+// A vector along x: W = 90 makes it y; V = 90 about y leaves that; U = 90 makes it z.
+// In the reverse order (first U, then V, then W) x stays, becomes -z, stays.
 TEST(GcsCoordinates, TheOrderIsUThenVThenWOfThePlatform) {
   const Quat turn = pose_of({0, 0, 0, kQuarter, kQuarter * (1 - 1e-9), kQuarter}, kPlain).q();
   EXPECT_LT((turn * Vec3(1, 0, 0) - Vec3(0, 0, 1)).norm(), 1e-8);

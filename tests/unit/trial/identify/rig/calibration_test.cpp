@@ -86,7 +86,7 @@ TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
               HasSubstr("in hold"));
 }
 
-// Any fault on the way ends the motion at once: nothing continues by itself.
+// Any fault on the way ends the motion at once, and it does not resume by itself.
 TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
   const auto said = [](const std::function<void(double, Inputs&)>& spoil) -> std::string {
     TrialOptions options;

@@ -153,7 +153,7 @@ TEST(ShadowUnjudged, ADryRunTellsRegistrationByThePress) {
   EXPECT_EQ(found(shadow, trial::Quantity::machine_time), nullptr);
 }
 
-// Nothing is carried, pressed or moved: the report states that, and there is no failure.
+// The machine carries, presses and moves nothing: the report states that, and there is no failure.
 TEST(ShadowUnjudged, WhatARecordCannotTellIsSaid) {
   const trial::Shadow shadow = shadowed({"clamped_tool", {}}, 5);
   EXPECT_FALSE(shadow.diverges());

@@ -1,5 +1,5 @@
-// Exact eigenvalues of a sampled wall, compared with the tables of the virtual wall and with a simulation in
-// time, and at the limits of a loop.
+// Exact eigenvalues of a sampled wall, at the limits of a loop, too. The tests compare them with the tables
+// of the virtual wall and with a simulation in time.
 #include "core/control/safety/certificate/certificate.h"
 
 #include <algorithm>
@@ -492,7 +492,7 @@ TEST(Certificate, LightMassIsNotFrozen) {
     const ReleaseResult found = release(light, {friction, 0.0}, 100.0, 0.0, kLarge);
     EXPECT_EQ(found.rest, Rest::still) << friction;
     EXPECT_LT(found.swing, 1e-5) << friction;
-    // By the eigenvalues its force moves it by K T/b of the way in a period, so up to twice the way.
+    // The eigenvalues show that its force moves it by K T/b of the way in a period, so up to twice the way.
     EXPECT_EQ(release(light, {friction, 0.0}, 900.0, 0.0, kLarge).rest, Rest::still) << friction;
     EXPECT_EQ(release(light, {friction, 0.0}, 1100.0, 0.0, kLarge).rest, Rest::away) << friction;
     EXPECT_EQ(release(heavy, {friction, 0.0}, 1.1 * critical_stiffness(heavy), 0.0, kLarge).rest, Rest::away)

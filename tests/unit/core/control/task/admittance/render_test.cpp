@@ -27,8 +27,8 @@ Loop pressed(double gap, const SceneSpec& scene = test::plane_scene()) {
   return loop;
 }
 
-// A sensor whose zero drifts by 0.02 N during a press, on an object so soft that this is more than the leave
-// gap, with the damper that such an object needs.
+// A sensor whose zero drifts by 0.02 N during a press. The object is so soft that this is more than the leave
+// gap, and has the damper that it needs.
 TEST(ModeEnds, AContactBehindADamperWhoseZeroHasDrifted) {
   RigSpec rig = test::exact_rig();
   rig.admittance.damping = Damping::observed;
@@ -133,7 +133,7 @@ TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsSeenClear) {
   }
 }
 
-// The other tool lies on the object's edge, where it touches nothing.
+// The second tool lies on the object's edge, where it touches nothing.
 TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsNear) {
   Loop loop = hidden(0.0029);
   loop.force_zero = Vec<'F'>(0, 0, -0.12);

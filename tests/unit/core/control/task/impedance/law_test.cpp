@@ -186,7 +186,7 @@ TEST(ArmLoop, WhatTheRigDoesNotSayIsNotKnown) {
   EXPECT_EQ(found.missing, "damping");
 }
 
-// docs/reference/plane_button.md has the eigenvalues of the same loop: 1213 to 2378 N/m.
+// docs/reference/plane_button.md has the eigenvalues of this loop: 1213 to 2378 N/m.
 TEST(ArmLoop, TheStiffestSpringIsThatOfTheDocumentedLoop) {
   const auto near = [&](double filter, double mass, double wanted) {
     certificate::SampledLoop loop{mass, 0.0, 1e-3};

@@ -365,7 +365,7 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   EXPECT_EQ(plate.at(-0.020, 500).prop_speed, 0.0);  // it cannot run
 }
 
-// From key to key the target moves fast only without a touch: a touched key stays the target.
+// The target moves fast from key to key only without a touch: a touched key stays the target.
 TEST(Reaching, WhatIsTouchedStaysTheTarget) {
   Bench bench("keypad");
   const double over_key_5 = 0.010;  // y
@@ -546,7 +546,7 @@ double pushed_after_rest(const std::vector<std::string>& set, bool slips = false
   bench.at(-0.150, 1);
   const double soon = bench.pushed();
   EXPECT_GT(soon, 0.5);  // nothing leaps
-  if (slips) {           // by 0.2 mm, at the speed that one count implies
+  if (slips) {           // slip of 0.2 mm, at the speed that one count implies
     bench.press_tip(0.0022);
     bench.loop.in.arm.value.velocity = Vec<'R'>(Vec3(0.0, 0.0, -0.014));
     bench.at(-0.150, 1);

@@ -1,5 +1,5 @@
-// The AVX2 kernels against their plain twins: equal to the bit, for every colour, over random images and at
-// every width up to several rounds of the fast loop.
+// The AVX2 kernels equal their plain twins to the bit: for every colour, over random images and at every
+// width up to several rounds of the fast loop.
 #include "core/vision/segmentation/kernels/kernels.h"
 
 #include <algorithm>
@@ -260,7 +260,7 @@ TEST(Arc, ReachesOverRed) {
 TEST(Arc, IsTheWholeCircleOrNothingAtTheEnds) {
   EXPECT_EQ(skin_arc({1.0, 1.0}, 3.2).count, kHues);
   EXPECT_EQ(skin_arc({1.0, 1e-9}, 1.0).count, 0);
-  EXPECT_FALSE(skin_arc({1.0, 1.0}, 9.0).has(kNoHue));  // whatever the arc, grey is no skin
+  EXPECT_FALSE(skin_arc({1.0, 1.0}, 9.0).has(kNoHue));  // grey is no skin for any arc
 }
 
 // The median of a mask: against a count of each window, and its two promises.
