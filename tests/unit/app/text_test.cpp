@@ -142,7 +142,8 @@ TEST(HoldLines, TheFirstThreeAreSaidAndTheOthersCounted) {
   }
 }
 
-// The owners of the bounds that `check` shows. The order is always the same, also if bounds are equal.
+// `check` shows the bounds of the object that is nearest to its bound. Equal margins always give the same
+// object.
 
 Certified one(const std::string& object, Class verdict, double margin,
               const std::string& row = "exact_with_hand") {

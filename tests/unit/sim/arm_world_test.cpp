@@ -102,8 +102,8 @@ TEST(ArmWorld, AWrongBaseMovesHome) {
   EXPECT_LT((room.world->truth().tip.e() - Vec3(0.001, 0, 0)).norm(), 1e-12);
 }
 
-// Drift with and without prop, in both forms of friction and without it: only the part below the encoders'
-// resolution remains.
+// The compensated arm does not drift, with and without prop, in both forms of friction. Only the part below
+// the encoders' resolution remains.
 TEST(ArmWorld, DoesNotDriftWithItsWeightCompensated) {
   for (const double prop : {0.0, 0.020}) {
     for (const ArmFriction form : {ArmFriction::dry, ArmFriction::smooth}) {

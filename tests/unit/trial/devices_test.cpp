@@ -312,7 +312,8 @@ TEST_F(DriverContract, ARoleThatItDoesNotFillIsAMistakeInTheFile) {
       "the rig file");
 }
 
-// A run's error names the device and its place; a list of devices already states the role.
+// A run's error names the device by its role and its place in the file; a list of devices already has the
+// role.
 TEST_F(DriverContract, ADeviceThatIsNotThereIsNamedByItsRoleAndItsPlaceInTheFile) {
   given().absent = true;
   EXPECT_EQ(test::refusal(ErrorKind::device, [&] { Trial trial(load(kTable), options(false)); }),

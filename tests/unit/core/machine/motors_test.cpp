@@ -77,7 +77,8 @@ TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
   }
 }
 
-// Tick by tick, the motor gives the full force until it is warm and less afterwards.
+// The motor bears a load, tick by tick, until fold-back gives less than that load, not until the motor is
+// warm.
 TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
   const Thermal thermal;
   constexpr double kPeak = 4.5, kStep = 0.01;

@@ -232,7 +232,8 @@ TEST(ClockTie, AClockThatIsSetForwardIsANewOne) {
   }
 }
 
-// Also for less than a step's threshold, and after a long time in which clocks may have drifted apart.
+// A step forward below the threshold is followed, too, also after a long time in which clocks may have
+// drifted apart.
 TEST(ClockTie, AClockThatIsSetForwardByLittleIsFollowed) {
   for (const double step : {0.005, 0.015, 0.05, 0.5})
     for (const double after : {20.0, 200.0, 600.0, 3600.0}) {

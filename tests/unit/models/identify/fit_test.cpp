@@ -302,8 +302,8 @@ TEST(Register, TellsWhatIsLeftOverAlongEachAxis) {
 }
 
 TEST(Register, ConditionOfAPlateAndOfARod) {
-  // A square: about its longest axis (any in the plane) the points fix the turn half as well as about the
-  // normal.
+  // A square: its points hold half as much information about a turn around its longest axis (any in the
+  // plane) as around the normal.
   const auto square =
       pairs_of({{0.1, 0.1, 0}, {-0.1, 0.1, 0}, {-0.1, -0.1, 0}, {0.1, -0.1, 0}}, {0.3, 0, 0}, {0, 0, 1});
   EXPECT_NEAR(models::register_points(square).condition, std::sqrt(2.0), 1e-9);

@@ -229,7 +229,7 @@ TEST(Reach, AFingerThatPassesByIsToldFromOneThatComes) {
   EXPECT_EQ(passes_by({}, 0.7e-3, 0.25), -HUGE_VAL);
 }
 
-// The place where all pictures carry an even hand counts as much as the hand is even.
+// The place where all pictures carry an even hand counts only as far as the hand is even.
 TEST(Reach, WhereAnEvenHandIsCarriedToCountsForThatAlone) {
   sim::Stream stream(19, "reach");
   const ReachBelief hand;

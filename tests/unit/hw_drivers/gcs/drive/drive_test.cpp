@@ -258,7 +258,7 @@ struct PointTalk {
 };
 
 // The driver sends one point each cycle, and none while more than two wait at the controller. No point is
-// farther than the platform can get.
+// farther than the platform gets in a cycle.
 TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
   PointTalk points;
   EXPECT_EQ(points.tell(0.01, 0), "SPA X 0x19001900 1\nSCT T 10\nSPA? X 0x19001900\nERR?\n");

@@ -86,7 +86,7 @@ TEST(StereoCalibrationLong, SaysHowWellNoisyCornersFit) {
   EXPECT_LT(found.focal_deviation, 0.005);
 }
 
-// A pair from another head stands out from the rest, and in the calibration that excludes it.
+// A pair from another head stands out from the rest, and so it does in the calibration from the others.
 TEST(StereoCalibration, APairOfAnotherHeadStandsOut) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 10);

@@ -125,7 +125,7 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
     EXPECT_EQ(e.known(), trial::Known::well) << trial::ball_numbers()[e.number].name << " " << e.width();
 }
 
-// Without friction its travel is undetermined.
+// The travel of friction is undetermined without friction.
 TEST(BallFit, AnIntervalMayBeInfinite) {
   sim::BallParameters ball{.friction = 0.0};
   trial::Pushes pushes = test::ball_pushes(ball, {});

@@ -25,8 +25,8 @@ struct ShadowedScene {
                                      const std::vector<std::string>& altered = {},
                                      const std::vector<std::string>& twin = {});
 
-// Shadow of a record with the scene's own truth and altered frames: each frame, and the share of the record
-// before it.
+// The record has the scene's own truth and altered frames: `alter` gets each frame and the share of the
+// record before it.
 using AlterFrame = std::function<void(RecordedTick& frame, double share)>;
 [[nodiscard]] trial::Shadow shadowed_frames(const ShadowedScene& scene, std::uint64_t seed,
                                             const AlterFrame& alter,

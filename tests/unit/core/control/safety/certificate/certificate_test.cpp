@@ -264,8 +264,8 @@ TEST(Bounds, ColgateSchenkelWithDelayIsHalfAPeriodAndTheDelay) {
     EXPECT_NEAR(passive_stiffness(wall(0.2, delay), {}), 0.2 / (0.5e-3 + delay), 0.01) << delay;
 }
 
-// Between whole periods the bound lies between the bounds of the periods above and below. The required
-// damping is exactly that of the largest stiffness.
+// The passive stiffness never grows with the delay, also between whole periods. The damping that it needs is
+// exactly the device's.
 TEST(Bounds, ColgateSchenkelBetweenPeriods) {
   double before = passive_stiffness(wall(0.2), {});
   for (int i = 1; i <= 30; ++i) {

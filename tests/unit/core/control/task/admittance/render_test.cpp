@@ -260,7 +260,7 @@ TEST(Damping, OneStepOfTheDamperByHand) {
   // k = 100 N/m, b = 10 N s/m: b/k = 0.1 s; the spring carries dt / (dt + b/k) of 1 N after one tick.
   const Response object = spring(100.0);
   EXPECT_NEAR(law().carry(object, ResponseState{}, 0.0, 1.0, 10.0, 0.02), 1e-3 / 0.101, 1e-12);
-  // The spring carries half already, at 5 mm: half of the rest comes on top.
+  // The spring carries half already, at 5 mm: a tick adds half of the share that it adds from zero.
   ResponseState half;
   object.deflection(half, 0.5);
   EXPECT_NEAR(law().carry(object, half, 0.5, 1.0, 10.0, 0.02), 0.5 + 0.5e-3 / 0.101, 1e-12);
