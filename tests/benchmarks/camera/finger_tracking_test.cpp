@@ -1,5 +1,6 @@
-// A finger that moves at 300 mm/s before the stereo head is followed from frame to frame: it is not lost, its
-// place and velocity are known, and the search window changes nothing [VisHap 2.1.2].
+// The tracker follows a finger that moves at 300 mm/s before the stereo head from frame to frame. It does not
+// lose the finger, estimates its place and velocity, and gives equal results with and without the search
+// window [VisHap 2.1.2].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,14 +30,14 @@ const SkinModel& skin() {
   return kSkin;
 }
 
-// Round and round before the head, never the same way, at one speed.
+// A path before the head that never repeats, at one speed.
 class Path {
  public:
   explicit Path(std::uint64_t seed) {
     sim::Stream stream(seed, "path");
     for (double& phase : phase_) phase = 6.28 * stream.uniform();
   }
-  // In small steps: where the path turns a whole one would leap.
+  // Advances in small steps: one whole step would leap where the path turns.
   void advance() {
     constexpr int kSteps = 50;
     for (int i = 0; i < kSteps; ++i) u_ += kSpeed * kPeriod / kSteps / slope().norm();
@@ -57,7 +58,7 @@ class Path {
   double u_ = 0.0;
 };
 
-// The stage and the hand that goes along the path; ten frames of the background come first.
+// The stage and the hand that follows the path; the first ten frames show the background only.
 class Play {
  public:
   explicit Play(std::uint64_t seed) : path(seed) {
@@ -91,7 +92,7 @@ FingerTracker tracker(bool window = true) {
   return {head(640), segmentation, FingertipSpec{}, track, MatchSpec{}};
 }
 
-// A finger of the tracker with its window, beside one that looks at whole frames.
+// Compares the tracker with its search window to a tracker that searches whole frames.
 void follow(std::uint64_t seed, int frames) {
   Play play(seed);
   FingerTracker windowed = tracker(), whole = tracker(false);
@@ -134,11 +135,11 @@ TEST(FingerTracking, FollowsAFingerInAWindow) { follow(kSeed, 100); }
 TEST(FingerTrackingLong, FollowsAFingerInAWindow) { follow(kSeed, 1000); }
 TEST(FingerTrackingLong, FollowsAFingerOnASeedNeverLookedAt) { follow(kNeverSeen + 700, 1000); }
 
-// Six frames without a finger in every fifty.
+// Hides the finger in six of every fifty frames.
 void hide(int times) {
   Play play(kSeed);
   FingerTracker eyes = tracker();
-  int missed = 0;  // frames with a finger since it is back
+  int missed = 0;  // frames with a finger since it came back
   bool hidden = false;
   for (int frame = -10; frame < 50 * times + 10; ++frame) {
     const bool hand = frame >= 0 && (frame + 10) % 50 < 44;

@@ -1,5 +1,5 @@
-// The judge of `bench extremes` objects to what is wrong, its faults are what they are called, and the short
-// form of the benchmark holds.
+// The judge of `bench extremes` reports wrong outputs, each fault does what its name says, and the short form
+// of the benchmark passes.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -40,7 +40,7 @@ TEST(Extremes, TheJudgeObjectsToACommandOfAMachine) {
 TEST(Extremes, TheJudgeObjectsToACommandOfAnArm) {
   EXPECT_EQ(judged("wall", [](Outputs&) {}).broken(), 0);
   EXPECT_GT(judged("wall", [](Outputs& out) { out.arm_force.xyz[1] = kUnset; }).broken(), 0);
-  // One cycle above the peak is let pass; it is counted.
+  // The judge allows one cycle above the peak, and counts it.
   const Judge once = judged("wall", [](Outputs& out) { out.felt = Vec<'W'>(0, 0, 9.0); });
   EXPECT_EQ(once.broken(), 0);
   EXPECT_EQ(once.over, 1);
@@ -61,7 +61,7 @@ TEST(Extremes, EachNumberOfTheInputsIsSpoiledAlone) {
     }
 }
 
-// The stamps that arrive of 500 packets, 8 ms apart.
+// Stamps of those of 500 packets, 8 ms apart, that arrive.
 std::vector<std::int64_t> arrived(const Network::Faults& faults) {
   Network network(faults, 1);
   std::vector<std::int64_t> stamps;

@@ -1,4 +1,4 @@
-// The first touch, watched step by step, and the contact law that judges it.
+// The first touch, observed step by step, and the contact law that judges it.
 #include "benchmarks/impact/touch.h"
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// What benchmarks are written with: the table, figures, grids and plots; ways that are timed in turn; and
-// `bench --rig`: Table 1 and Fig 3 over real sockets, with fakes in place of the devices, and what it
-// refuses.
+// Tools for writing benchmarks: the table, figures, grids, plots and interleaved timing. Also `bench --rig`:
+// Table 1 and Fig 3 over real sockets with fakes as devices, and what the command refuses.
 #include "benchmarks/kit/kit.h"
 
 #include <algorithm>
@@ -60,14 +59,14 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What the build leaves out where vision was not built: "|segmentation|fingertip|...|".
+// Benchmarks that a build without vision leaves out: "|segmentation|fingertip|...|".
 std::string through_a_camera() {
   const std::string text = text_of(tests::source_dir() + "/cmake/benchmarks.cmake"), before = "\"/(";
   const std::size_t from = text.find(before) + before.size();
   return "|" + text.substr(from, text.find(")$\"", from) - from) + "|";
 }
 
-// By name and folder: those with a line of their own for the table.
+// Names and folders of the benchmarks that add a line of their own to the table.
 std::vector<std::string> written(bool with_camera) {
   const std::string cameras = through_a_camera();
   std::set<std::string> names;
@@ -279,10 +278,10 @@ TEST(Race, RoundsBeforeTheFirstAreNotTimedAndChunksBeginAnew) {
   EXPECT_THAT(done, ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3));
   const Race other(3, {[] {}}, 0);
   EXPECT_GT(race.ratio(0, other, 0), 0.0);
-  EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // not as many rounds
+  EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // too few rounds
 }
 
-// Said of one sample: what means of many samples scatter by.
+// The standard error of one sample predicts how far the means of many samples scatter.
 TEST(TrimmedMean, SaysHowWellItIsKnown) {
   std::mt19937_64 random(7);
   for (const double share_of_outliers : {0.0, 0.01}) {
@@ -350,7 +349,7 @@ Words bench_words(Words words, const Words& set = {}) {
   return words;
 }
 
-// In one line, before anything runs.
+// The error is one line, and no benchmark runs before it.
 std::string refused_line(const Words& words) {
   const tests::Result r = tests::run_program(bench_words(words));
   EXPECT_EQ(r.code, 2) << r.err;
@@ -397,7 +396,7 @@ double twin_of(const Json& figure) {
   return at == std::string::npos ? kUnset : std::stod(note.substr(at + before.size()));
 }
 
-// All that they had is free again.
+// All ports of the bench are free again.
 void expect_free(const Words& ports) {
   for (const std::string& one : ports) {
     const auto port = static_cast<std::uint16_t>(std::stoi(one.substr(one.find('=') + 1)));
@@ -408,7 +407,7 @@ void expect_free(const Words& ports) {
   }
 }
 
-// However many holds there are before there is anything to go by, and whenever the last of them began.
+// The bench detects a hold however many holds precede the first sample and whenever the last one began.
 TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
   const auto held = [](const std::function<bool(int)>& gone) {
     trial::TrialOptions options{.seconds = 0.4};
@@ -431,8 +430,8 @@ TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
               HasSubstr("was in hold at 0.400 s: machine pose lost"));
 }
 
-// In lockstep only rounding on the wires is between the two: Table 1 comes out as in the twin, and a
-// stiffness to two steps of the machine (3 um) out of the 3 mm that 30 N press 10 N/mm in.
+// In lockstep the wires add only rounding. Table 1 equals the twin's; a stiffness differs by at most two
+// steps of the machine (3 um) in the 3 mm that 30 N press 10 N/mm in.
 TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   const test::TemporaryFolder folder;
   const Words ports = enc::wires::free_ports();
@@ -466,7 +465,7 @@ TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   expect_free(ports);
 }
 
-// Of a shell: waits until the fakes listen, without a connection.
+// A shell loop that waits until the fakes listen, without connecting.
 std::string until_there(const Words& ports) {
   for (const std::string& one : ports)
     if (const std::size_t at = one.find("gcs.port="); at != std::string::npos)
@@ -475,7 +474,7 @@ std::string until_there(const Words& ports) {
   return "exit 99; ";
 }
 
-// The run lets go of its machine and ends the fakes before it ends itself.
+// The bench releases its machine and ends the fakes before it exits.
 TEST(OverRig, ASignalEndsTheFakesToo) {
   const test::TemporaryFolder folder;
   const Words ports = enc::wires::free_ports();
@@ -490,7 +489,7 @@ TEST(OverRig, ASignalEndsTheFakesToo) {
   expect_free(ports);
 }
 
-// Killed, it ends nothing itself: the system does.
+// A killed bench cannot end its fakes; the system ends them.
 TEST(OverRig, FakesDoNotOutliveAKilledBench) {
   const Words ports = enc::wires::free_ports();
   const Words words = bench_words(

@@ -1,6 +1,6 @@
-// The pressed ball. Contours: distances and overlaps of known shapes, and the committed ones of Fig 11, which
-// are read whole or refused in one line. Indentations: the measure of Table 2 on loops worked by hand, the
-// theory of its lag, and the twin against that theory.
+// The pressed ball. Contours: distances and overlaps of known shapes; the committed contours of Fig 11 are
+// read whole or refused in one line. Indentations: the measure of Table 2 on hand-computed loops, the theory
+// of its lag, and the twin against that theory.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -44,7 +44,7 @@ Contour cut(double off) {
 }
 double slice_area(double off) {
   const double half = std::acos(1.0 - off / kRadius);
-  return 0.5 * kRadius * kRadius * (half - std::sin(half) * std::cos(half));  // of half the section
+  return 0.5 * kRadius * kRadius * (half - std::sin(half) * std::cos(half));  // half the section's area
 }
 double slice_volume(double off) { return std::numbers::pi * off * off * (kRadius - off / 3.0); }
 
@@ -60,11 +60,12 @@ TEST(Contour, TwoCirclesAreTheirRadiiApart) {
 }
 
 TEST(Contour, WhatIsNotDentedDoesNotCount) {
-  // 50 um apart: under the threshold on both.
+  // The circles are 50 um apart: below the threshold of both.
   const ContourGap gap = contour_gap(circle(kRadius), circle(kRadius - 0.05e-3), kRadius);
   EXPECT_EQ(gap.rms, 0.0);
   EXPECT_NEAR(gap.half_rms, 0.05e-3, 1e-8);
-  // A slice of 2 mm off one of them: dented there only, so the rest does not thin it out.
+  // A slice of 2 mm is missing from one contour. Only that side is dented, so the rest does not dilute the
+  // value.
   const ContourGap sliced = contour_gap(circle(kRadius), cut(2e-3), kRadius);
   EXPECT_GT(sliced.rms, 1.5 * sliced.half_rms);
   EXPECT_NEAR(sliced.largest, 2e-3, 1e-5);
@@ -81,7 +82,7 @@ TEST(Contour, OverlapOfTwoSlices) {
 }
 
 TEST(Contour, AHoleWithUprightWalls) {
-  // 5 mm wide and 4 mm deep in a flat top 3 mm down: z is known in every column.
+  // The hole is 5 mm wide and 4 mm deep in a flat top 3 mm down: z is known in every column.
   Contour hole{{0.0, 0.026}, {0.0025, 0.026}};
   const Contour flat = cut(3e-3);
   hole.emplace_back(0.0025, 0.030);
@@ -146,7 +147,7 @@ using ::testing::ElementsAre;
 
 const std::string kModels = tests::source_dir() + "/models";
 
-// 2 N/mm pressing, 1 N/mm releasing.
+// A loop with 2 N/mm while pressing and 1 N/mm while releasing.
 Response loop() { return {ResponseSpec{{2000, 0, 0, 0}, {1000, 0, 0, 0}, 6e-3}, 0.0}; }
 
 TEST(Indentation, ErrorsOfThreeReadings) {
@@ -162,7 +163,8 @@ TEST(Indentation, ErrorsOfThreeReadings) {
   EXPECT_TRUE(std::isnan(errors_of({}, loop(), true).rmse));
 }
 
-// Press until the limit is near, release from where it is left: nothing at the limit counts, nor in the air.
+// Press until near the limit, release from where the hand leaves it; samples at the limit and in the air do
+// not count.
 TEST(Indentation, LoopIsSplitAtTheLimit) {
   Branch contact;
   const std::vector<double> way{-0.1, 0.5, 3.0, 5.94, 5.96, 6.0, 5.97, 5.9, 2.0, -0.2};  // mm
@@ -193,8 +195,8 @@ TEST(Indentation, CellOfSeveralRuns) {
   EXPECT_NEAR(cell.most, 0.3, 1e-12);
 }
 
-// Minimum jerk has the mean square of its speed at 10/7 of the square of its mean speed [Flash and Hogan
-// 1985]; a linear object turns that into force.
+// The mean square speed of a minimum-jerk motion is 10/7 of its squared mean speed [Flash and Hogan 1985]. A
+// linear object turns that into force.
 TEST(Indentation, TheoryOfALinearObject) {
   const Response spring(ResponseSpec{{2000, 0, 0, 0}, {2000, 0, 0, 0}, 20e-3}, 0.0);
   const LagTheory theory{spring, spring, 6e-3, 0.0, 0.020};
@@ -214,7 +216,8 @@ TEST(Indentation, PaperCellsAreRead) {
   }
 }
 
-// The same seed gives the same hand, another one another, and the hand's numbers stay those of a person.
+// A seed always gives the same hand, different seeds give different hands, and each hand's numbers stay those
+// of a person.
 TEST(Indentation, HandsDifferWithTheirSeed) {
   const models::Setup setup = indent_setup(kModels, indentations().front(), {}, {});
   const UserSpec one = *varied(setup, 1).scene.user, same = *varied(setup, 1).scene.user;
@@ -230,8 +233,8 @@ TEST(Indentation, HandsDifferWithTheirSeed) {
   }
 }
 
-// Perturbation: twice the corner of the force filter takes half of its lag out of the error of the sensor's
-// force.
+// Perturbation: a filter with twice the corner frequency removes half of its lag from the error of the
+// sensor's force.
 TEST(Indentation, FilterMovesTheErrorAsItsLagSays) {
   const auto rmse = [](const std::string& corner, double& theory) {
     std::vector<std::string> own = still_hand();

@@ -1,5 +1,5 @@
-// Seeded properties of what a finger meets: buttons against an oracle, the choice of the nearest of many
-// objects.
+// Seeded properties of the objects that a finger touches: buttons against an oracle, and the choice of the
+// nearest of many objects.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -24,8 +24,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Nearest point of a triangle by its three edges and its inside, one after another: nothing is shared with
-// Button.
+// Computes the nearest point of a triangle from its three edges and its inside, one after another. It shares
+// no code with Button.
 Vec3 on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return a + std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0) * (b - a);
 }
@@ -40,7 +40,7 @@ double to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (left(a, b) && left(b, c) && left(c, a)) least = std::min(least, (p - foot).norm());
   return least;
 }
-// Of the box's twelve triangles.
+// Distance to the nearest of the box's twelve triangles.
 double to_box(const Vec3& p, const Button& b) {
   const auto corner = [&](int i) {
     return Vec3((i & 1) != 0 ? 0.5 * b.width : -0.5 * b.width,
@@ -76,7 +76,7 @@ TEST(ButtonProperty, DistancesAreThoseOfABoxAndInsideThoseToItsFace) {
   EXPECT_GT(inside, 100);
 }
 
-// 1e-9 m on either side of an edge, the side that is named is the right one.
+// A point 1e-9 m on either side of an edge belongs to the correct side.
 TEST(ButtonProperty, EdgesAreExact) {
   Random random(2);
   for (int i = 0; i < 10'000; ++i) {
@@ -99,7 +99,7 @@ bool is_button(const Scene& scene, std::int32_t index) {
   return std::holds_alternative<Button>(scene.objects[static_cast<std::size_t>(index)].surface.shape());
 }
 
-// With no object of last time the nearest one is chosen, whatever the bounds leave out.
+// Without a previous object the choice is the nearest one, whatever the bounds exclude.
 TEST(NearestObject, IsTheRightOneInAllQueries) {
   Random random(3);
   test::Loop loop(crowded(50, 7));
@@ -110,7 +110,7 @@ TEST(NearestObject, IsTheRightOneInAllQueries) {
     loop.tick();
     const bench::switching::Nearby right = bench::switching::brute_force(loop.scene, loop.tool_tip);
     ASSERT_EQ(loop.out.object, right.object) << i;
-    // Beside a button the gap is the way to its edge.
+    // Beside a button the gap is the distance to its edge.
     const bool beside =
         loop.state.hints.tool[0].feature == kButtonSide && is_button(loop.scene, right.object);
     ASSERT_NEAR(loop.out.gap, right.distance - (beside ? 0.0 : test::kToolRadius), 1e-12);
@@ -119,7 +119,7 @@ TEST(NearestObject, IsTheRightOneInAllQueries) {
   EXPECT_GT(near, 100) << "some were close decisions";
 }
 
-// The tracker is exact: prediction would smooth the noise away.
+// The tracker is exact, because prediction would smooth the noise away.
 int switches(Scene scene, double hysteresis, const Point<'W'>& middle, double noise, int ticks) {
   scene.follow.hysteresis = hysteresis;
   test::Loop loop(std::move(scene));
@@ -163,7 +163,8 @@ TEST(NearestObject, OfTwoThatCoincideTheFirstIsTaken) {
   }
 }
 
-// An arm renders what is touched, so that is not kept waiting by the favour of what was nearest before.
+// An arm renders the touched object at once: the hysteresis for the previous nearest object does not delay
+// it.
 TEST(NearestObject, WhatAnArmsFingerTouchesTakesOverAtOnce) {
   for (const bool has_arm : {false, true}) {
     Scene scene = two_balls(0.036);  // 16 mm between them, and a tip of 2 mm
@@ -173,7 +174,7 @@ TEST(NearestObject, WhatAnArmsFingerTouchesTakesOverAtOnce) {
     loop.tool_tip = {-0.004, 0, 0.02};
     loop.tick();
     ASSERT_EQ(loop.out.object, 0);
-    loop.tool_tip = {0.0055, 0, 0.02};  // 2.5 mm from the other: not touched
+    loop.tool_tip = {0.0055, 0, 0.02};  // 2.5 mm from the second ball: not touched
     loop.tick();
     EXPECT_EQ(loop.out.object, 0);
     loop.tool_tip = {0.0065, 0, 0.02};

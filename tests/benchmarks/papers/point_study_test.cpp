@@ -1,5 +1,5 @@
-// Sets of points as files and what they tell of themselves: averages, intervals, noise that stays, the pair
-// that is wrong; and the guided procedure's places.
+// Point sets as files and the figures computed from them: averages, intervals, persistent noise, the wrong
+// pair. Also the places of the guided procedure.
 #include "trial/identify/camera/point_study.h"
 
 #include <cmath>
@@ -116,7 +116,7 @@ TEST(PointStudy, TellsNoiseOfAFrameFromWhatStays) {
   trial::RegistrationRig r = rig();
   r.camera.standing = 0.2;
   const trial::PointStudy study = trial::study_points(guided(r, 40, 50, 1).points);
-  // Lengths of all three axes: disparity makes nearly all of both.
+  // Compares lengths over all three axes: disparity causes nearly all of both.
   EXPECT_NEAR(study.standing.norm() / study.frame_noise.norm(), 0.2 / 0.2, 0.25);
   r.camera.standing = 0.0;
   const trial::PointStudy none = trial::study_points(guided(r, 40, 50, 1).points);
@@ -140,7 +140,7 @@ TEST(PointStudy, MorePairsAndMoreFramesHelp) {
     return kUnset;
   };
   EXPECT_LT(error(12, 20), error(4, 20));
-  // The noise of the pairs that judge is in both.
+  // Both errors contain the noise of the pairs that judge.
   EXPECT_LT(error(8, 20), 0.7 * error(8, 1));
   EXPECT_LT(error(8, 5), error(8, 1));
 }

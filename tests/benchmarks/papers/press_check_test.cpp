@@ -1,4 +1,4 @@
-// What of the machine is in the way of a tool, worked by hand; and where the tip gets.
+// Parts of the machine that obstruct a tool, and the places that the tip reaches, computed by hand.
 #include "core/control/scene/press_check.h"
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace {
 
 Vec<'W'> from(double polar) { return {std::sin(polar * kDegree), 0.0, std::cos(polar * kDegree)}; }
 
-// Tips of 5 and 2 mm stand 7 mm apart. Below the tip, the tool's centre must be 4 + 2 mm off the stem's axis:
-// asin(6 / 7) = 58.997 degrees off straight up.
+// Tips of 5 and 2 mm radius stand 7 mm apart. Below the tip, the tool's centre must be 4 + 2 mm off the
+// stem's axis: asin(6 / 7) = 58.997 degrees off straight up.
 TEST(PressCheck, TheStemBeginsWhereItMust) {
   const Scene scene = prepare(test::ball_scene(), {});
   const Tool tool = scene.tools.front();
@@ -40,13 +40,13 @@ TEST(PressCheck, ThenTheGripper) {
   tool.length = 0.120;
   EXPECT_NEAR(steepest_press(scene, tool) / kDegree, 180.0 - edge / kDegree, 1e-6);
   EXPECT_EQ(in_the_way(scene, from(150), tool), Obstacle::gripper);
-  tool.length = 0.010;  // ends above the gripper
+  tool.length = 0.010;  // the tool ends above the gripper
   EXPECT_EQ(in_the_way(scene, from(150), tool), Obstacle::none);
 }
 
 TEST(PressCheck, APressFromBelowIsRefusedEvenWithinReach) {
   SceneSpec spec = test::ball_scene();
-  spec.objects[0].position.z() = 0.015;  // its lower side is within reach, its top is not
+  spec.objects[0].position.z() = 0.015;  // its lower side is within reach, its top is beyond
   spec.user.emplace();
   spec.user->polar = 110.0 * kDegree;
   EXPECT_NO_THROW((void)prepare(spec, {}));
@@ -62,7 +62,7 @@ TEST(PressCheck, APressFromBelowIsRefusedEvenWithinReach) {
   }
 }
 
-// At the zero, up and down: all struts alike, so the travel is sqrt((L +- stroke)^2 - r^2) - h.
+// At the zero, up and down: all struts have equal lengths, so the travel is sqrt((L +- stroke)^2 - r^2) - h.
 TEST(ReachVolume, TheMiddleColumnByHand) {
   const Hexapod machine{HexapodGeometry{}};
   const bench::workspace::ReachVolume reach(machine);
@@ -74,7 +74,7 @@ TEST(ReachVolume, TheMiddleColumnByHand) {
   EXPECT_NEAR(column.low, at(machine.zero_length() - g.stroke), 1e-12);
 }
 
-// Column and limit() are two ways to the same answer.
+// Column and limit() compute the same answer in two ways.
 TEST(ReachVolume, AgreesWithTheMachinesOwnLimit) {
   const Hexapod machine{HexapodGeometry{}};
   const bench::workspace::ReachVolume reach(machine);
@@ -97,7 +97,7 @@ TEST(ReachVolume, AgreesWithTheMachinesOwnLimit) {
   EXPECT_NEAR(inside / 20000.0 * 0.2 * 0.2 * 0.08, reach.straight(1e-3), 0.02e-3);
 }
 
-// Twice as large in all lengths: eight times the volume.
+// A machine twice as large in all lengths has eight times the volume.
 TEST(ReachVolume, GrowsAsTheCube) {
   HexapodGeometry half;
   for (double* x : {&half.base_radius, &half.platform_radius, &half.height, &half.tip_height, &half.stroke})

@@ -1,6 +1,5 @@
-// Pushes from outside: the law, programme and tremor of what pushes, worked by hand; what counts as unstable;
-// and the boundary of stability, which has to follow from the parameters as the linear theory says where that
-// holds.
+// Pushes from outside: force law, programme and tremor of the pusher, computed by hand; the criterion of
+// instability; and the boundary of stability, which follows the linear theory where that theory holds.
 #include <cmath>
 #include <numbers>
 
@@ -38,11 +37,11 @@ sim::PusherTruth still() {
   truth.tremor = 0.0;
   return truth;
 }
-// A wall of 30 N/m, wanted 15 mm deep: 0.45 N there.
+// A wall of 30 N/m with a requested depth of 15 mm, which is 0.45 N.
 PushedPoint wall() { return {{Point<'W'>(0, 0, kSurface), Vec<'W'>(0, 0, 1)}, 0.015, 0.45}; }
 Point<'W'> tip_at(double depth) { return {0, 0, kSurface - kRadius - depth}; }
 
-// Acts until `to`, s, with the tip where it is; gives the force that presses, N.
+// Simulates until `to` (s) with the tip at `depth`; returns the pressing force in N.
 double press(Pusher& pusher, double& t, double to, double depth, double speed = 0.0) {
   double force = 0.0;
   for (; t < to - 0.5 * kStep; t += kStep)
@@ -54,8 +53,9 @@ TEST(Pusher, SpringAndDamperWorkedByHand) {
   Pusher pusher(programme(), still(), wall(), kRadius, 1);
   EXPECT_DOUBLE_EQ(pusher.reach(), 0.015 + 0.45 / 45.0);
   double t = 0.0;
-  EXPECT_EQ(press(pusher, t, 0.9, -1.0), 0.0);  // waits clear of the tip, wherever that is
-  // Half of the ramp: half of the way from 2 mm above to 25 mm below, 1.875 times as fast as on average.
+  EXPECT_EQ(press(pusher, t, 0.9, -1.0), 0.0);  // waits clear of the tip, wherever the tip is
+  // At half of the ramp the pusher has gone half of the path from 2 mm above to 25 mm below, at 1.875 times
+  // the mean speed.
   const double at = 0.5 * 0.027 - 0.002, speed = 1.875 * 0.027 / 2.0;
   EXPECT_NEAR(press(pusher, t, 2.0, 0.005), 45.0 * (at - 0.005) + speed, 1e-9);
   EXPECT_NEAR(press(pusher, t, 4.0, 0.015), 0.45, 1e-12);                // held: the wall's own force
@@ -114,7 +114,7 @@ TEST(Pusher, TremorHasItsSizeAndRate) {
   EXPECT_NE(all, forces(2));
 }
 
-// The twin: 1 N/mm, pushed 15 mm deep, without anything that errs.
+// The twin without errors: 1 N/mm, pushed 15 mm deep.
 std::vector<std::string> exact() {
   return {"rig.force.tare=start",
           "rig.force.tare_time_s=0",
@@ -136,7 +136,7 @@ TEST(Pusher, FindsItsBalanceWithARenderedSpring) {
   twin.run(8900);
   const sim::Truth& truth = twin.world->truth();
   EXPECT_EQ(truth.phase, Phase::hold);
-  EXPECT_EQ(twin.out.mode, Mode::contact);  // found by force alone: there is no tracker
+  EXPECT_EQ(twin.out.mode, Mode::contact);  // the core detects the push from force alone, without a tracker
   EXPECT_EQ(twin.out.contacts, 1);
   EXPECT_NEAR(-truth.contact_force.xyz[2], 15.0, 1e-3);
   EXPECT_NEAR(twin.out.deflection, 0.015, 1e-6);
@@ -203,13 +203,13 @@ bool unstable(const std::vector<double>& way) {
 
 TEST(PushStudy, InstabilityIsSeenInTheMotion) {
   EXPECT_NEAR(peak_to_peak(swing(0.6e-3, 2.6)), 1.2e-3, 1e-6);
-  EXPECT_TRUE(unstable(swing(0.51e-3, 2.6)));     // keeps swinging
+  EXPECT_TRUE(unstable(swing(0.51e-3, 2.6)));     // a limit cycle
   EXPECT_TRUE(unstable(swing(0.1e-3, 2.6, -1)));  // grows
   EXPECT_FALSE(unstable(swing(0.49e-3, 2.6)));
   EXPECT_FALSE(unstable(swing(0.0, 2.6)));
   const std::vector<double> dying = swing(5e-3, 2.6, 3.0, 6000);
-  EXPECT_FALSE(unstable({dying.begin() + 3000, dying.end()}));  // came to rest
-  EXPECT_TRUE(unstable({}));                                    // was never seen at rest
+  EXPECT_FALSE(unstable({dying.begin() + 3000, dying.end()}));  // comes to rest
+  EXPECT_TRUE(unstable({}));                                    // never at rest
   EXPECT_TRUE(unstable({0.015, kUnset, 0.015}));
   EXPECT_TRUE(Push{}.unstable());
 }
@@ -245,7 +245,7 @@ models::Setup setup_with(const std::vector<std::string>& variant) {
 }
 
 TEST(PushStudy, AForceErrorBecomesTheErrorThatItHasToBe) {
-  // 0.05 N of threshold at 0.1 N/mm: the pusher (k_h) finds x with k_h (x_s - x) = k x + 0.05.
+  // The threshold is 0.05 N at 0.1 N/mm: the pusher (k_h) finds x with k_h (x_s - x) = k x + 0.05.
   const models::Setup setup =
       with_stiffness(setup_with({"truth.pusher.tremor_N=0", "truth.force.drift_N_per_push=0"}), 100);
   const double k_h = setup.twin.pusher.stiffness;
@@ -258,12 +258,12 @@ TEST(PushStudy, AForceErrorBecomesTheErrorThatItHasToBe) {
 TEST(PushStudy, TheLoadIsFreeOfTheZerosError) {
   const Push push = push_once(with_stiffness(setup_with({"truth.force.drift_N_per_push=0.3"}), 1000), 3);
   EXPECT_GT(std::abs(push.error(push.load) - push.error(push.measured)), 0.3);  // a zero that is 0.3 N off
-  // What the core took for pressing is in x; the load is not: the two differ by zero / (k x).
+  // x contains what the core took for pressing; the load does not. The two differ by zero / (k x).
   const Push exact = push_once(with_stiffness(setup_with({"truth.force.drift_N_per_push=0"}), 1000), 3);
   EXPECT_NEAR(exact.error(exact.load), exact.error(exact.measured), 0.05);
 }
 
-// Where nothing saturates the boundary follows the linear loop: in place, and in what each parameter does.
+// Without saturation the boundary follows the linear loop, in its place and in the effect of each parameter.
 TEST(PushStudy, BoundaryMovesAsTheLinearTheorySays) {
   const auto boundary = [](const std::vector<std::string>& change, double& linear) {
     std::vector<std::string> variant = unlimited_acceleration();

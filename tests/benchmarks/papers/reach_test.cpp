@@ -1,5 +1,5 @@
-// What is said of a reach, by hand: a prop that comes along x to a finger that comes down z. And the ideal
-// predictor: what it makes of an even way, and what an arm can make of that.
+// Measures of a reach, computed by hand: a prop that comes along x to a finger that comes down z. Also the
+// ideal predictor: its result for a straight path, and what an arm can achieve with it.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -22,9 +22,9 @@ Scene flat_wall() {
   return scene;
 }
 
-// A finger of 8 mm radius goes down with 100 mm/s from 20 mm over the wall at x = 0; the prop comes along x
-// with 200 mm/s and stops at x = `stop`, 10 ms after the reach began the core prepares.
-// The core renders what `rendered` says of the ms: an object, or none.
+// A finger of 8 mm radius goes down with 100 mm/s from 20 mm above the wall at x = 0. The prop comes along x
+// with 200 mm/s and stops at x = `stop`; the core prepares it 10 ms after the reach began. `rendered` gives
+// the object that the core renders at each ms, if any.
 std::vector<ReachOutcome> reach(
     double stop, bool touching = true,
     const std::function<std::int32_t(int)>& rendered = [](int) { return -1; }) {
@@ -88,7 +88,8 @@ TEST(ReachMeasure, AFingerThatPassesThePropMeetsTheSurfaceAllTheSame) {
   EXPECT_EQ(reaches[0].contacts, 0);
 }
 
-// The first that is rendered while the finger touches the prop, whatever was rendered before or comes after.
+// The felt object is the first one rendered while the finger touches the prop, whatever the core rendered
+// before or after.
 TEST(ReachMeasure, SaysWhichObjectIsFelt) {
   const auto first = [](int i) { return i < 202 ? -1 : 0; };
   const ReachOutcome r = reach(0.0, true, first).at(0);
@@ -116,7 +117,7 @@ TEST(WantedAt, IsUnderTheFingerOrInTheMiddleOfAButton) {
   EXPECT_LT((trial::wanted_at(key, {0.104, 0.002, 0.01}).point - Point<'W'>(0.1, 0, 0)).norm(), 1e-15);
 }
 
-// A first movement of 180 mm that is seen until 75 ms before the touch, every 50 ms and 50 ms late.
+// A first movement of 180 mm, visible until 75 ms before the touch: one picture every 50 ms, each 50 ms late.
 SeenReach seen_reach() {
   SeenReach reach;
   const Vec3 from(-0.06, 0.02, 0.17), to(0.0, 0.0, -0.01);
@@ -151,14 +152,15 @@ TEST(ReachIdeal, AnArmIsSomewhereBetweenThePlacesOfTwoPictures) {
   EXPECT_LT((anywhere - best).norm(), 1e-9);
   EXPECT_LT((still - ideal_place({}, reach, fourth, reach.met).place).norm(), 1e-9);
   EXPECT_GT((still - best).norm(), 1e-6);
-  // A picture of no use in time: what is told at the touch moves nothing.
+  // A picture that comes too late: a prediction at the touch moves nothing.
   SeenReach late = reach;
   late.pictures.back().told = reach.met;
   const Eigen::Vector2d before = ideal_place({}, reach, reach.pictures.back().told - 1e-3, reach.met).place;
   EXPECT_LT((ideal_carried({}, late, 1e6) - before).norm(), 1e-9);
 }
 
-// Not told when it touches; with any acceleration the prop is where the mean of what is still to come is.
+// The predictions do not contain the time of the touch; with unlimited acceleration the prop is at the mean
+// of the predictions still to come.
 TEST(ReachIdeal, AnArmFollowsWhatIsStillToCome) {
   const SeenReach reach = seen_reach();
   const std::vector<IdealCourse> courses = ideal_courses({}, reach);
@@ -169,7 +171,7 @@ TEST(ReachIdeal, AnArmFollowsWhatIsStillToCome) {
   EXPECT_LT((goal - reach.where).norm(), 5e-3);
   const Eigen::Vector2d first = courses.front().mean(courses.front().told, soon);
   EXPECT_LT((ideal_followed(courses, reach.met, 1e-9, soon) - first).norm(), 1e-6);
-  // Where it would touch then is what is told for that time.
+  // The course predicts the place of the touch for that time.
   const double then = courses.back().told + 2 * IdealCourse::kEach;
   EXPECT_LT((courses.back().then[2].place - ideal_place({}, reach, courses.back().told, then).place).norm(),
             1e-12);

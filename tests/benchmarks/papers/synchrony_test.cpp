@@ -1,5 +1,6 @@
-// Limits from contact to contact, the fused tip, the lag of two signals, the age of what a display sends
-// back. Lags that were put in are found again; a later display is later by just that.
+// Limits from contact to contact, the fused tip, the lag of two signals, the age of a surface that a display
+// sends back. The measure recovers the injected lags; a display that is later by some time lags by exactly
+// that time.
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +26,7 @@ using test::scene_file;
 TEST(ContactLimits, TheKthContactTakesTheKthAndTheLastStays) {
   const std::vector<double> limits{6 * kMillimetre, 4 * kMillimetre, 2 * kMillimetre};
   const ContactLimits all(limits);
-  EXPECT_EQ(all.at(0, 9.0), 6 * kMillimetre);  // before the first
+  EXPECT_EQ(all.at(0, 9.0), 6 * kMillimetre);  // before the first contact
   EXPECT_EQ(all.at(1, 9.0), 6 * kMillimetre);
   EXPECT_EQ(all.at(2, 9.0), 4 * kMillimetre);
   EXPECT_EQ(all.at(3, 9.0), 2 * kMillimetre);
@@ -33,7 +34,7 @@ TEST(ContactLimits, TheKthContactTakesTheKthAndTheLastStays) {
   EXPECT_EQ(ContactLimits().at(3, 9.0), 9.0);
 }
 
-// Clear of the ball until the force zero is known, then touching it.
+// Clear of the ball until the force zero is known, then in contact.
 void touch(Loop& loop) {
   loop.force = Vec<'W'>(0, 0, 0);
   loop.tool_tip = Point<'W'>(0, 0, test::kTop + test::kToolRadius + 20 * kMillimetre);
@@ -75,7 +76,7 @@ TEST(Fuse, TheShareGrowsToTheForceThatIsAContact) {
   EXPECT_EQ(pressing_share(5.0, 0.1), 1.0);
 }
 
-// A tracker that is wrong by 0.12 mm, and what is drawn.
+// The drawn tip under a tracker with an error of 0.12 mm.
 Point<'W'> drawn(SeenTip tip, double lead, double compliance, double speed, Loop& loop) {
   loop.scene.display.tip = tip;
   loop.scene.display.lead = lead;
@@ -94,7 +95,7 @@ TEST(Fuse, WhileItPressesTheHapticTipSaysWhereTheToolIs) {
   const double z = drawn(SeenTip::fused, 0.0, 0.0, 0.010, loop).xyz[2];
   ASSERT_EQ(loop.out.mode, Mode::contact);
   EXPECT_NEAR(z - loop.in.tip.value.X_RH.p().z() - loop.scene.X_WR.p().z(), 7 * kMillimetre, 1e-12);
-  // The markers go with the tip.
+  // The markers move with the tip.
   const Tool& tool = loop.scene.tools.front();
   EXPECT_NEAR((loop.out.view.X_WT * tool.tip.centre).xyz[2], z, 1e-12);
 }
@@ -145,7 +146,7 @@ TEST(Lag, OfShiftedSignals) {
     const std::vector<double> second = presses(late, kMillisecond, 7000);
     EXPECT_NEAR(bench::synchrony::lag_of(first, second, kMillisecond, 0.1), late, 5e-5) << late;
   }
-  // A bias and another size of the signal change nothing.
+  // A bias and a different amplitude of the signal change nothing.
   std::vector<double> second = presses(0.030, kMillisecond, 7000);
   for (double& x : second) x = 0.2 + 3.0 * x;
   EXPECT_NEAR(bench::synchrony::lag_of(first, second, kMillisecond, 0.1), 0.030, 5e-5);
@@ -160,7 +161,7 @@ TEST(Lag, ThereIsNoneWithoutASignalOrBeyondTheSearch) {
       std::isnan(bench::synchrony::lag_of(first, presses(0.3, kMillisecond, 7000), kMillisecond, 0.1)));
 }
 
-// What the core has of the seen surface is as old as the way back and up to one frame more.
+// The core's copy of the drawn surface is as old as the way back plus at most one frame.
 TEST(Display, AgeOfASurfaceAtEachFrameRate) {
   SceneSpec spec = test::ball_scene();
   spec.display.emplace();

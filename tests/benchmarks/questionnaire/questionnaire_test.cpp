@@ -1,4 +1,4 @@
-// The questionnaire: its form, how answers are asked, read, kept and summed up, worked by hand; and
+// The questionnaire: its form, how it asks for, reads, stores and summarises answers (computed by hand), and
 // `encounter questionnaire` as a person uses it.
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +33,7 @@ using tests::run_program;
 
 const std::string kModels = tests::source_dir() + "/models";
 
-// Two items on a scale of three steps, and one thing used before.
+// Two items on a scale of three steps, and one product used before.
 Form small_form() {
   Form form;
   form.name = "small";
@@ -69,7 +69,7 @@ TEST(QuestionnaireForm, IsThePapers) {
   std::string groups;  // items 1 to 4, 5 and 6, 7 and 8, 9 to 11 [VHMR 4.4]
   for (const Item& item : form.items) groups += item.group[0];
   EXPECT_EQ(groups, "oooohhvvccc");
-  // The printed means make the printed global mean of 5.3.
+  // The printed means give the printed global mean of 5.3.
   const std::vector<ItemReference> items = items_of(form, kModels);
   double sum = 0.0;
   for (const ItemReference& item : items) sum += item.paper;
@@ -233,12 +233,12 @@ TEST(QuestionnaireOpinion, IsMeanRangeAndCounts) {
               ElementsAre("1", "It is good.", "1.7", "1-2", "1", "2", "0", ""));
   EXPECT_THAT(experience_table(form, rows).columns, ElementsAre("item", "vr (2)", "no vr (1)"));
   EXPECT_THAT(experience_table(form, rows).rows[0], ElementsAre("1", "1.5", "2.0"));
-  // Nobody answered: no mean, no division by zero.
+  // Without answers there is no mean and no division by zero.
   EXPECT_THAT(opinion_table(form, items, {}).rows[0],
               ElementsAre("1", "It is good.", "", "", "0", "0", "0", ""));
 }
 
-// A figure stands beside an item; an item that nothing measures is not there.
+// A figure stands beside its item; items without a measurement are left out.
 TEST(QuestionnaireProxies, AreFiguresAndNoAnswers) {
   const std::vector<ItemReference> items = items_of(small_form(), kModels);
   Judged j;
@@ -263,7 +263,7 @@ class Questionnaire : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
   }
-  // The answers come through a pipe, as a script gives them.
+  // The answers come through a pipe, as from a script.
   Result answer(const std::string& words, const std::string& more = "") const {
     return run(
         {"sh", "-c",
@@ -303,7 +303,7 @@ TEST_F(Questionnaire, AnInputThatEndsInTheMiddleStoresNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("a.csv")));
 }
 
-// Refused before the first question, not after the last: a folder that is not there, a participant who is.
+// The command refuses a missing folder or a known participant before the first question, not after the last.
 TEST_F(Questionnaire, WhatCannotBeStoredIsNotAsked) {
   const std::string there = write("there.csv", kHeader + "7,yes,no,no,6,4,6,6,5,5,5,4,6,6,5\n");
   for (const std::vector<std::string>& more :
@@ -319,7 +319,7 @@ TEST_F(Questionnaire, WhatCannotBeStoredIsNotAsked) {
   }
 }
 
-// Tables that are there: said before the first question, with nothing stored.
+// The command reports existing tables before the first question and stores nothing.
 TEST_F(Questionnaire, TablesThatAreThereAreSaidBeforeAnythingIsAsked) {
   std::filesystem::create_directory(path("out"));
   static_cast<void>(write("out/answers.csv", "mine"));

@@ -1,5 +1,5 @@
-// `bench` as a person calls it: the words behind it, what it refuses, what is left of a run that was stopped;
-// and which figures of a run are not those that the repository keeps.
+// `bench` as a person calls it: its arguments, its refusals and the output of a stopped run. Also which
+// figures of a run differ from those in the repository.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -80,7 +80,7 @@ TEST(Choice, AnIdIsWholeTokens) {
   EXPECT_FALSE(wanted(choice, figure("encounter.miss.20.max")));
 }
 
-// 4.1, 2 and 4.2 to 5 of the paper; what this program has of it.
+// Sections 4.1, 2 and 4.2 to 5 of the paper, as far as this program reproduces them.
 TEST(Choice, ThePaperIsInItsOwnOrder) {
   std::vector<std::string> order;
   for (const std::string& name : names_of(chosen({"paper-2020"})))
@@ -104,7 +104,7 @@ TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
   }
 }
 
-// Nothing is passed over in silence: what --set cannot change refuses it, by name.
+// Benchmarks that --set cannot change refuse it by name instead of ignoring it.
 TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
   const std::string models = tests::source_dir() + "/models";
   std::vector<std::string> left;
@@ -122,7 +122,8 @@ TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
   EXPECT_THAT(left, IsSupersetOf({"footprint", "impact", "nearest"}));
 }
 
-// Over devices only what needs no truth can be measured; what was named is not passed over.
+// Over devices only benchmarks that need no ground truth can run; the command refuses a named one that
+// cannot.
 TEST(Choice, OverTheDevicesOfARigOnlyThoseThatCan) {
   EXPECT_THAT(names_of(over_devices(chosen({}), false)), ElementsAre("stiffness", "tracking"));
   EXPECT_THAT(names_of(over_devices(chosen({"tracking.rig", "stiffness"}), true)),
@@ -198,7 +199,7 @@ TEST(Bench, ListSaysWhatThereIs) {
   EXPECT_THAT(r.out, AllOf(HasSubstr("\nencounter "), HasSubstr("\npaper-2020 "), HasSubstr("\nspeed ")));
 }
 
-// What is refused says so in one line, and nothing has run.
+// A refusal is one line, and no benchmark runs.
 std::string refused(std::vector<std::string> words) {
   words.insert(words.begin(), "bench");
   const Result r = run_program(words);
@@ -209,14 +210,14 @@ std::string refused(std::vector<std::string> words) {
   return r.err;
 }
 
-// The counterpart of Footprint.TheProgramHoldsNoBenchmark: here the name is to be found.
+// The counterpart of Footprint.TheProgramHoldsNoBenchmark: this file must contain the name.
 TEST(Bench, TheModuleHoldsThem) {
   std::ifstream in(module_folder() + "/encounter_bench.so", std::ios::binary);
   const std::string module((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(module.find("3enc5bench"), std::string::npos);
 }
 
-// A folder of one's own is for drivers: the program's modules are found beside it all the same.
+// A user's own driver folder does not hide the modules of the program.
 TEST(Bench, IsFoundWhereverDriversAre) {
   const Result r = run_program({"bench", "--list"}, {{"ENCOUNTER_MODULES", "/nowhere"}});
   EXPECT_EQ(r.code, 0) << r.err;
@@ -231,7 +232,8 @@ TEST(Bench, WhatIsWrongIsSaidBeforeAnythingRuns) {
               HasSubstr("--set: nearest reads no scene that it could change"));
 }
 
-// A file stands where the folder should be; said before the benchmark has run, or its minutes are lost.
+// A file stands in place of the folder. The command reports this before the benchmark runs, because its
+// minutes would be lost.
 TEST(Bench, AFolderThatCannotBeWrittenIsSaidBeforeAnythingRuns) {
   const test::TemporaryFolder folder;
   const std::string file = (folder.path() / "file").string();
@@ -286,7 +288,7 @@ TEST(Bench, AFolderOfOtherThingsStaysAsItIs) {
   std::vector<std::string> forced = args;
   forced.emplace_back("--force");
   EXPECT_EQ(run_program(forced).code, 0);
-  EXPECT_EQ(run_program(args).code, 0);  // of its own now
+  EXPECT_EQ(run_program(args).code, 0);  // a folder of its own now
 }
 
 TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
@@ -297,7 +299,7 @@ TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
   EXPECT_THAT(bytes_of(folder.path() / "out/encounter.csv"), HasSubstr("encounter.miss.10.median"));
 }
 
-// Also on all cores: the same seed gives the same figures to the last digit, an override others.
+// The same seed gives the same figures to the last digit, also on all cores; an override changes them.
 TEST(Bench, FiguresFollowFromSeedAndOverridesAlone) {
   const test::TemporaryFolder folder;
   const auto figures = [&](std::vector<std::string> more) {
@@ -313,8 +315,7 @@ TEST(Bench, FiguresFollowFromSeedAndOverridesAlone) {
   EXPECT_THAT(bytes_of(folder.path() / "out/report.html"), HasSubstr("truth.tracker.bias_mm=[0,0,0.3]"));
 }
 
-// A busy machine is no reason for a figure to be out of bounds: what took how long is bounded as a ratio
-// alone.
+// A busy machine must not put a figure out of bounds: durations are bounded only as ratios.
 TEST(Bench, NoTimeOfTheMachineIsBounded) {
   const test::TemporaryFolder folder;
   const Result r = run_program(
@@ -331,7 +332,7 @@ TEST(Bench, NoTimeOfTheMachineIsBounded) {
   EXPECT_GT(times, 5);
 }
 
-// The last line names what fell short: the rest may have scrolled away.
+// The last line names what failed, because the rest may have scrolled away.
 TEST(Bench, WhatFellShortIsNamedAtTheEnd) {
   const Result r = run_program({"bench", "encounter", "--repeats=1", "--set", "truth.hexapod.servo_hz=1e-6"});
   EXPECT_EQ(r.code, 1) << r.err;
@@ -345,7 +346,7 @@ class StoppedBench : public ::testing::TestWithParam<int> {};
 TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
   const test::TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  // Job control, or the shell would have its child ignore SIGINT.
+  // Job control is on; otherwise the shell would make its child ignore SIGINT.
   const Result r =
       run({"bash", "-c",
            "set -m; \"$1\" bench dent press --repeats 1000000 --out \"$2\" & until grep -q dent.contact "
@@ -368,11 +369,11 @@ TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
   EXPECT_FALSE(fs::exists(out / "press.csv"));
 }
 
-// A good report is worth more than one that all is missing.
+// A good report is worth more than an empty one.
 TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
   const test::TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  // None of its figures hangs on the processor's speed.
+  // None of its figures depends on the processor's speed.
   ASSERT_EQ(run_program({"bench", "deformation", "--quick", "--out", out}).code, 0);
   const std::string before = bytes_of(folder.path() / "out" / "results.json");
   const Result r =

@@ -1,5 +1,5 @@
-// The report: what it says of a figure, that text cannot break it, and that it is drawn right. Felt or not:
-// thresholds and what is said of an error, worked by hand. Values printed in the papers.
+// The report: what it says about a figure, that text cannot break it, and that its plots are right. Felt or
+// not: thresholds and verdicts on errors, computed by hand. Values printed in the papers.
 #include "benchmarks/report/report.h"
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST(Reference, SaysWhatIsWrong) {
   EXPECT_THAT(refused_table("a,c\n1,1\n"), testing::HasSubstr("no column 'b'"));
 }
 
-// The norms follow from their components but for the one that the paper has wrong.
+// The norms follow from their components, except the one that the paper has wrong.
 TEST(Reference, TableOneAddsUp) {
   const tracking::Table1 paper =
       tracking::table1_of(Reference::load(tests::source_dir() + "/models", "table1.csv"));
@@ -157,7 +157,7 @@ TEST(Verdict, ThePaperIsJudgedAsTheTwinIs) {
   EXPECT_THAT(threshold_table(all).rows,
               ElementsAre(ElementsAre("x.*", "0.4 (0.3 .. 0.5)", "mm", "tip beside tip", "", "b", "c")));
   EXPECT_EQ(verdict_line(all), "1 not felt, 1 felt (x.2)");
-  // One row for each threshold: its worst error.
+  // The plot has one row for each threshold, with its worst error.
   const Plot plot = verdict_plot(all);
   EXPECT_THAT(plot.y_names, ElementsAre("x.2"));
   EXPECT_THAT(plot.series[1].x, ElementsAre(testing::DoubleEq(1.5)));
@@ -189,7 +189,7 @@ TEST(Verdict, TheShippedThresholdsAreComplete) {
   EXPECT_EQ(one("tracking.rmse.norm.40", 0.82, "mm"), "felt");
   EXPECT_EQ(one("tracking.from_20.rmse.norm.40", 0.82, "mm"), "none");
   EXPECT_EQ(one("synchrony.fused.mae_mm", 0.03, "mm"), "not felt");
-  // There a lag above 0 is a view behind the haptics, which is told sooner than the other way round.
+  // A lag above 0 is a view behind the haptics, which people notice sooner than the reverse.
   EXPECT_EQ(one("synchrony.lag_ms", 40, "ms"), "in between");
   EXPECT_EQ(one("synchrony.lag_ms", -40, "ms"), "not felt");
   EXPECT_EQ(one("session.delay_ms.p50", 40, "ms"), "not felt");
@@ -233,7 +233,7 @@ Plot small_plot() {
           "What <i>to see</i>."};
 }
 
-// One calibrated figure that holds, one predicted that does not, one of ours.
+// One calibrated figure within bounds, one predicted figure out of bounds, one of ours.
 Report small_report() {
   Report report{"./encounter bench press --set 'a=<1>'", 7, {"a=<1>"}, {"press", "speed"}};
   report.background.contradictions = contradictions(tests::source_dir() + "/models");
@@ -248,7 +248,7 @@ Report small_report() {
   return report;
 }
 
-// A folder in which no gnuplot is found.
+// Sets a PATH without gnuplot.
 class NoGnuplot {
  public:
   NoGnuplot() : before_(std::getenv("PATH")) { setenv("PATH", "/nowhere", 1); }
@@ -284,7 +284,7 @@ TEST(ReportTable, AFigureWithoutAValueDoesNotHold) {
   EXPECT_THAT(table.rows[0], AllOf(Contains("absent"), Contains("NO")));
 }
 
-// Of a real machine nobody knows the truth: what only that says is no failure.
+// On a real machine the ground truth is unknown: a figure that needs it is absent, which is no failure.
 TEST(ReportTable, AFigureThatNobodyCanKnowIsAbsentAndNoFailure) {
   Report report = small_report();
   BenchResult& result = report.results.front();
@@ -370,7 +370,7 @@ TEST(ReportMarkdown, TextDoesNotBreakTheTable) {
   EXPECT_THAT(text, HasSubstr("Table 2, indentation A, release"));
 }
 
-// The form that others read [sources/choices 4], and what was added to it.
+// The form that other programs read [sources/choices 4], plus our additions.
 TEST(ReportJson, KeepsItsForm) {
   const auto json = nlohmann::json::parse(results_json(small_report()));
   EXPECT_EQ(json["seed"], 7);
@@ -431,7 +431,7 @@ TEST(Plot, GivesTheDataWithItsGapsAndTheBarsOfWhatVaries) {
   const std::string script = plot_script(small_plot());
   EXPECT_THAT(script, HasSubstr("$d0 << EOD\n1 1 0.5 2\n2 NaN NaN NaN\n3 3 2 4\n4 5 4 6\nEOD\n"));
   EXPECT_THAT(script, HasSubstr("$d0 using 1:3:(0):($4-$3) with vectors heads"));
-  EXPECT_THAT(script, Not(HasSubstr("$d1 using 1:3")));  // the paper's have none
+  EXPECT_THAT(script, Not(HasSubstr("$d1 using 1:3")));  // the paper's values have no interval
   EXPECT_THAT(script, HasSubstr("$d1 using 1:2 with points lc rgb '#000000' pt 6"));
 }
 
@@ -478,7 +478,7 @@ TEST(Plot, BarsOfOnePlaceStandSideBySide) {
   EXPECT_THAT(plot_script(crowded), HasSubstr("set xtics rotate by 30 right ('x' 0"));
 }
 
-// Every kind of mark, gaps, all failed, nothing at all: gnuplot takes it.
+// Gnuplot accepts every kind of mark, gaps, all failed, and an empty plot.
 TEST(Plot, IsDrawn) {
   std::vector<Plot> plots{small_plot(), {"press.none", "", "", "", true, true, {}}};
   for (const Mark mark : {Mark::line, Mark::points, Mark::both, Mark::bars, Mark::band, Mark::crosses})
@@ -501,7 +501,8 @@ TEST(Plot, IsDrawn) {
   }
 }
 
-// Small multiples: one legend, the same look of a name in each, fields that end half-way to their neighbours.
+// Small multiples share one legend; a name looks alike in each panel, and fields end half-way to their
+// neighbours.
 TEST(Plot, PanelsShareAxesLegendAndLooks) {
   Plot plot{.id = "press.map", .title = "map", .x_label = "x", .y_label = "y", .log_y = true};
   plot.panels = {"one plot a", "two", "three"};
@@ -537,7 +538,7 @@ TEST(Contradictions, AreFoundInThePrintedNumbers) {
   const std::vector<Contradiction> all = contradictions(tests::source_dir() + "/models");
   std::vector<std::string> ids;
   for (const Contradiction& c : all) ids.push_back(c.id);
-  // Table 1 has six norms and Table 2 six cells: only these are wrong.
+  // Table 1 has six norms and Table 2 six cells; only these are wrong.
   ASSERT_THAT(ids, ElementsAre("table1.MAE.norm.0", "table2.A.release", "table2.B.release", "fig14.item10"));
   EXPECT_EQ(all[0].found, "their norm is 0.1569 mm");
   EXPECT_THAT(all[0].printed, HasSubstr("0.1579"));

@@ -1,5 +1,5 @@
-// The slide that judges the certificate, and what is known of it without a certificate; places that are drawn
-// for spot checks, and who holds a device.
+// The slide that judges the certificate, known solutions of the slide without a certificate, the random
+// places of spot checks, and who holds a device.
 #include "benchmarks/stability/stability.h"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 namespace enc::bench::stability {
 namespace {
 
-// Without a wall it is a mass on the hand's spring and damper.
+// Without a wall the slide is a mass on the hand's spring and damper.
 TEST(Slide, HandAloneDiesOutByItsDamper) {
   const Device device{0.1, 0.2, 1e-3, 0.0, 0.1, 4.0, 300.0};
   for (const int steps : {1, 2, 10})
     EXPECT_NEAR(growth(device, {}, {Scheme::rk4, steps}), -4.2 / (2.0 * 0.2), 0.02) << steps;
 }
 
-// A soft spring is felt late by half a period and the delay: a damper of -K (T/2 + t_d).
+// The force of a soft spring is late by half a period and the delay: a damper of -K (T/2 + t_d).
 TEST(Slide, SoftWallGrowsByItsLag) {
   for (const double delay : {0.0, 1e-3, 4e-3}) {
     const Device device{0.1, 0.2, 1e-3, delay};
@@ -51,7 +51,7 @@ TEST(Slide, LetGoRestsCyclesOrLeaves) {
   EXPECT_EQ(let_go(device, {1000.0, 0.0}, fine, 1e-3), Outcome::cycle);
 }
 
-// It shrinks at first, and is no less than what its counts keep going.
+// The amplitude shrinks at first, but not below what the counts sustain.
 TEST(Slide, WhatGoesDownToALimitCycleIsWatchedOn) {
   Device device{0.1, 0.16, 1e-3, 0.0};
   device.count = 1e-4;

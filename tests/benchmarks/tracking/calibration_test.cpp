@@ -1,7 +1,7 @@
-// A rig that `encounter calibrate rig RIG` has measured is right. Twins whose tracker, force sensor and
-// weight are not where and what the rig believes are calibrated, seed by seed; each number is in the interval
-// that the calibration states. Then the tool travels as in [VHMR 4.1] with what was found: Table 1.
-// Before that: latency, bias and noise out of logs that were made by hand.
+// A rig that `encounter calibrate rig RIG` has measured is right. The twins have errors in the tracker, the
+// force sensor and the weight that the rig does not know. The test calibrates them seed by seed; each number
+// lies in the interval that the calibration states. Then the tool moves as in [VHMR 4.1] with the calibrated
+// numbers: Table 1. Before that: latency, bias and noise from hand-made logs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,8 +31,8 @@ using models::Blocks;
 using models::LatencyFit;
 using models::TrackerLog;
 
-// Latency, bias and noise out of logs that were made by hand: exact where the log is exact, and silent where
-// it cannot tell.
+// Latency, bias and noise from hand-made logs: exact where the log is exact, and no result where the log does
+// not determine it.
 
 constexpr double kPeriod = 1e-3;  // s
 
@@ -40,12 +40,12 @@ struct Made {
   Vec3 bias{0.1e-3, -0.05e-3, 0.2e-3};
   double noise = 0.0;                                                          // m
   std::function<double(std::size_t)> age = [](std::size_t) { return 0.020; };  // s, of packet k
-  Vec3 turning{0, 0, 0};  // m: adds to the lag, whatever the speed
+  Vec3 turning{0, 0, 0};  // m: adds to the lag at any speed
   bool stamped = false;
   double stamp_late = 0.0;  // s
 };
 
-// A packet every 10 ms along a motion.
+// A log of one packet every 10 ms along a motion.
 TrackerLog log_of(const Motion& motion, const Made& made) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
@@ -101,7 +101,7 @@ TEST(LatencyFit, SaysNothingOfAnAxisThatStandsStill) {
 }
 
 TEST(LatencyFit, MeanAndScatterOfAges) {
-  // Ages of 15 and 25 ms in turn: 20 ms, 5 ms.
+  // The ages are 15 and 25 ms in turn: 20 ms, 5 ms.
   const LatencyFit fit =
       fit_latency(log_of(diagonal(), {.age = [](std::size_t k) { return k % 2 == 0 ? 0.015 : 0.025; }}));
   EXPECT_NEAR(fit.latency.value, 0.020, 0.1e-3);
@@ -115,7 +115,7 @@ TEST(LatencyFit, NegativeAndLongLatencies) {
   }
 }
 
-// Half a second has no packet that is known to be 500 ms old: that none is left over explains nothing.
+// In half a second no packet is known to be 500 ms old, so an empty remainder explains nothing.
 TEST(LatencyFit, AShortLogHasNoAgeOfWhichItKnowsNoPacket) {
   TrackerLog log;
   log.period = kPeriod;
@@ -143,7 +143,8 @@ TEST(LatencyFit, OneWayIsMarked) {
   EXPECT_NEAR(both.axes[0].change.value, 0.0, 1e-7);
 }
 
-// 50 um that add to the lag either way are 50 um / speed of latency, unless two speeds tell them apart.
+// 50 um that add to the lag in either direction are 50 um / speed of latency, unless two speeds separate
+// them.
 TEST(LatencyFit, ALagThatDoesNotGrowWithSpeed) {
   const Motion slow = diagonal(0.015);
   const Motion fast = diagonal(0.045);
@@ -175,7 +176,7 @@ TEST(LatencyFit, StampsAreCompared) {
   EXPECT_NEAR(fit.latency.value, 0.015, 0.2e-3);
 }
 
-// Tables of Student's t: 12.7 apart, which no block count here needs.
+// From tables of Student's t: 12.7 for one degree of freedom.
 TEST(BlockError, StudentsQuantile) {
   EXPECT_NEAR(models::student(1e9), 1.95996, 1e-4);
   EXPECT_NEAR(models::student(30), 2.0423, 1e-3);
@@ -190,12 +191,12 @@ TEST(BlockError, TwoBlocks) {
   EXPECT_DOUBLE_EQ(blocks.freedom(), 1.0);
 }
 
-constexpr double kPlace = 5e-3, kTurn = 2.0 * M_PI / 180.0, kMass = 0.2;  // what is wrong: m, rad, kg
+constexpr double kPlace = 5e-3, kTurn = 2.0 * M_PI / 180.0, kMass = 0.2;  // the errors: m, rad, kg
 const std::string kModels = tests::source_dir() + "/models";
 
 Vec3 some_way(sim::Stream& random, double length) { return length * random.normal3().normalized(); }
 
-// A rig that believes other numbers than are so. The twin draws the sensor's zero, 0.5 N rms.
+// A rig whose numbers differ from the twin's. The twin draws the sensor's zero, 0.5 N rms.
 struct Spoilt {
   models::Setup setup;
   Pose<'W', 'C'> X_WC;
@@ -216,9 +217,9 @@ Spoilt spoilt(std::uint64_t seed) {
   twin.frames.H_F.rotation = angles_xyz(truth.R_HF);
   truth.mass = truth.setup.rig.force.mass + (random.uniform() < 0.5 ? -kMass : kMass);
   twin.hexapod.mass = truth.mass;
-  // The shipped twin sees turns exactly; markers that are 50 mm apart and off by 0.09 mm do not.
+  // The shipped twin measures turns exactly; markers that are 50 mm apart and off by 0.09 mm do not.
   twin.tracker.turn_noise = 0.1 * M_PI / 180.0;
-  // The paper's bias is what its own calibration left over (sources/tracking 2).
+  // The paper's bias is the remainder of its own calibration (sources/tracking 2).
   twin.tracker.bias = Vec3::Zero();
   return truth;
 }
@@ -227,8 +228,8 @@ constexpr std::array kNumbers{"place of the tracker",     "turn of the tracker",
                               "zero of the force sensor", "tip of the tool",     "mass"};
 struct Calibrated {
   std::array<std::array<bool, 3>, kNumbers.size()> held{};  // by its interval, each axis
-  PoseSpec W_C;                                             // found
-  sim::FramesTruth frames;                                  // true
+  PoseSpec W_C;                                             // calibrated
+  sim::FramesTruth frames;                                  // ground truth
 };
 Calibrated calibrated(std::uint64_t seed) {
   const Spoilt truth = spoilt(seed);
@@ -255,7 +256,7 @@ Calibrated calibrated(std::uint64_t seed) {
   return result;
 }
 
-// At 20 and at 40 mm/s.
+// The errors at 20 and at 40 mm/s.
 struct Travels {
   TravelErrors slow, fast;
   void add(const Travels& other) {
@@ -272,10 +273,10 @@ Travels travels(const models::Setup& setup, std::uint64_t seed) {
   return {travel(setup, 0.020, seed), travel(setup, 0.040, seed)};
 }
 
-// The tool travels with what a calibration found; with nothing else wrong, and beside a twin that never was
-// wrong.
+// Results of the tracking test with a calibration's numbers: with no other error, and beside a twin that
+// never had one.
 struct Carried {
-  double at_rest = kUnset;  // m, mean error where the calibration alone leaves one
+  double at_rest = kUnset;  // m, mean error if the calibration is the only cause
   Travels found, right;
 };
 Carried carried(const Calibrated& with, std::uint64_t seed) {
@@ -289,13 +290,13 @@ Carried carried(const Calibrated& with, std::uint64_t seed) {
   return {resting_column(travel(unbiased, 0.040, seed))[3].mae, travels(setup, seed), travels(right, seed)};
 }
 
-// How many of the seeds' intervals hold a number, along one axis.
+// Counts the seeds whose interval contains a number, along one axis.
 std::size_t held(const std::vector<Calibrated>& all, std::size_t number, std::size_t axis) {
   return static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [&](const Calibrated& one) { return one.held[number][axis]; }));
 }
 
-// A 99 % interval holds in at least 95 % of the seeds: of few seeds over the three axes together, of many
+// A 99 % interval holds in at least 95 % of the seeds. Few seeds count over the three axes together, many
 // along each axis.
 void expect_held(const std::vector<Calibrated>& all, bool each_axis) {
   for (std::size_t number = 0; number < kNumbers.size(); ++number) {
@@ -330,7 +331,7 @@ void expect_calibrated(std::size_t seeds, std::size_t travelling) {
   const Table1 table = table_of(found.slow, found.fast), twin = table_of(right.slow, right.fast);
   for (std::size_t s = 0; s < table.size(); ++s)
     for (std::size_t a = 0; a < table[s].size(); ++a) {
-      const double like_paper = a < 3 ? 0.13 : 0.06;  // as `bench tracking` asks
+      const double like_paper = a < 3 ? 0.13 : 0.06;  // as `bench tracking` requires
       SCOPED_TRACE(testing::Message() << kTableAxes[a] << " at " << kTableSpeeds[s] << " mm/s");
       EXPECT_NEAR(table[s][a].rmse / twin[s][a].rmse, 1.0, 0.05) << "of a twin that never was wrong";
       EXPECT_NEAR(table[s][a].rmse / paper[s][a].rmse, 1.0, like_paper);

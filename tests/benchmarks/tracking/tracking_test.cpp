@@ -1,5 +1,5 @@
-// Scripted motions and what a tracker of known age makes of them; the theory of Table 1; and what is found of
-// both in random rigs.
+// Scripted motions and their measurement by a tracker of known age; the theory of Table 1; and both in random
+// rigs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,8 +21,8 @@
 namespace enc::bench::tracking {
 namespace {
 
-// Scripted motions: speed is the derivative of the way, ends and peaks are as asked for; and what a tracker
-// of known age makes of them.
+// Scripted motions: speed is the derivative of position, ends and peaks are as requested; and the measurement
+// of these motions by a tracker of known age.
 
 double greatest_speed(const Motion& motion) {
   constexpr double kStep = 1e-5;
@@ -42,7 +42,7 @@ TEST(Motion, MovesWithStopsAreTrapezoids) {
   spec.direction = Vec3(0, 0, 2);
   const Motion motion = moves_with_stops(spec);
   EXPECT_NEAR(greatest_speed(motion), 0.040, 1e-12);
-  // A move of 20 mm at 40 mm/s and 0.41 m/s^2: 0.5 s and once the time to speed up, 97.6 ms.
+  // A move of 20 mm at 40 mm/s and 0.41 m/s^2 takes 0.5 s plus one ramp of 97.6 ms.
   const double ramp = 0.040 / 0.41;
   EXPECT_NEAR(motion.duration, 9 * 5.0 + 2 * (0.040 / 0.040 + 4 * ramp), 1e-9);
   EXPECT_EQ(motion.at(-1.0).position, Vec3(0, 0, -0.020));
@@ -91,11 +91,12 @@ std::array<TipErrors, 3> errors_with(const std::vector<std::string>& more) {
   spec.stops = {0.0, 0.080};
   spec.dwell = 0.5;
   spec.both_ways = false;
-  const PredictionRun run{moves_with_stops(spec), setup.twin.tracker, 1, true, 0.8, 2.4};  // at an even speed
+  // at constant speed
+  const PredictionRun run{moves_with_stops(spec), setup.twin.tracker, 1, true, 0.8, 2.4};
   return predicted_run(prepare(setup.scene, setup.rig), pose_of<'W', 'C'>(setup.twin.frames.W_C), run);
 }
 
-// Held, the tool is behind by its speed times the age of its pose: a longer latency shows in full.
+// With a held pose the tool lags by its speed times the age of the pose: a longer latency shows in full.
 TEST(PredictedRun, HoldingIsBehindByTheAge) {
   const TipErrors early = errors_with({"truth.tracker.latency_ms=0"})[0];
   const TipErrors late = errors_with({"truth.tracker.latency_ms=10"})[0];
@@ -105,7 +106,7 @@ TEST(PredictedRun, HoldingIsBehindByTheAge) {
               0.040 * 0.001);  // half a frame on average
 }
 
-// At an even speed prediction takes all of that away, and puts a wrong stamp's share in.
+// At constant speed prediction removes all of that lag, and adds the error of a wrong stamp.
 TEST(PredictedRun, PredictionLeavesWhatTheStampsGetWrong) {
   const std::array<TipErrors, 3> right = errors_with({});
   const std::array<TipErrors, 3> wrong = errors_with({"truth.tracker.stamp_error_ms=3"});
@@ -118,14 +119,13 @@ TEST(PredictedRun, PredictionLeavesWhatTheStampsGetWrong) {
   }
 }
 
-// The theory of Table 1 against counting: a tracker, a server and a network, packet by packet, written once
-// more.
+// The theory of Table 1 against counting: an independent tracker, server and network, packet by packet.
 
 struct Counted {
   double age = 0.0, rmse = 0.0, mae = 0.0;
 };
 
-// A tool that oscillates, as seen by packets of many random phases. Its place is x(t) = 10 mm sin(2 pi t).
+// Packets with many random phases measure a tool that oscillates: x(t) = 10 mm sin(2 pi t).
 Counted count(const ChainSpec& chain, double bias, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return (static_cast<double>(random() >> 11U) + 0.5) * 0x1p-53; };
@@ -139,7 +139,7 @@ Counted count(const ChainSpec& chain, double bias, std::uint64_t seed) {
     std::vector<std::pair<double, double>> packets;  // arrival, exposure
     for (int k = 1; k <= 200; ++k) {
       const double now = server + k / chain.server_rate;
-      // Tracker and application in a row make one fixed delay.
+      // Tracker and application in series add one fixed delay.
       const double exposure = first + std::floor((now - chain.fixed - first) * chain.rate) / chain.rate;
       if (exposure <= newest) continue;
       newest = exposure;
@@ -171,10 +171,11 @@ TEST(TrackingTheory, AgesAreThoseThatAreCounted) {
     const double mean = std::accumulate(ages.begin(), ages.end(), 0.0) / 64.0;
     EXPECT_NEAR(mean, mean_age(chain), 1e-6);
     EXPECT_NEAR(mean, counted.age, 0.012 * counted.age) << chain.fixed << " " << chain.jitter;
-    // The lag of the swing, to first order in the age; and its size.
+    // The lag of the oscillation, to first order in the age; and its size.
     double square = 0.0;
     for (const double age : ages)
-      square += std::pow(2.0 * std::sin(M_PI * age) * 0.010, 2) / 2.0 / 64.0;  // over all phases of the swing
+      // over all phases of the oscillation
+      square += std::pow(2.0 * std::sin(M_PI * age) * 0.010, 2) / 2.0 / 64.0;
     EXPECT_NEAR(std::sqrt(square), counted.rmse, 0.015 * counted.rmse);
   }
 }
@@ -187,7 +188,7 @@ TEST(TrackingTheory, AtRestThereIsBiasAndNoise) {
   EXPECT_NEAR(at_stops(-1.0, 1e-9).mae, 1.0, 1e-12);
 }
 
-// By hand: one age, a long move at an even speed; ramps hardly count.
+// Computed by hand: one age, a long move at constant speed; ramps hardly count.
 TEST(TrackingTheory, AtAnEvenSpeedTheLagIsSpeedTimesAge) {
   MovesSpec moves;
   moves.stops = {0.0, 10.0};
@@ -211,8 +212,8 @@ TEST(TrackingTheory, SlowerRampsMakeLessLagAndTheMovesAreThePapers) {
     const double mae = Lag(ages, moves).errors(0.0, 0.0).mae;
     EXPECT_LT(mae, before);
     before = mae;
-    // The machine is on the move for 1 s + 4 v / a and its servo's tail; the mean lag is age * way / that.
-    if (acceleration < 0.41) continue;  // then the shorter moves do not reach their speed
+    // The machine moves for 1 s + 4 v / a and its servo's tail; the mean lag is age * path / that time.
+    if (acceleration < 0.41) continue;  // otherwise the shorter moves do not reach their speed
     EXPECT_NEAR(mae, 0.018 * 0.040 / (1.0 + 4.0 * 0.040 / acceleration + 4.0 * 0.020), 0.04 * mae);
   }
 }
@@ -242,7 +243,7 @@ models::Setup setup_with(std::vector<std::string> set) {
   return models::load(tests::source_dir() + "/models/scenes/tracking.toml", "sim", all);
 }
 
-// Over `seeds` phases of the clocks, forward.
+// The twin's errors over `seeds` phases of the clocks, forward.
 Errors twin_of(const models::Setup& setup, std::uint64_t seeds) {
   TravelErrors sum;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) sum.add(run_travel(setup, seed, false));
@@ -279,7 +280,7 @@ TEST(TrackingProperty, TwinAndTheoryAgreeForRandomChains) {
   }
 }
 
-// The same seeds before and after: what changes is the parameter alone.
+// The seeds are equal before and after, so only the parameter changes.
 TEST(TrackingProperty, EachParameterMovesTheFiguresAsTheTheorySays) {
   const models::Setup base = setup_with({});
   const Errors before = twin_of(base, 15);
@@ -303,12 +304,12 @@ TEST(TrackingProperty, EachParameterMovesTheFiguresAsTheTheorySays) {
     const Errors after_theory = theory_of(setup);
     const double moved = after.rmse - before.rmse;
     const double expected = after_theory.rmse - before_theory.rmse;
-    EXPECT_GT(std::abs(expected), 0.015e-3) << change.name;  // it matters
+    EXPECT_GT(std::abs(expected), 0.015e-3) << change.name;  // the parameter matters
     EXPECT_NEAR(moved, expected, 0.12 * std::abs(expected) + 0.008e-3) << change.name;
   }
 }
 
-// What would be left if nothing of the chain were there is rounding.
+// Without every part of the chain the remaining error is rounding.
 TEST(TrackingProperty, WithoutBiasNoiseDelayWaitAndStepTheErrorIsRounding) {
   const models::Setup setup = setup_with(
       {"travel.dwell_s=0.1", "truth.tracker.bias_mm=[0,0,0]", "truth.tracker.noise_mm=[0,0,0]",
@@ -320,7 +321,8 @@ TEST(TrackingProperty, WithoutBiasNoiseDelayWaitAndStepTheErrorIsRounding) {
   EXPECT_LT(errors.largest, 1e-9);
 }
 
-// `encounter calibrate tracker` on 100 seeded logs: what was put in comes out, and the intervals hold it.
+// `encounter calibrate tracker` on 100 seeded logs: it recovers the injected values, and its intervals
+// contain them.
 
 double figure(const BenchResult& result, const std::string& id) {
   const auto found = std::find_if(result.figures.begin(), result.figures.end(),
@@ -335,7 +337,7 @@ TEST(Forensics, FindsWhatWasPutInto100Logs) {
   add_forensics(context, result);
   EXPECT_GE(figure(result, "latency.percent"), 95.0) << "within 1 ms";
   EXPECT_GE(figure(result, "bias.percent"), 95.0) << "all axes within 0.01 mm";
-  // 95 % intervals of 100 and of 300 numbers: fewer than 88 and 91 % happen once in 1000 times.
+  // Of 95 % intervals for 100 and for 300 numbers, fewer than 88 and 91 % hold once in 1000 times.
   EXPECT_GE(figure(result, "latency_interval.percent"), 88.0);
   EXPECT_GE(figure(result, "bias_interval.percent"), 91.0);
   for (const Figure& f : result.figures) EXPECT_TRUE(f.ok()) << f.id << " " << f.twin;
@@ -343,7 +345,7 @@ TEST(Forensics, FindsWhatWasPutInto100Logs) {
   EXPECT_EQ(result.plots[0].series[1].x.size(), 100U);
 }
 
-// Each parameter alone: the latency put in moves what is found by as much, a bias and a noise do not.
+// Each parameter alone: the fitted latency follows the injected latency; a bias and a noise do not move it.
 TEST(Forensics, OnlyLatencyMovesLatency) {
   LogSpec spec;
   const auto found = [&](const LogSpec& s) { return models::fit_latency(made_log(s, 7).log); };

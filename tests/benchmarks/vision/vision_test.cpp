@@ -1,5 +1,5 @@
-// Seeds of what vision is judged by: none of a user reaches those that nobody looked at; and what a report
-// says of shares of pixels.
+// Seeds of the vision benchmarks: a user's seed never selects the held-out sets. Also the intervals of pixel
+// shares in a report.
 #include <gtest/gtest.h>
 
 #include "benchmarks/segmentation/pairs.h"
@@ -47,7 +47,8 @@ TEST(Staged, ATipBesideTheCapIsNoneThatWasFoundBadly) {
 namespace enc::bench::segmentation {
 namespace {
 
-// Student's t over few pairs is wider than what there is: 100 +- 0.3 % of the pixels are not more than all.
+// Student's t over few pairs can exceed the possible range: 100 +- 0.3 % of the pixels would be more than
+// all.
 TEST(SegmentationScore, AnIntervalOfSharesStaysAmongShares) {
   const Mean high{.value = 0.999, .half = 0.003}, low{.value = 0.0002, .half = 0.0005};
   EXPECT_DOUBLE_EQ(in_percent(high).least, 99.6);

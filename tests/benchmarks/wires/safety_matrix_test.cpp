@@ -1,5 +1,5 @@
-// Every cell of the matrix of docs/reference/safety.md: fault x device x mode, what a run comes to, and how
-// soon after the fault was injected. In virtual time.
+// Every cell of the matrix of docs/reference/safety.md: fault x device x mode, the outcome of the run, and
+// the time from the injected fault to it. In virtual time.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,11 +27,11 @@
 namespace enc::bench::wires {
 namespace {
 
-// What becomes of a run.
+// Outcome of a run.
 enum class End : std::uint8_t {
-  unharmed,  // it does not hold
-  holds,     // while the fault lasts, and goes on
-  link_lost  // it holds, and needs a new run
+  unharmed,  // does not hold
+  holds,     // holds while the fault lasts, then goes on
+  link_lost  // holds, and needs a new run
 };
 
 struct Fault {
@@ -39,12 +39,13 @@ struct Fault {
   void (*inject)(WiredTrial& at);
   void (*cure)(WiredTrial& at);  // after 0.7 s
   End end;
-  double hold = 0.0;      // ms after it, at most: held by then
-  std::uint32_t why = 0;  // among the reasons
-  // Of what does no harm: what the driver has counted says that it was there ("missing", "old").
+  double hold = 0.0;      // ms from the fault to the hold, at most
+  std::uint32_t why = 0;  // one of the reasons
+  // For a fault that does no harm: the driver's counter that proves the fault occurred ("missing", "old").
   const char* counted = nullptr;
-  bool over = false;  // when the loop is back: the machine stands by then, and it goes on
-  // Where no tool is in view, and the machine waits: another time and reason; 0: the same.
+  // the fault is over when the loop returns: the machine stands by then, and the run goes on
+  bool over = false;
+  // Time and reason if no tool is in view and the machine waits; 0: as above.
   double hold_away = 0.0;
   std::uint32_t why_away = 0;
   bool streams = false;  // the tracker's own server over TCP, in place of datagrams
@@ -61,22 +62,22 @@ constexpr Mode kInjectedIn[] = {Mode::away, Mode::follow, Mode::contact, Mode::r
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Reaction {
-  double hold = kNever, rest = kNever;  // ms after it; rest: below 0.1 mm/s from then on, for 0.7 s
-  Mode in = Mode::hold;                 // when it was injected
-  double speed = 0.0;  // of the tip, or of where it is told to be, m/s: the greatest from then until it holds
-  double way = 0.0;    // of the tip from then on, m, for 0.7 s
-  std::uint32_t why = 0;    // of the first hold
-  bool held = false;        // in the 0.7 s
-  bool linked = true;       // all, 0.5 s after it was cured
-  bool goes_on = false;     // was in another mode than hold in those 0.5 s
-  std::string end{};        // why it holds at the end
-  double counted = kUnset;  // what the driver says that it has counted
+  double hold = kNever, rest = kNever;  // ms from the fault; rest: below 0.1 mm/s from then on, for 0.7 s
+  Mode in = Mode::hold;                 // mode at the injection
+  double speed = 0.0;     // m/s, of the tip or its commanded position: the maximum from the fault to the hold
+  double way = 0.0;       // m, of the tip from the fault on, for 0.7 s
+  std::uint32_t why = 0;  // reason of the first hold
+  bool held = false;      // within the 0.7 s
+  bool linked = true;     // all devices, 0.5 s after the cure
+  bool goes_on = false;   // the run was in another mode than hold in those 0.5 s
+  std::string end{};      // reason of the hold at the end
+  double counted = kUnset;  // the driver's count at the end
   double simulated = 0.0;   // s
 };
 
-// A short press of the tennis ball on the rig `fakes`, with the times of silence that ship for real devices.
+// A short press of the tennis ball on the rig `fakes`, with the silence limits that ship for real devices.
 struct ShortPress {
-  models::Setup datagrams, stream;  // as tool data come
+  models::Setup datagrams, stream;  // poses as tool data
   explicit ShortPress(const std::string& models);
   [[nodiscard]] const models::Setup& of(const Fault& fault) const {
     return fault.streams ? stream : datagrams;
@@ -87,7 +88,7 @@ using Kind = Trouble::Kind;
 
 void nothing(WiredTrial&) {}
 
-// The sensor's wire, or the tracker's, suffers this from then on; its value in percent.
+// The sensor's wire, or the tracker's, has this fault from now on; the value is in percent.
 template <Kind kind, int percent = 100>
 void spoil_force(WiredTrial& at) {
   at.wires().box().suffer({kind, 0.01 * percent});
@@ -170,13 +171,13 @@ const std::array kFaults{
               kToolLost, nullptr, false, 501, kTrackerFault}),
     over_tcp({kStream, "closed", spoil_tracker<Kind::disconnect>, heal_tracker<Kind::disconnect>,
               End::link_lost, 2, kTrackerFault}),
-    // The first noise ends it: a pose comes each 10 ms and what it waits; while none is in view, an answer
-    // each 125.
+    // The first noise ends the connection. A pose comes every 10 ms plus its wait; without a tool in view the
+    // server answers every 125 ms.
     over_tcp({kStream, "all noise", spoil_tracker<Kind::garbage>, heal_tracker<Kind::garbage>, End::link_lost,
               16, kTrackerFault, nullptr, false, 127, kTrackerFault}),
     over_tcp({kStream, "half messages", spoil_tracker<Kind::half_message>, heal_tracker<Kind::half_message>,
               End::link_lost, 101, kToolLost | kTrackerFault, nullptr, false, 501, kTrackerFault}),
-    // From when the loop is back: the machine stands already.
+    // Times count from the return of the loop: the machine stands already.
     Fault{"program", "its loop stands for 400 ms",
           [](WiredTrial& at) { at.wires().stand(Duration(400'000'000), false); }, nothing, End::holds, 1,
           kClockLate, nullptr, true},
@@ -186,17 +187,17 @@ const std::array kFaults{
 };
 
 constexpr int kInjured = 700, kCured = 500;  // ticks
-constexpr double kSlack = 1e-4;              // m: steps and noise of a tip that stands
+constexpr double kSlack = 1e-4;              // m: steps and noise of a tip at standstill
 
-// s: the points that the controller still has when it hears nothing more, and the machine's dead time.
+// s: the set-points that the controller still holds after its last message, and the machine's dead time.
 double blind(const models::Setup& setup) {
-  constexpr double kPoints = 4.0;  // three that wait (one is added while two do) and the one that it goes to
+  constexpr double kPoints = 4.0;  // three that wait (one is added while two do) and the current target
   gcs::GcsSettings machine;
   models::DriverTableReader table(setup, "gcs");
   machine.declare(table);
   return kPoints * machine.cycle + static_cast<double>(setup.twin.hexapod.delay_cycles) / setup.rig.loop.rate;
 }
-// 1/s, of its servo's decay.
+// 1/s, decay rate of the machine's servo.
 double decay(const models::Setup& setup) {
   return setup.twin.hexapod.damping * 2.0 * std::numbers::pi * setup.twin.hexapod.servo;
 }
@@ -209,7 +210,7 @@ models::Setup loaded(const std::string& models, const std::string& transport) {
                                                "user.rest_s=0.5", "user.approach_mm_s=[50]"}));
 }
 
-// The number before the word in what a driver says at the end of a run.
+// The number before the word in a driver's remarks at the end of a run.
 double number_before(const std::vector<std::string>& remarks, const std::string& word) {
   for (const std::string& remark : remarks) {
     const std::size_t at = remark.find(" " + word);
@@ -222,15 +223,14 @@ double number_before(const std::vector<std::string>& remarks, const std::string&
 
 std::span<const Fault> faults() { return kFaults; }
 
-// The same, and nothing happens: how far it would have gone.
+// A run without a fault: how far the tip would have gone.
 const Fault& no_fault() {
   static constexpr Fault kNone{"", "", nothing, nothing, End::unharmed};
   return kNone;
 }
 
-// Bounds that hold for every cell, from how fast the tip was, the points that the controller still has, and
-// the machine's dead time, servo and acceleration.
-// ms
+// Bounds for every cell, from the tip's speed, the set-points that the controller still holds, and the
+// machine's dead time, servo and acceleration. ms
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
   const ServoLaw law = sim::servo_of(setup.twin.hexapod);
   return fault.hold_in(of.in) + 1e3 * (blind(setup) + longest_settling(law, of.speed, kStands));
@@ -242,7 +242,7 @@ double way_bound(const Fault& fault, const Reaction& of, const models::Setup& se
   return of.speed * (1e-3 * fault.hold_in(of.in) + blind(setup) + 1.0 / decay(setup)) + brakes + kSlack;
 }
 
-// What of it does not hold; empty: all does.
+// Lists the bounds that the reaction violates; empty if it meets all.
 std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const models::Setup& setup) {
   std::string wrong;
   const auto say = [&](bool bad, const std::string& what) {
@@ -270,7 +270,7 @@ std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const 
 ShortPress::ShortPress(const std::string& models)
     : datagrams(loaded(models, "udp")), stream(loaded(models, "tcp")) {}
 
-// Injects it in that mode, at a moment of it by the seed.
+// Injects the fault in that mode, at a moment that the seed selects.
 Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed) {
   trial::TrialOptions options{.seed = seed};
   WiredTrial wired(setup, std::move(options));
@@ -279,7 +279,7 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   const auto in = [&](Mode wanted) { return trial.outputs().mode == wanted; };
   while (wired.tick() && !in(mode)) {
   }
-  // While it lasts: a tool is far for some ten milliseconds at first, and restoring lasts as long.
+  // Wait within the mode: a tool is far for some ten milliseconds at first, and restoring lasts as long.
   std::mt19937_64 random(seed);
   const int most = mode == Mode::contact ? 1500 : mode == Mode::follow ? 100 : mode == Mode::away ? 4 : 1;
   const int later = static_cast<int>(random() % static_cast<std::uint64_t>(most));
@@ -302,7 +302,7 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
       of.why = trial.outputs().why;
     }
     const bool still = plant.velocity.norm() < kStands;
-    if (fault.over) {  // as it is when the loop is back
+    if (fault.over) {  // state at the return of the loop
       of.goes_on = of.goes_on || (of.held && !in(Mode::hold));
       if (i == 1 && still) of.rest = i;
       if (i == 1) of.way = (plant.pose.p() - first).norm();
@@ -347,7 +347,7 @@ void expect_all_hold(std::vector<Cell>& cells) {
   }
 }
 
-// Each fault once in each mode, at another moment each time.
+// Injects each fault once in each mode, at a different moment each time.
 TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
   std::vector<Cell> cells;
   for (const Fault& fault : faults())
@@ -355,7 +355,7 @@ TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
   expect_all_hold(cells);
 }
 
-// The table of docs/reference/safety.md has the least and the most of these.
+// The table of docs/reference/safety.md has the minimum and the maximum of these.
 TEST(SafetyMatrixLong, EachFaultEndsAsStatedOverFiveSeeds) {
   std::vector<Cell> cells;
   for (const Fault& fault : faults())
@@ -364,8 +364,8 @@ TEST(SafetyMatrixLong, EachFaultEndsAsStatedOverFiveSeeds) {
   expect_all_hold(cells);
 }
 
-// The bounds of the way mean something: in half of the cells in which the tip moves, it would have gone
-// farther than its bound without the fault.
+// The path bounds are meaningful: without the fault, in half of the cells with a moving tip, it would have
+// gone beyond its bound.
 TEST(SafetyMatrix, WithoutTheFaultTheTipWouldHaveGoneFarther) {
   const ShortPress press(tests::source_dir() + "/models");
   std::vector<Cell> cells;
@@ -378,7 +378,7 @@ TEST(SafetyMatrix, WithoutTheFaultTheTipWouldHaveGoneFarther) {
     cells[i].of = react(press.of(*cells[i].fault), *cells[i].fault, cells[i].mode, cells[i].seed);
   });
   std::size_t moving = 0, farther = 0;
-  double undisturbed = 0.0;  // m, of this mode
+  double undisturbed = 0.0;  // m, in this mode
   for (const Cell& cell : cells) {
     if (cell.fault == &no_fault()) {
       undisturbed = cell.of.way;

@@ -34,7 +34,7 @@ trial::TrialOptions Laboratory::behind(trial::TrialOptions options) {
 }
 
 Pressed pressed(trial::Trial& trial) {
-  constexpr Time kBegun{Duration(10'000'000)};  // the first record is there
+  constexpr Time kBegun{Duration(10'000'000)};  // the first record exists
   Pressed of;
   while (trial.tick()) {
     const Mode mode = trial.outputs().mode;

@@ -1,5 +1,5 @@
-// The product's loop with its devices behind their wires, in virtual time (hw_drivers/wires/wires.h).
-// And how long a machine moves on after its last set-point, which is stated of every fault.
+// The product's loop with its devices behind their wires, in virtual time (hw_drivers/wires/wires.h). Also
+// how long a machine still moves after its last set-point, which is stated for every fault.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 
 namespace enc::bench::wires {
 
-inline constexpr double kStands = 1e-4;  // m/s: a machine that is slower stands
+inline constexpr double kStands = 1e-4;  // m/s: a slower machine is at standstill
 
-// s until it stays slower than `stands` (m/s). At first it has this speed, and its last point is ahead, no
-// farther than it needs to brake: set-points that a machine can follow leave no other. Infinite: after 5 s it
-// still moves. Found by following the law for every such point: a servo whose acceleration is clipped passes
-// its point, comes back too fast as well, and does so more than once.
+// Returns the time in s until the machine stays slower than `stands` (m/s), infinite if it still moves after
+// 5 s. It starts at `speed` with its last point ahead, no farther than it needs to brake: set-points that a
+// machine can follow leave no other. The law is followed for every such point, because a servo with clipped
+// acceleration overshoots, comes back too fast, and repeats that.
 [[nodiscard]] inline double longest_settling(const ServoLaw& law, double speed, double stands) noexcept {
   constexpr int kPoints = 100;
   constexpr double kStep = 1e-3;  // s
@@ -33,7 +33,7 @@ inline constexpr double kStands = 1e-4;  // m/s: a machine that is slower stands
     ServoMotion motion;
     motion.velocity.x() = speed;
     double moved = 0.0;
-    // Once slow, and so near that it can become no faster, it stays slow.
+    // A slow machine so near its point that it cannot become faster stays slow.
     for (int step = 1; step <= kSteps; ++step) {
       follow(law, last, kStep, motion);
       if (motion.velocity.norm() >= stands) moved = kStep * step;
@@ -48,13 +48,13 @@ inline constexpr double kStands = 1e-4;  // m/s: a machine that is slower stands
 using enc::wires::Which;
 using enc::wires::Wires;
 
-// What a trial goes through; it goes before this.
+// The wires around a trial; construct it before the trial.
 class Laboratory {
  public:
   // `setup` with every value of the drivers' tables, defaults included.
   explicit Laboratory(models::Setup setup, Which which = {true, true, true}, std::uint64_t seed = 1);
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
-  // The options with their devices behind the wires.
+  // Returns the options with their devices behind the wires.
   [[nodiscard]] trial::TrialOptions behind(trial::TrialOptions options);
   [[nodiscard]] Wires& wires() { return wires_; }
 
@@ -80,15 +80,15 @@ class WiredTrial {
   trial::Trial trial_;
 };
 
-// What a press of the ball comes to: a trial, with wires or without, to its end.
+// Result of a press of the ball: a complete trial, with wires or without.
 struct Pressed {
   int contacts = 0;
-  bool held = false;           // after the first samples
-  double peak = 0.0;           // N, true
-  double touched = kUnset;     // s, when the core has first noticed it
+  bool held = false;           // held after the first samples
+  double peak = 0.0;           // N, ground truth
+  double touched = kUnset;     // s, when the core first detects it
   std::vector<double> height;  // m, of the true tip, on each tick
 };
-inline constexpr double kOnePress = 20.0;  // s: the first of tennis_ball has ended
+inline constexpr double kOnePress = 20.0;  // s: the first press of tennis_ball is over
 [[nodiscard]] Pressed pressed(trial::Trial& trial);
 
 }  // namespace enc::bench::wires

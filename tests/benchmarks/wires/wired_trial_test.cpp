@@ -1,7 +1,7 @@
-// The scene of the tennis ball through the wires of the laboratory, in virtual time.
-// The real machine is told each millisecond, over EtherCAT; over GCS a set-point goes each ten or so. A press
-// of the ball, Table 1 and Fig 3 are equal with a cycle of 1 ms and without wires, and a press with one of 10
-// ms, too (docs/reference/devices.md).
+// The scene of the tennis ball through the wires of the laboratory, in virtual time. EtherCAT commands the
+// real machine every millisecond; GCS sends a set-point every ten or so. A press of the ball, Table 1 and Fig
+// 3 are equal with a cycle of 1 ms and without wires, and so is a press with 10 ms
+// (docs/reference/devices.md).
 #include "tests/benchmarks/wires/wired_trial.h"
 
 #include <algorithm>
@@ -50,8 +50,8 @@ TEST(WiredTrial, EachDeviceBehindItsWireGivesTheSamePress) {
   }
 }
 
-// What the cycle of set-points does (docs/reference/devices.md): up to 10 ms a press is the same; with 20 ms
-// it is felt twice; 50 ms is too slow for what the core believes of the machine, and it holds.
+// Effect of the set-point cycle (docs/reference/devices.md): up to 10 ms a press does not change; 20 ms is
+// felt twice; 50 ms is too slow for the core's model of the machine, so the core holds.
 TEST(WiredTrial, SlowerCyclesOfSetPoints) {
   for (const auto& [cycle, contacts, held] :
        {std::tuple{"2", 1, false}, {"5", 1, false}, {"10", 1, false}, {"50", 0, true}}) {
@@ -64,8 +64,8 @@ TEST(WiredTrial, SlowerCyclesOfSetPoints) {
   }
 }
 
-// The process is stopped for 2 s while the tip moves. The machine goes to its last point and stands; the
-// first tick afterwards holds; then it goes on, and no faster than it may.
+// The process stops for 2 s while the tip moves. The machine goes to its last point and stands. The first
+// tick afterwards holds; then the run goes on within its speed limit.
 TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
   WiredTrial wired(fakes(), one_press());
   trial::Trial& trial = wired.trial();
@@ -94,8 +94,8 @@ TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
   EXPECT_EQ(wired.wires().controller().error(), 0) << "no point was farther than a cycle allows";
 }
 
-// Nobody sends anything any more, from any moment of the way on which the machine goes fastest: it stands
-// within its dead time, four points of its cycle, and what its servo takes to settle.
+// The program is killed at any moment of the fastest motion. The machine stands within its dead time, four
+// points of its cycle, and the settling time of its servo.
 TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {
   const auto of = fakes().twin.hexapod;
   const double bound = 0.044 + longest_settling(sim::servo_of(of), of.speed, kStands);
@@ -128,8 +128,8 @@ TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {
   EXPECT_NEAR(longest, 0.49, 0.01) << "it swings back after it has braked (docs/reference/safety.md)";
 }
 
-// From 50 mm/s it needs 122 ms to brake; with what it then swings back it takes five times as long. A servo
-// that brakes in time would not swing; a slow machine hardly does.
+// From 50 mm/s the machine needs 122 ms to brake, and five times as long with the oscillation that follows. A
+// servo that brakes in time would not oscillate; a slow machine hardly does.
 TEST(WiredTrial, HowLongAMachineSettles) {
   const ServoLaw law;
   EXPECT_NEAR(longest_settling(law, law.speed, kStands), 0.604, 0.01);
@@ -142,8 +142,8 @@ TEST(WiredTrial, HowLongAMachineSettles) {
   }
 }
 
-// The user lays one tool down and takes up the other: the overlay shows it from its first pose on, and
-// nothing is felt of it, whichever way the poses come.
+// The user lays one tool down and takes up another. The overlay shows it from its first pose on, and the user
+// feels nothing of the change, whichever way the poses come.
 TEST(WiredTrial, AChangeOfTheToolIsSeenWithinAPeriodOfTheTracker) {
   for (const std::string transport : {"udp", "tcp"}) {
     SCOPED_TRACE(transport);
@@ -165,7 +165,7 @@ TEST(WiredTrial, AChangeOfTheToolIsSeenWithinAPeriodOfTheTracker) {
       while (wired.tick()) {
       }
       const session::ToolChange change = measure.change();
-      if (std::isnan(change.taken_at)) continue;  // it comes in the next pause, which may be too late
+      if (std::isnan(change.taken_at)) continue;  // detected in the next pause, which may be too late
       ++changes;
       EXPECT_LE(change.shown_at - change.taken_at,
                 setup.rig.tracker.usual_age + 1.0 / setup.twin.tracker.server_rate)
@@ -190,7 +190,7 @@ models::Setup on_fakes(const std::string& scene, int cycle, std::vector<std::str
                       enc::wires::tight_times(std::move(set)));
 }
 
-// measure(options, setup) with the devices of the set-up behind their wires; with a cycle of 0 without.
+// Calls measure(options, setup) with the devices behind their wires, or without wires for a cycle of 0.
 template <class Measure>
 auto through(const models::Setup& setup, int cycle, const Measure& measure) {
   if (cycle == 0) return measure(trial::TrialOptions{}, setup);
@@ -234,8 +234,8 @@ TEST(SetPointCycles, OfOneMillisecondAreAsNoWires) {
   EXPECT_EQ(usual.press.contacts, 1);
   EXPECT_NEAR(fast.press.peak, pure.press.peak, 0.2);  // N
   EXPECT_NEAR(usual.press.peak, pure.press.peak, 0.2);
-  EXPECT_NEAR(fast.press.touched, pure.press.touched, 5e-3);  // s, when the first touch is noticed
-  // The peak is where the ball's limit is, and would hide a machine that is late or turned.
+  EXPECT_NEAR(fast.press.touched, pure.press.touched, 5e-3);  // s, when the core detects the first touch
+  // The ball's limit sets the peak, so the peak alone would hide a late or turned machine.
   double sum = 0.0;
   const std::size_t n = std::min(fast.press.height.size(), pure.press.height.size());
   for (std::size_t i = 0; i < n; ++i) sum += std::pow(fast.press.height[i] - pure.press.height[i], 2);
