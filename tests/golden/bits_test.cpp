@@ -1,5 +1,5 @@
-// The same bits on every processor: what the C library chooses by the processor is not called, whole runs
-// agree where parts of the processor are hidden from it, and the README shows the hash that a run prints.
+// Equal bits on every processor. The program calls no function that the C library selects by processor. Whole
+// runs agree if parts of the processor are hidden. The README shows the hash that a run prints.
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kRoot = tests::source_dir();
 
-// The file of a library that this process has loaded.
+// Path of a library that this process has loaded.
 std::string loaded(const std::string& part) {
   struct Search {
     std::string part, found;
@@ -38,7 +38,7 @@ std::string loaded(const std::string& part) {
   return search.found;
 }
 
-// The names that a file takes from others (which = "--undefined-only") or gives to them ("--defined-only").
+// Symbols that a file imports (which = "--undefined-only") or exports ("--defined-only").
 std::set<std::string> names(const std::string& file, const std::string& which) {
   std::istringstream lines(run({"nm", "-D", which, file}).out);
   std::set<std::string> all;
@@ -49,7 +49,7 @@ std::set<std::string> names(const std::string& file, const std::string& which) {
   return all;
 }
 
-// What rounds nothing, or once as the standard says, has the same bits wherever it is computed.
+// These functions round nothing, or once as the standard says, and so have equal bits everywhere.
 const std::set<std::string> kExact{"ceil",      "fabs",      "floor",     "fma",     "fmax",   "fmin",
                                    "fmod",      "frexp",     "ldexp",     "llround", "lround", "modf",
                                    "nearbyint", "nextafter", "remainder", "rint",    "round",  "scalbn",
@@ -75,7 +75,7 @@ const std::vector<Environment> kMasks{
     {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}},                              // Sandy Bridge
     {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA4,-FMA,-AVX2,-AVX,-SSE4_1,-SSE4_2"}}};  // Core 2
 
-// What the C library believes that the processor can do.
+// Processor features that the C library detects.
 std::string abilities(const Environment& environment) {
   std::istringstream lines(run({"/lib64/ld-linux-x86-64.so.2", "--list-diagnostics"}, environment).out);
   std::string all;

@@ -1,5 +1,5 @@
-// Committed files are what this version makes: resolved scenes, recorded presses, outcomes, responses, and
-// the hare. A change that nobody meant shows here.
+// This version reproduces the committed files: resolved scenes, recorded presses, outcomes, responses, and
+// the hare. An unintended change shows here.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -37,12 +37,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- What a scene resolves to, and what step() makes of a recorded press, kept as files: a change that
-// nobody meant shows here.
+// ---- Resolved scenes and the output of step() for a recorded press, kept as files: an unintended change
+// shows here.
 
 const std::string kResolved = tests::source_dir() + "/tests/golden/tennis_ball.resolved.toml";
 const std::string kData = tests::source_dir() + "/tests/data/";
-// Written where it can be taken from: the words of a failure say how.
+// Writes the new text to a file; the failure message says how to take it over.
 std::string resolve_again(const std::string& text) {
   const std::string path = testing::TempDir() + "tennis_ball.resolved.toml";
   std::ofstream(path, std::ios::binary) << text;
@@ -51,11 +51,11 @@ std::string resolve_again(const std::string& text) {
          path + " tests/golden/tennis_ball.resolved.toml\n";
 }
 
-// A press that touches and lets go within 1.2 s. At 500 Hz, so that it fits into 620 kB.
+// A press that touches and lets go within 1.2 s. Its 500 Hz keep it within 620 kB.
 struct Press {
   const char* record;
   const char* options;
-  double depth, force;  // both are more than this, in m and N
+  double depth, force;  // both exceed this, in m and N
 };
 void PrintTo(const Press& press, std::ostream* out) { *out << press.record; }
 
@@ -89,7 +89,7 @@ TEST(ResolvedGolden, TennisBall) {
   EXPECT_THAT(committed, testing::StartsWith("format = 1\n"));
 }
 
-// The committed text needs no other file and means the same as those it was made from.
+// The committed text needs no other file and has the meaning of the files that it came from.
 TEST(ResolvedGolden, TheCommittedTextStandsAlone) {
   const std::string committed = test::bytes_of(kResolved);
   const models::Setup setup = models::parse_resolved(committed, kResolved);
@@ -101,7 +101,7 @@ TEST(ResolvedGolden, TheCommittedTextStandsAlone) {
 
 class StepGolden : public ::testing::TestWithParam<Press> {
  protected:
-  // Null where the layout is another one, with the words for it.
+  // Null, with an explanation, if the layout differs.
   std::unique_ptr<RecordReader> open() {
     try {
       return std::make_unique<RecordReader>(kData + GetParam().record);
@@ -126,7 +126,7 @@ TEST_P(StepGolden, TheRecordedPressGivesTheSameBits) {
   EXPECT_EQ(result.hash, frame.hash) << record_again(GetParam());
 }
 
-// It is worth replaying: the tool comes and presses, and the record is small.
+// The record is worth replaying: the tool approaches and presses, and the record is small.
 TEST_P(StepGolden, TheRecordHoldsAPress) {
   const auto record = open();
   ASSERT_TRUE(record);
@@ -151,16 +151,16 @@ TEST_P(StepGolden, TheRecordHoldsAPress) {
 INSTANTIATE_TEST_SUITE_P(Machines, StepGolden, testing::Values(kHexapod, kArm),
                          [](const auto& press) { return press.index == 0 ? "Hexapod" : "Arm"; });
 
-// ---- What every scene that ships does, tick by tick: one hash over outputs and truth (none over memory,
-// which may be laid out anew) and the state hash. A change that shall change nothing leaves the table as it
-// is.
+// ---- Behaviour of every shipped scene, tick by tick: one hash over outputs and ground truth, and the state
+// hash. No hash covers memory, whose layout may change. A change that must not alter behaviour leaves the
+// table as it is.
 
 const fs::path kScenes = tests::source_dir() + "/models/scenes";
 const fs::path kTable = tests::source_dir() + "/tests/golden/outcomes.csv";
 constexpr const char* kHeader = "scene,seed,length,ticks,state_hash,outcome_hash";
 constexpr double kShort = 1.5;  // s
 
-// length is "whole", or "short": its first kShort seconds.
+// length is "whole", or "short" for the first kShort seconds.
 std::string row_of(const std::string& scene, std::uint64_t seed, const std::string& length) {
   StateHash outcome;
   trial::TrialOptions options;
@@ -233,7 +233,7 @@ TEST(Outcome, TheTableHasEverySceneTwice) {
   EXPECT_EQ(found, expected);
 }
 
-// A member that is new must be hashed, too: then this does not compile until somebody has looked.
+// The hash must include each new member: a new one stops this from compiling until somebody has looked.
 struct Count {
   int leaves = 0;
   template <class T>
@@ -248,7 +248,7 @@ TEST(Outcome, EveryMemberOfTheTruthIsNamed) {
                aim, phase, approach_speed, aborted, tool, work] = truth;
   EXPECT_EQ(&t, &truth.t);
   EXPECT_EQ(&tool, &truth.tool);
-  EXPECT_EQ(&work, &truth.work);  // is of the ledger alone, and follows from the rest
+  EXPECT_EQ(&work, &truth.work);  // belongs to the energy balance alone, and follows from the rest
   Count count;
   sim::Truth copy = truth;
   fields(count, copy);
@@ -259,7 +259,7 @@ TEST(OutcomeLong, TheFirstSecondsOfEveryScene) { expect_rows("short"); }
 
 TEST(OutcomeLong, EverySceneToItsEnd) { expect_rows("whole"); }
 
-// ---- The committed responses are what `encounter fit` makes of the loops that they name, byte for byte.
+// ---- `encounter fit` reproduces the committed responses from the loops that they name, byte for byte.
 
 constexpr double kLimit = 6e-3;
 const std::string kResponses = tests::source_dir() + "/models/responses/";
@@ -268,7 +268,7 @@ double floor_of_rig() {
   return models::fit_floor(loop_of(models::load_rig(tests::source_dir() + "/models/rigs/sim.toml")));
 }
 
-// What run, export and fit do, in one process.
+// Does the work of run, export and fit in one process.
 void expect_fitted(const std::string& scene, const std::string& ball, const std::string& response) {
   const std::string committed = test::bytes_of(kResponses + response);
   ASSERT_FALSE(committed.empty());
@@ -295,9 +295,9 @@ TEST(ResponseGoldenLong, RegulationBallIsReproduced) {
   expect_fitted("rig_A", "regulation", "regulation_ball.toml");
 }
 
-// What the file says after reading, whichever model is felt: 12 +- 1 N where the true deflection first comes
-// within 0.05 mm of the limit (sources/hand 3), and accepted with the fit's own floor although its
-// coefficients are rounded.
+// The file's response after reading, for either model: 12 +- 1 N where the true deflection first comes within
+// 0.05 mm of the limit (sources/hand 3). The fit's own floor accepts it although its coefficients are
+// rounded.
 TEST(ResponseGoldenLong, TennisBallFileIsAcceptedAndTwelveNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "tennis_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii}) {
@@ -316,7 +316,7 @@ TEST(ResponseGoldenLong, RegulationBallFileIsAcceptedAndFiftyNewton) {
     EXPECT_NEAR(Response(spec, floor_of_rig(), reversal).press(5.95e-3), 50.0, 6.0);
 }
 
-// ---- The committed hare is what its generator makes, byte for byte, and a sound solid.
+// ---- The generator reproduces the committed hare byte for byte, and it is a sound solid.
 
 TEST(HareGoldenLong, IsReproducedAndSound) {
   const std::string path = tests::source_dir() + "/models/meshes/hare.glb";
