@@ -1,4 +1,4 @@
-// Other builds: examples/ over an installed core and in the tree, and the program without vision.
+// Other builds: examples/ with an installed core and in the tree, and the program without vision.
 #include <filesystem>
 #include <string>
 
@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-// ---- The door for other people's code: examples/, built by somebody else over an installed core, and in the
-// tree over the twin.
+// ---- The interface for other people's code: somebody else builds examples/ with an installed core, and in
+// the tree with the twin.
 
 std::string build_dir() { return fs::path(program_file()).parent_path().string(); }
 
-// The elementary functions of core/math come with the core, so a step has the same bits outside.
+// The elementary functions of core/math come with the core, so a step has equal bits outside.
 TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
   if (!test::kCanTally) GTEST_SKIP() << "what is installed has no sanitizers";
   const test::TemporaryFolder folder;
@@ -31,7 +31,7 @@ TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
       run({"cmake", "--install", build_dir(), "--prefix", prefix, "--component", "core"}, {}, 120.0);
   ASSERT_EQ(installed.code, 0) << installed.err;
   EXPECT_FALSE(fs::exists(prefix + "/bin")) << "the core alone";
-  // Moved: nothing in it knows where it was made.
+  // Moved: nothing in the folder depends on its first place.
   const std::string moved = folder.file("moved");
   fs::rename(prefix, moved);
   const Result configured =
@@ -45,7 +45,7 @@ TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
   const Result stepped = run({made + "/step"});
   EXPECT_EQ(stepped.code, 0);
   EXPECT_THAT(stepped.out, HasSubstr("2500 ms  follow"));
-  // 700 N/m of hand and 2000 N/m of wall in series, 8 mm: 4.15 N, and 2.07 mm.
+  // 700 N/m of hand and 2000 N/m of wall in series, moved 8 mm: 4.15 N and 2.07 mm.
   EXPECT_THAT(stepped.out, ContainsRegex("4500 ms  contact .*deflection 2\\.0[0-9] mm  force 4\\.1[0-9] N"));
   const Result checked =
       run_program({"check", shipped_scene("tennis_ball"), "--set", "rig.force.driver=steady"},
@@ -78,8 +78,8 @@ TEST(Door, TwinAndReplayRunInTheTree) {
   EXPECT_THAT(replayed.out, HasSubstr("state hash " + ran.out.substr(ran.out.find("state hash  ") + 12, 16)));
 }
 
-// ---- The program that is built without vision (preset lean) runs what needs none, and says of the rest that
-// it is not there.
+// ---- The program built without vision (preset lean) runs everything that needs no vision, and reports the
+// rest as missing.
 
 TEST(LeftOut, WithoutVisionTheProgramRunsWhatNeedsNoneAndRefusesTheRestInALine) {
   if (is_built("vision")) GTEST_SKIP() << "vision is built here";

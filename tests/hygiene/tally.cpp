@@ -42,7 +42,7 @@ rusage at_begin{};
 
 void add(Offence kind, std::string_view name) noexcept {
   if (!counting || pthread_equal(pthread_self(), counted) == 0) return;
-  counting = false;  // what is called from here is not the tick's
+  counting = false;  // calls from here do not count for the tick
   ++tally.count[static_cast<std::size_t>(kind)];
   if (tally.offenders < tally.first.size()) {
     Offender& one = tally.first[tally.offenders++];
@@ -54,7 +54,7 @@ void add(Offence kind, std::string_view name) noexcept {
   counting = true;
 }
 
-// The C library's own of a function of that name.
+// The C library's own function of that name.
 template <class Function>
 Function* next(const char* name) {
   return std::bit_cast<Function*>(dlsym(RTLD_NEXT, name));
@@ -64,7 +64,6 @@ Function* next(const char* name) {
 }  // namespace enc::test
 
 // ---- the heap
-// ----------------------------------------------------------------------------------------------------------------
 
 using enc::test::add;
 using enc::test::Offence;
@@ -108,7 +107,6 @@ void free(void* p) {
 }
 
 // ---- locks
-// -------------------------------------------------------------------------------------------------------------------
 
 #define ENCOUNTER_LOCK(name, parameters, arguments)                   \
   int name parameters {                                               \
@@ -134,9 +132,8 @@ ENCOUNTER_LOCK(sem_post, (sem_t * s), (s))
 #undef ENCOUNTER_LOCK
 
 // ---- system calls
-// ------------------------------------------------------------------------------------------------------------
 
-// One from a place that the filter knows: what it refused is done after all.
+// A system call from an address that the filter allows: it performs a call that the filter has stopped.
 long encounter_call(long number, long a, long b, long c, long d, long e, long f);
 extern const char encounter_call_end[];
 }  // extern "C"
@@ -211,7 +208,6 @@ bool filter_system_calls() {
 }
 
 // ---- counting
-// ----------------------------------------------------------------------------------------------------------------
 
 void begin_tally() {
   const bool filtered = tally.filtered;
@@ -219,7 +215,7 @@ void begin_tally() {
   tally.filtered = filtered;
   before_tick = 0;
   std::array<void*, 2> some{};
-  (void)backtrace(some.data(), 2);  // which loads what it needs once
+  (void)backtrace(some.data(), 2);  // loads once whatever it needs
   counted = pthread_self();
   getrusage(RUSAGE_THREAD, &at_begin);
   counting = true;

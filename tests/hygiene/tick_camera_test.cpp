@@ -1,5 +1,5 @@
-// Within the loop a picture is drawn by Mesa and looked at by vision in the tick in which it is taken. Both
-// ask for much; they do it in that tick and in no other.
+// Within the loop Mesa draws a picture and vision evaluates it in the tick that takes it. Both use heap and
+// system calls, in that tick and in no other.
 #include <gtest/gtest.h>
 
 #include "app/modules/modules.h"

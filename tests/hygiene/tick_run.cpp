@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 static_assert(std::is_trivially_copyable_v<Tally>);
-// Through the pipe.
+// The data that the child sends through the pipe.
 struct Parcel {
   Tally tally;
   double extra = 0.0;
@@ -55,13 +55,13 @@ struct Parcel {
   ::_exit(0);
 }
 
-// "file.cpp:12 function", where the program has lines and addr2line is there.
+// "file.cpp:12 function", if the program has line information and addr2line is installed.
 std::string place_of(void* caller) {
   Dl_info info{};
   if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return "?";
   const auto at = reinterpret_cast<std::uintptr_t>(caller) - 1;
   const auto offset = at - reinterpret_cast<std::uintptr_t>(info.dli_fbase);
-  // A program that is not moved has its addresses in its file.
+  // A program without address randomisation has the addresses of its file.
   for (const std::uintptr_t address : {offset, at}) {
     const std::string found =
         tests::run({"addr2line", "-Cfpse", info.dli_fname, fmt::format("{:#x}", address)}).out;
@@ -124,7 +124,7 @@ std::vector<std::string> scenes(bool camera) {
 
 Told counted_run(const Case& asked) {
   return in_child([&](Told& told) {
-    static std::atomic<int> caught{0};  // as the program's signals are
+    static std::atomic<int> caught{0};  // like the program's signal handlers
     trial::TrialOptions options = asked.options;
     const models::Setup setup =
         models::load(tests::source_dir() + "/models/scenes/" + asked.scene + ".toml", "", {});

@@ -1,4 +1,4 @@
-// A run of a shipped scene as `run` has it, whose ticks are counted in a process of its own.
+// A run of a shipped scene like that of `run`, whose ticks are counted in a process of its own.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace enc::test {
 
-// A tally that a process of its own has made: a filter of system calls can never be removed.
+// A tally from a child process: a process cannot remove a filter of system calls.
 struct Told {
   Tally tally;
-  double extra = 0.0;  // as the child said
-  std::string error;   // empty: it came to its end
+  double extra = 0.0;  // value from the child
+  std::string error;   // empty: no error
 };
-// What `work` tells, in a child of this process. Of one thread: the others are not in the child.
+// Runs `work` in a child of this process and returns its result. The child has one thread only.
 [[nodiscard]] Told in_child(const std::function<void(Told&)>& work);
 
-// "2 heap, 1 lock in 60000 ticks", and who made the first: a line for each.
+// "2 heap, 1 lock in 60000 ticks", then a line for each kind with its first caller.
 [[nodiscard]] std::string words(const Tally& tally);
 
 inline constexpr std::int64_t kWarmUp = 100;    // ticks
-inline constexpr std::int64_t kTicks = 60'000;  // of each scene
+inline constexpr std::int64_t kTicks = 60'000;  // per scene
 inline constexpr const char* kNoFilter = "no filter of system calls (seccomp) here: they were NOT counted";
 
 // Names below models/scenes: "plane"; or those with a camera: "camera/wall".
@@ -34,19 +34,19 @@ inline constexpr const char* kNoFilter = "no filter of system calls (seccomp) he
 
 struct Case {
   std::string scene = "plane";
-  trial::TrialOptions options{};  // its watch() comes after the measures of `run`
-  std::string record{};           // a file; empty: none
-  std::int64_t most = INT64_MAX;  // ticks, beside those of the warm-up; or until its programme is over
+  trial::TrialOptions options{};  // its watch() runs after the measurements of `run`
+  std::string record{};           // a file; empty: no record
+  std::int64_t most = INT64_MAX;  // ticks after the warm-up; or until the programme is over
 };
 
-// From the end of its warm-up on, in a process of its own. `extra`: pictures that came; or bytes of the
+// Counts from the end of the warm-up in a process of its own. `extra`: number of pictures, or bytes of the
 // record.
 [[nodiscard]] Told counted_run(const Case& asked);
-// Page faults that come once are the machine's, which may take a page from anybody at any time; what is the
-// program's own comes again.
+// Counts again if there were page faults: the machine may take a page from any process once; the program's
+// own faults repeat.
 [[nodiscard]] Told without_chance(const Case& asked);
-// Run after run, with seed after seed: the first to the end of its programme, all together at least kTicks.
-// Each is cold: its first contact is counted, too. Stops where `good` does not hold.
+// Repeats runs with consecutive seeds: the first to the end of its programme, all together at least kTicks.
+// Each is cold, so its first contact counts, too. Stops if `good` fails.
 void count_scene(const Case& asked, const std::function<void(const Told&)>& good);
 
 class Tick : public testing::TestWithParam<std::string> {

@@ -1,5 +1,5 @@
-// What a tick must not do, counted over every shipped scene; the counters count; and what a record costs a
-// tick.
+// Calls that a tick must not make, counted over every shipped scene; the counters work; and the cost of a
+// record per tick.
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -34,9 +34,9 @@ namespace {
 
 using tests::source_dir;
 
-// ---- A whole tick of every shipped scene, as `run` has it: the twin and its physics, the core, safety, what
-// every run counts and judges. After a tenth of a second it asks nothing of the heap, takes no lock, makes no
-// system call but to sleep and to read the clock, and has all its memory in place.
+// ---- A whole tick of every shipped scene, as in `run`: the twin and its physics, the core, safety, and the
+// measurements of every run. After a tenth of a second a tick uses no heap and takes no lock. It makes no
+// system call except to sleep and to read the clock, and all its memory is mapped.
 
 TEST_P(Tick, AsksForNothing) {
   count_scene({.scene = GetParam()},
@@ -45,7 +45,7 @@ TEST_P(Tick, AsksForNothing) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Tick, testing::ValuesIn(scenes(false)),
                          [](const auto& scene) { return scene.param; });
 
-// A clock that keeps wall time sleeps and reads it.
+// A clock in wall time sleeps and reads the time.
 TEST_F(AnyTick, OnlySleepsAtAPace) {
   Case asked{.scene = "plane", .most = 2000};
   asked.options.pace = 10.0;
@@ -55,7 +55,7 @@ TEST_F(AnyTick, OnlySleepsAtAPace) {
   if (!told.tally.filtered) GTEST_SKIP() << kNoFilter;
 }
 
-// A record is written in pieces of 64 KiB, each with one call.
+// The loop writes a record in pieces of 64 KiB, with one call each.
 TEST_F(AnyTick, OnlyWritesItsRecord) {
   const TemporaryFolder folder;
   const Told told = without_chance({.scene = "plane", .record = folder.file("a.encrec"), .most = 5000});
@@ -67,8 +67,7 @@ TEST_F(AnyTick, OnlyWritesItsRecord) {
   EXPECT_LE(static_cast<double>(told.tally.all()), told.extra / 60e3);
 }
 
-// ---- The counters count: what a tick of a clean scene does in its last hook, once, is found, with who did
-// it.
+// ---- The counters work: they find a single call in the last hook of a clean scene's tick, with its caller.
 
 Told with(const std::function<void()>& deed) {
   Case asked{.most = 1000};
@@ -112,7 +111,7 @@ TEST_F(AnyTick, IsFoundToCallTheSystem) {
   expect_once(told, Offence::system_call, std::to_string(SYS_getppid));
 }
 
-// Memory that it has, and nobody has touched.
+// Allocated memory that was never touched.
 TEST_F(AnyTick, IsFoundToFault) {
   static volatile std::byte* fresh = nullptr;
   static constexpr std::size_t kPages = 5, kPage = 4096;
@@ -133,7 +132,7 @@ TEST_F(AnyTick, IsFoundToFault) {
   EXPECT_EQ(told.tally.all(), std::int64_t{kPages}) << words(told.tally);
 }
 
-// What fails says who did it.
+// A failure names the caller.
 TEST_F(AnyTick, SaysWhoAskedForSomething) {
   static void* volatile kept = nullptr;
   const std::string said = words(with([] { kept = std::realloc(kept, 24); }).tally);
@@ -142,7 +141,7 @@ TEST_F(AnyTick, SaysWhoAskedForSomething) {
   EXPECT_NE(said.find("tick_test.cpp"), std::string::npos) << said;
 }
 
-// Where they are not, ctest lists this test as skipped.
+// On machines without the filter ctest lists this test as skipped.
 TEST(SystemCalls, AreCountedHere) {
   if (!kCanTally) GTEST_SKIP() << "not under sanitizers";
   const Told told = in_child([](Told& t) {
@@ -153,25 +152,25 @@ TEST(SystemCalls, AreCountedHere) {
   if (!told.tally.filtered) GTEST_SKIP() << kNoFilter;
 }
 
-// ---- A record costs a tick of a loop on the wall clock little, and has every tick.
+// ---- A record costs a tick of a loop in wall time little, and contains every tick.
 
-// s of CPU time of this thread, so that other programs do not count.
+// s of CPU time of this thread: other programs do not count.
 double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// A fixed piece of work: a bound on time is a ratio to it, so that a slow machine does not fail the test.
+// A fixed piece of work. Times are bounded as ratios to it, so that a slow machine does not fail the test.
 class Yardstick {
  public:
   double seconds() {
     const double begun = thread_seconds();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      sum_ = sum_ * 0.75 + cells_[i];  // each waits for the one before, and for its cell
+      sum_ = sum_ * 0.75 + cells_[i];  // each step waits for the one before, and for its cell
       cells_[(i * 7) % cells_.size()] = 1.0 / (1.0 + sum_ * sum_);
     }
-    seen_ = sum_;  // so that the compiler leaves nothing out
+    seen_ = sum_;  // keeps the compiler from removing the work
     return thread_seconds() - begun;
   }
 
@@ -181,10 +180,10 @@ class Yardstick {
   volatile double seen_ = 0.0;
 };
 
-// As `encounter run` does it: the loop fills the record, another thread puts it into the file.
+// As in `encounter run`, the loop fills the record and another thread writes it into the file.
 TEST(RecordCost, ATickPaysForACopyAlone) {
   constexpr std::int64_t kTicks = 5'000;
-  // Yardsticks. Measured: 0.14 on a busy machine; packing within the tick would be 0.33.
+  // In yardsticks. Measured: 0.14 on a busy machine; packing within the tick would be 0.33.
   constexpr double kMost = 0.25;
   const models::Setup setup = models::load(source_dir() + "/models/scenes/tennis_ball.toml", "sim", {});
   const test::TemporaryFolder folder;
@@ -201,7 +200,7 @@ TEST(RecordCost, ATickPaysForACopyAlone) {
       for (std::int64_t i = 0; i < kTicks; ++i) {
         due += kPeriod;
         std::this_thread::sleep_until(due);
-        // A thread's own time costs a system call, as much as the write. The median passes over
+        // Reading a thread's own time costs a system call, as much as the write. The median ignores
         // interruptions.
         const auto begun = std::chrono::steady_clock::now();
         record.write({i, Time(i * Duration(kPeriod)), kPeriod}, {}, {}, static_cast<std::uint64_t>(i));

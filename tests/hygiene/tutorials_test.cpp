@@ -1,4 +1,4 @@
-// Runs docs/tutorial: each block of commands as a reader types it, and its output beside the page's.
+// Runs docs/tutorial: each block of commands as a reader types it, and compares its output with the page.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -36,13 +36,13 @@ std::vector<Block> blocks_of(const std::string& page) {
   return blocks;
 }
 
-// A line of the page as a regular expression: "…" stands for any text, and the line's ends are open.
+// Turns a line of the page into a regular expression: "…" stands for any text, and the line's ends are open.
 std::regex line_of_page(const std::string& line) {
   static const std::regex kSpecial(R"([.^$|()\[\]{}*+?\\])");
   return std::regex(std::regex_replace(std::regex_replace(line, kSpecial, R"(\$&)"), std::regex("…"), ".*"));
 }
 
-// Each line of the page's output comes in the command's, in this order.
+// The command's output has each line of the page's output, in that order.
 void expect_lines(const std::string& printed, const std::string& expected, const std::string& where) {
   std::istringstream page(expected);
   auto from = printed.begin();
@@ -56,7 +56,7 @@ void expect_lines(const std::string& printed, const std::string& expected, const
   }
 }
 
-// A folder that looks like the project's to a reader, but is thrown away.
+// Creates a temporary folder that looks like the project's to a reader.
 void furnish(const std::string& folder) {
   const fs::path build = fs::path(program_file()).parent_path();
   fs::create_symlink(program_file(), folder + "/encounter");
@@ -66,7 +66,7 @@ void furnish(const std::string& folder) {
     fs::create_symlink(source_dir() + "/" + name, folder + "/" + name);
 }
 
-// The commands of a page in one shell, each block's output in a file; a file's first line is its name.
+// Runs the commands of a page in one shell, each block's output in a file whose first line is its name.
 void follow(const std::string& page) {
   if (!test::kCanTally) GTEST_SKIP() << "what a reader builds has no sanitizers";
   const test::TemporaryFolder folder;
