@@ -1,4 +1,4 @@
-// The arm against MuJoCo, the same machine body by body: statics and inertia by MuJoCo's own algorithms, and
+// The arm against MuJoCo, the machine built body by body: statics and inertia by MuJoCo's own algorithms, and
 // motion.
 #include <algorithm>
 #include <random>
@@ -17,10 +17,9 @@
 namespace enc::sim {
 namespace {
 
+// ---- An arm's machine as bodies of MuJoCo, in two ways: built here body by body, and as the twin models it.
 
-// ---- An arm's machine as bodies of MuJoCo, two ways: built here body by body, and as the twin has it.
-
-// The physics of an arm and d (MuJoCo's joints) / d (arm's joints).
+// The physics of an arm, and d (MuJoCo's joints) / d (arm's joints).
 struct Built {
   sim::Physics physics;
   Eigen::MatrixXd G;
@@ -30,7 +29,7 @@ struct Built {
 Built phantom(const ArmMachine& machine, double payload);
 Built chain(const ArmMachine& machine, double payload);
 
-// The twin's own model of it, of either kind.
+// The twin's own model of an arm of either kind.
 struct ArmTwin {
   sim::Physics physics;
   sim::ArmBody body;
@@ -93,8 +92,9 @@ Built phantom(const ArmMachine& machine, double payload) {
   const Vec3 lift(0, -1, 0);
   // Cavusoglu's x, y, z are y, z, x of R at zero.
   const auto turned = [](const Vec3& I) { return Vec3(I.z(), I.x(), I.y()); };
-  // be and df are published about the origin of R: here about their centres. As bodies they break A + B >= C;
-  // turning about the vertical with the turret, they may borrow from I_base what they lack.
+  // The published inertias of be and df are about the origin of R; here they are about their centres. As
+  // bodies they break A + B >= C. Turning about the vertical with the turret, they may take the lacking part
+  // from I_base.
   double I_base = g.I_base;
   const auto body_inertia = [&](const Vec3& I, double mass, const Vec3& centre) {
     Vec3 own = turned(I) - mass * (centre.squaredNorm() * Vec3::Ones() - centre.cwiseProduct(centre));
@@ -148,14 +148,14 @@ ArmTwin twin(const ArmMachine& machine, double payload, const sim::ArmTruth& tru
   return {std::move(physics), body};
 }
 
-// ---- The arm against MuJoCo: the same machine body by body, its statics and inertia by MuJoCo's own
-// algorithms. What the parallelogram ties together is put together by projection on the arm's joints.
+// ---- The arm against MuJoCo: the machine body by body, its statics and inertia by MuJoCo's own algorithms.
+// A projection on the arm's joints closes the parallelogram.
 
 using Twin = ArmTwin;
 
 struct Apart {
-  double gravity = 0.0;  // N m
-  double mass = 0.0;     // of the matrix, relative
+  double gravity = 0.0;  // largest error, N m
+  double mass = 0.0;     // largest error of the matrix, relative
 };
 Apart apart(const Arm& arm, const PerJoint& q, double payload, const Vec3& gravity, const Mat3& mass) {
   const PerJoint ours = arm.gravity(q, payload, Payload::exact);
@@ -181,7 +181,7 @@ Apart compare(const Arm& arm, Twin& twin, const PerJoint& q, double payload) {
   return apart(arm, q, payload, vector(twin.body.load(d)), twin.body.mass(m, d));
 }
 
-// Worst over poses.
+// Computes the worst errors over poses.
 template <class Bodies>
 Apart worst_over_poses(const Arm& arm, Bodies bodies, int poses, double payload, Draw& draw) {
   Apart worst;
@@ -212,7 +212,7 @@ TEST(ArmMujoco, GravityAndMassOfThePhantom) {
   EXPECT_LT(worst.mass, 1e-9);
 }
 
-// Masses, each with its inertia, and the forearm's length off by up to 20 %.
+// Changes masses, each with its inertia, and the forearm's length by up to 20 %.
 ArmMachine off_by_twenty_percent(Draw& draw) {
   ArmMachine machine;
   PhantomGeometry& g = machine.phantom;
@@ -255,7 +255,7 @@ TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
   }
 }
 
-// A crank's motor on the axis, and on the forearm's side of it: the forearm has to weigh more, not less.
+// With a crank's motor on the axis, or on the forearm's side of it, the forearm has to weigh more, not less.
 TEST(ArmMujoco, TheTwinOfAHeavyForearm) {
   Draw draw;
   for (const double l6 : {0.0, -0.035}) {
@@ -285,8 +285,8 @@ TEST(ArmMujoco, GravityAndMassOfChains) {
   }
 }
 
-// ---- The twin's arm moves as its bodies do: bent by its motion, driven, stopped, and still where friction
-// holds it.
+// ---- The twin's arm moves as its bodies do: under inertial forces, driven, stopped, and still within
+// friction.
 
 using Twin = ArmTwin;
 
@@ -303,13 +303,13 @@ struct Pair {
     truth.friction = truth.viscous = {};
     return truth;
   }
-  // A pose that touches no limit.
+  // Draws a pose that touches no limit.
   static PerJoint inside(Draw& draw) {
     PerJoint q = draw.pose(Arm(ArmMachine{}));
     for (double& angle : q) angle *= 0.5;
     return q;
   }
-  // Puts the bodies where the twin is, as fast.
+  // Sets the bodies to the twin's pose and velocity.
   void follow() {
     const PerJoint q = own.body.joints(own.physics.data()), v = own.body.rates(own.physics.data());
     mjData* d = bodies.physics.data();
@@ -323,7 +323,7 @@ struct Pair {
   }
 };
 
-// Also what turning joints do to each other.
+// Includes the forces between turning joints.
 TEST(ArmMujoco, TheTwinIsBentByItsMotionAsTheBodiesAre) {
   Draw draw;
   Pair pair;
@@ -339,7 +339,7 @@ TEST(ArmMujoco, TheTwinIsBentByItsMotionAsTheBodiesAre) {
   }
 }
 
-// Torques of the motors accelerate the joints as the mass matrix says.
+// Torques of the motors accelerate the joints as the mass matrix predicts.
 TEST(ArmMujoco, TheTwinIsDrivenByItsMotors) {
   Draw draw;
   Pair pair;
@@ -357,8 +357,8 @@ TEST(ArmMujoco, TheTwinIsDrivenByItsMotors) {
   }
 }
 
-// Each motor, either way, from home, without weight: it comes to a limit, its own or the fold's, and stays
-// there.
+// Each motor turns either way from home without weight until it meets a limit, its own or the fold's, and
+// stays there.
 TEST(ArmMujoco, TheTwinStopsAtItsLimits) {
   const Arm arm{ArmMachine{}};
   const ArmMachine& machine = arm.machine();
@@ -388,7 +388,7 @@ TEST(ArmMujoco, TheTwinStopsAtItsLimits) {
   }
 }
 
-// Swings that meet no limit.
+// Oscillations that meet no limit.
 TEST(ArmMujoco, TheTwinKeepsTheEnergyOfTheBodies) {
   Draw draw;
   for (int k = 0; k < 20; ++k) {
@@ -417,7 +417,7 @@ TEST(ArmMujoco, TheTwinDoesNotCreep) {
     own.body.drive(d, push);
     for (int i = 0; i < 1'000; ++i) ASSERT_TRUE(own.physics.step());
     EXPECT_LT((arm.tip(own.body.joints(d)) - arm.tip(start)).norm(), 1e-6) << k;
-    for (std::size_t i = 0; i < 3; ++i) push[i] *= 4.0;  // twice the friction: it does go
+    for (std::size_t i = 0; i < 3; ++i) push[i] *= 4.0;  // twice the friction: it moves
     own.body.drive(d, push);
     for (int i = 0; i < 100; ++i) ASSERT_TRUE(own.physics.step());
     EXPECT_GT((arm.tip(own.body.joints(d)) - arm.tip(start)).norm(), 1e-3) << k;

@@ -11,7 +11,7 @@ namespace {
 
 Vec3 vec(const PerJoint& q) { return {q[0], q[1], q[2]}; }
 
-// PHANToMs whose lengths, masses and inertias are off by up to 20 %, poses within their limits.
+// Draws PHANToMs with lengths, masses and inertias off by up to 20 %, and poses within their limits.
 struct Draw {
   std::mt19937_64 random{1};
   double uniform(double low, double high) {
@@ -77,7 +77,7 @@ TEST(ArmProperty, AChainFindsItsWayBack) {
     PerJoint q{};
     if (!arm.inverse(p, q)) continue;
     ASSERT_TRUE(arm.within_limits(q)) << i;
-    // With fewer than three joints it may be stuck where it is only nearer than round about.
+    // With fewer than three joints the search may end in a local minimum.
     const double apart = (arm.tip(q) - p).norm();
     if (arm.joints() == kMostJoints) {
       ASSERT_LT(apart, 1e-9) << i;
@@ -105,7 +105,7 @@ TEST(ArmProperty, TheJacobianIsTheSlopeOfTheTip) {
   }
 }
 
-// Eq. 4 as printed: the body Jacobian is J in the axes of the end-effector, and R^T F the force there.
+// Eq. 4 as printed: the body Jacobian is J in the axes of the end-effector, and R^T F the force in them.
 TEST(ArmProperty, TheBodyFormOfEquation4IsTheSame) {
   Draw draw;
   for (int i = 0; i < 10'000; ++i) {
@@ -124,7 +124,7 @@ TEST(ArmProperty, TheBodyFormOfEquation4IsTheSame) {
   }
 }
 
-// Where the damping begins the inverse has no step, and with it there is a bound.
+// The inverse has no step where the damping begins, and the damping bounds it.
 TEST(ArmProperty, TheDampedInverseIsBoundedAndContinuous) {
   Draw draw;
   const Arm arm{ArmMachine{}};
@@ -143,7 +143,7 @@ TEST(ArmProperty, TheDampedInverseIsBoundedAndContinuous) {
   EXPECT_LT(jump, 0.01);
 }
 
-// Potential energy of the five bodies and the prop, from where they are.
+// Potential energy of the five bodies and the prop, from their places.
 double potential(const PhantomGeometry& g, const PerJoint& q, double payload) {
   const double up = std::sin(q[1]), down = -std::cos(q[2]);  // heights along upper arm and forearm
   return kStandardGravity *
@@ -170,17 +170,17 @@ TEST(ArmProperty, GravityIsTheSlopeOfThePotentialEnergy) {
   }
 }
 
-// A body that moves: its kinetic energy from its mass, velocity, inertia about its centre of mass and spin.
+// Kinetic energy of a moving body from its mass, velocity, inertia about its centre of mass and spin.
 double energy(double mass, const Vec3& velocity, const Vec3& inertia, const Mat3& axes, const Vec3& spin) {
   const Vec3 own = axes.transpose() * spin;
   return 0.5 * mass * velocity.squaredNorm() + 0.5 * own.dot(inertia.cwiseProduct(own));
 }
 
-// That of the whole PHANToM, body by body, with velocities handed on from joint to joint.
+// Kinetic energy of the whole PHANToM, body by body; each joint passes on its velocity.
 double kinetic(const Arm& arm, const PerJoint& q, const Vec3& rate, double payload) {
   const PhantomGeometry& g = arm.machine().phantom;
   const Mat3 turret = Eigen::AngleAxisd(q[0], Vec3::UnitZ()).toRotationMatrix();
-  const Vec3 axis = -turret.col(1);  // of q2 and q3: both lift what points forwards
+  const Vec3 axis = -turret.col(1);  // axis of q2 and q3: both lift bodies that point forwards
   const Vec3 upper = Eigen::AngleAxisd(q[1], axis) * turret.col(0);
   const Vec3 fore = Eigen::AngleAxisd(q[2], axis) * -Vec3::UnitZ();
   const Vec3 spin = rate[0] * Vec3::UnitZ();
@@ -188,7 +188,7 @@ double kinetic(const Arm& arm, const PerJoint& q, const Vec3& rate, double paylo
   // x along the joints' axis; z along be and c, y along a and df.
   const auto axes = [&](const Vec3& y, const Vec3& z) { return (Mat3() << axis, y, z).finished(); };
   const Mat3 along2 = axes(upper.cross(axis), upper), along3 = axes(fore, axis.cross(fore));
-  // What is published about the origin of R, moved to the centre of mass, l along the body.
+  // Moves an inertia published about the origin of R to the centre of mass, l along the body.
   const auto centred = [](Vec3 inertia, double mass, double l, int body_axis) {
     for (int k = 0; k < 3; ++k)
       if (k != body_axis) inertia[k] -= mass * l * l;
@@ -224,7 +224,7 @@ TEST(ArmProperty, TheMassMatrixIsTheKineticEnergyOfTheBodies) {
   }
 }
 
-// The chain as a row of transforms: nothing in common with the code but the meaning of ChainLink.
+// Computes the chain from a row of transforms. It shares only the meaning of ChainLink with the code.
 Eigen::Isometry3d link_pose(const ArmMachine& m, const PerJoint& q, std::size_t last) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i <= last; ++i) {
@@ -240,7 +240,7 @@ Eigen::Isometry3d link_pose(const ArmMachine& m, const PerJoint& q, std::size_t 
 struct Energies {
   double potential = 0.0, kinetic = 0.0;
 };
-// Of the chain that moves at `rate`, by differences of its transforms.
+// Energies of the chain that moves at `rate`, by differences of its transforms.
 Energies energies(const Arm& arm, const PerJoint& q, const Vec3& rate, double payload) {
   constexpr double kStep = 1e-5;
   const ArmMachine& m = arm.machine();

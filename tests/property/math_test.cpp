@@ -1,6 +1,6 @@
-// The elementary functions of core/math against MPFR, in units of the last place: over seeded points of each
-// range, at all that is special, and at the doubles next to multiples of pi/2. README.md there has the same
-// bounds.
+// The elementary functions of core/math against MPFR, in units of the last place: at seeded points of each
+// range, at all special values, and at the doubles next to multiples of pi/2. README.md in that folder states
+// the bounds.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -33,7 +33,7 @@ using Two = double (*)(double, double);
 using TrueOne = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 using TrueTwo = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t);
 
-// A function of one argument, or of two; the most that it may err, and where it is asked: [from, to], and all
+// A function of one or two arguments; its largest allowed error, and its test range [from, to] beside all
 // doubles.
 struct Function {
   std::string name;
@@ -94,7 +94,7 @@ double error_of(double got, const Number& truth) {
   if (std::isnan(got) || std::isnan(nearest)) return std::isnan(got) == std::isnan(nearest) ? 0.0 : kInf;
   if (std::signbit(got) != std::signbit(nearest)) return kInf;
   if (std::isinf(got) || std::isinf(nearest)) {
-    // Where the truth is beyond the largest double by a little, that may be the answer.
+    // If the truth is slightly beyond the largest double, that double may be the answer.
     if (got == nearest) return 0.0;
     return std::fabs(std::isinf(got) ? nearest : got) == std::numeric_limits<double>::max() ? 0.5 : kInf;
   }
@@ -193,7 +193,7 @@ TEST(Math, SpecialValuesAreThoseOfTheStandard) {
   }
 }
 
-// Where sin, cos or tan nearly vanish, all of x's bits and many of pi's count. The hardest double is
+// If sin, cos or tan nearly vanish, all of x's bits and many of pi's count. The hardest double is
 // 6381956970095103 2^797.
 TEST(Math, AnglesNextToAMultipleOfARightAngle) {
   Points draw;
@@ -230,7 +230,7 @@ TEST(Math, SinCosIsSinAndCos) {
   }
 }
 
-// What is exact in truth is exact.
+// An exact result must be exact.
 TEST(Math, WholePowersAreExact) {
   const auto log2 = functions()[9].one, log10 = functions()[10].one, cbrt = functions()[13].one;
   const auto power = functions()[17].two;
@@ -246,7 +246,7 @@ TEST(Math, WholePowersAreExact) {
   for (int k = -1000; k <= 1000; ++k) EXPECT_EQ(cbrt(static_cast<double>(k) * k * k), k);
 }
 
-// This program calls these, and not the C library's: so do libmujoco and what it loads.
+// This program calls these functions, not the C library's; so do libmujoco and its libraries.
 TEST(Math, TheCLibrarysAreNotInUse) {
   void* const libm = ::dlopen("libm.so.6", RTLD_NOW);
   ASSERT_NE(libm, nullptr);

@@ -1,5 +1,5 @@
 // The nearest point on a mesh against CGAL, and its sign against the winding number: on faces, edges and
-// corners, far away, and where several points are equally near.
+// corners, far away, and at points with several nearest points.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +25,7 @@ namespace enc {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kQueries = 2000;  // sanitizers are slow, and look for other things
+constexpr int kQueries = 2000;  // sanitizers are slow, and check other things
 constexpr double kWindings = 1e6;
 #else
 constexpr int kQueries = 100000;
@@ -63,7 +63,7 @@ class Cgal {
   CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
 };
 
-// How often the surface goes round p: 1 inside, 0 outside [van Oosterom and Strackee 1983].
+// Counts how often the surface goes round p: 1 inside, 0 outside [van Oosterom and Strackee 1983].
 double winding_number(const Mesh& mesh, const Vec3& p) {
   double sum = 0.0;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
@@ -124,7 +124,7 @@ class Queries {
     }
   }
 
-  // Inwards from the surface until another part of it is as near.
+  // Moves inwards from the surface until another part of it is as near.
   Vec3 medial(const Vec3& from) {
     const Vec3 in = -tree_.face_normal(static_cast<std::int32_t>(triangle_));
     double low = 0.0;
@@ -152,7 +152,7 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, in
   const int windings =
       std::min(points, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
   int every = points / windings;
-  while (std::gcd(every, 2) != 1) ++every;  // so that all kinds of points get their turn
+  while (std::gcd(every, 2) != 1) ++every;  // gives every kind of point its turn
   std::int32_t hint = -1;
   double worst = 0.0;
   int apart = 0;
@@ -176,7 +176,7 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, in
                    std::abs(at.normal.norm() - 1.0) < 1e-12
                ? 0
                : 1;
-    // On the surface itself there is no sign, and the winding number is a half.
+    // A point on the surface has no sign; its winding number is a half.
     if (i % every != 0 || std::abs(at.distance) < 1e-10) continue;
     ++signs;
     wrong += (winding_number(mesh, p) > 0.5) == (at.distance < 0.0) ? 0 : 1;
@@ -194,10 +194,10 @@ TEST(MeshProperty, Sphere) { compare("sphere", models::geodesic_ball(3)); }
 TEST(MeshProperty, Cube) { compare("cube", models::cube(2)); }
 TEST(MeshProperty, PartWithSlivers) { compare("turned part", models::turned_part()); }
 TEST(MeshProperty, TorusKnot) { compare("knot", models::knot(400, 24)); }
-// Near the centre of a ball all triangles are as near, and CGAL tries each: 200 such points are enough.
+// Near the centre of a ball all triangles are equally near, and CGAL tries each: 200 such points are enough.
 TEST(MeshProperty, BallOf100000) { compare("ball", models::geodesic_ball(71), 500); }
 
-// Parts put together as a file may hold them: `more` shifted, and inside out where it is a hollow.
+// Joins parts as a file may hold them: `more` is shifted, and inside out for a hollow.
 struct Parts {
   Mesh mesh;
   Parts& add(const Mesh& more, const Vec3& at, bool hollow = false) {
@@ -240,7 +240,8 @@ TEST(MeshProperty, HollowAndNested) {
                Parts().add(out, {0, 0, 0}).add(in, {0, 0, 0}, true).add(ball, {0.003, 0.002, 0}).mesh);
 }
 
-// Where parts touch, the nearest point is on both, and one of the two says out where the other says in.
+// Where parts touch, the nearest point is on both; one part may report outside where the other reports
+// inside.
 TEST(MeshProperty, PartsThatTouchAreRefused) {
   const Mesh cube = models::cube(2, 0.02), ball = models::geodesic_ball(2, 0.01);
   const auto refused = [&](const std::string& name, const Parts& parts) {
@@ -266,7 +267,7 @@ TEST(MeshProperty, PartsThatTouchAreRefused) {
                                   .add(models::cube(3, 0.06), {0, 0, 0})
                                   .add(models::cube(2, 0.04), {0, 0, 0}, true)
                                   .add(cube, {0.01, 0.001, 0.002}));
-  // Turned in space, so that the common plane is only so by rounding.
+  // The turned mesh has its common plane only up to rounding.
   Mesh turned = beside({0.02, 0.003, 0.001}).mesh;
   const Quat q = Quat(0.8, 0.3, -0.4, 0.2).normalized();
   for (auto& v : turned.vertices) {

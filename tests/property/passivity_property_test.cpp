@@ -1,5 +1,5 @@
-// A machine with dead time, lag and limits, pushed at random: the damper and the passivity controller keep it
-// passive.
+// A machine with dead time, lag and limits under random pushes: the damper and the passivity controller keep
+// it passive.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +16,11 @@ namespace {
 
 using test::Loop;
 
-// ---- The core and a machine with dead time, lag and limits, whose tip is pushed along z.
+// ---- The core and a machine with dead time, lag and limits, with pushes on its tip along z.
 
 class PushedMachine {
  public:
-  // A wall that rises to 15 mm above W's origin; a noise of 0.015 N rides on the force.
+  // The wall rises to 15 mm above W's origin; the force has a noise of 0.015 N.
   PushedMachine(Scene scene, std::uint64_t seed)
       : loop_(std::move(scene)), machine_(sim::HexapodTruth{}, seed), random_(seed) {
     loop_.spoil = [this](Inputs& in) {
@@ -31,7 +31,7 @@ class PushedMachine {
   PushedMachine(const PushedMachine&) = delete;
   PushedMachine& operator=(const PushedMachine&) = delete;
 
-  // m, of the tip in the wall, true; and m/s, of it outwards.
+  // Ground truth: the tip's depth in the wall, m, and its velocity outwards, m/s.
   [[nodiscard]] double depth() const {
     return 0.015 - (loop_.scene.X_WR * machine_.true_pose().origin()).xyz[2] - loop_.scene.tip_radius;
   }
@@ -52,8 +52,8 @@ class PushedMachine {
   std::normal_distribution<double> noise_{0.0, 0.015};
 };
 
-// ---- A machine with dead time, lag and limits, pushed by a spring: with the damper no pusher and no
-// softness makes it swing.
+// ---- A spring pushes a machine with dead time, lag and limits: with the damper no pusher and no low
+// stiffness causes a limit cycle.
 
 constexpr double kLimit = 0.028;
 
@@ -76,8 +76,8 @@ Scene wall(double stiffness, Damping damping) {
   return prepare(spec, rig);
 }
 
-// Peak to peak of the tip's depth, m, in each of the last three seconds of 12; a noise of 0.015 N rides on
-// the force.
+// Peak to peak of the tip's depth, m, in each of the last three seconds of 12; the force has a noise of 0.015
+// N.
 std::array<double, 3> pushed(double object, const Pusher& pusher, Damping damping, std::uint64_t seed) {
   PushedMachine machine(wall(object, damping), seed);
   const double deep = std::min(0.015, 30.0 / object);
@@ -111,14 +111,14 @@ TEST(DampingProperty, NoPusherMakesAnyWallSwing) {
   }
 }
 
-// Without it they do, so the test above can fail.
+// The limit cycles exist without the damper, so the test above can fail.
 TEST(DampingProperty, WithoutItASoftWallSwings) {
   const std::array<double, 3> swing = pushed(20.0, {1000.0, 2.2}, Damping::none, 1);
   EXPECT_GT(swing[2], 1e-3);
 }
 
-// ---- The passivity controller of a machine that measures force, with dead time, lag and limits: whatever
-// pushes on whatever is rendered, however soft, gets no more out than it has put in.
+// ---- The passivity controller of a machine that measures force, with dead time, lag and limits. Any pusher
+// on any stiffness, however low, gets at most the energy that it put in.
 
 struct Hand {
   double stiffness, damping;  // N/m, N s/m
@@ -131,16 +131,16 @@ Scene held_wall(double stiffness, const Hand& hand, PassivityForm form) {
   rig.admittance.passivity = form;
   SceneSpec spec = test::plane_scene(test::spring(stiffness, 0.028));
   spec.objects[0].position = Vec3(0, 0, 0.015);
-  spec.follow.inset = 0.05e-3;  // what the tip comes out by at the touch is given by the machine
+  spec.follow.inset = 0.05e-3;  // the machine gives away what the tip comes out by at the touch
   spec.tracker.reset();
   spec.tools.clear();
   return prepare(spec, rig);
 }
 
-// J, by the true way of the tip and the true force, along three pushes of a hand that cannot pull.
+// Energy in J from the tip's true path and the true force, along three pushes of a hand that cannot pull.
 struct Exchanged {
-  double put = 0.0, out = 0.0;  // most that was put in; most that had come out more than was put in
-  int bounces = 0;              // off the hand, while it presses
+  double put = 0.0, out = 0.0;  // largest energy put in; largest surplus that came out
+  int bounces = 0;              // losses of contact while the hand presses
 };
 Exchanged exchanged_when_pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
   PushedMachine machine(held_wall(object, hand, form), seed);
@@ -158,7 +158,7 @@ Exchanged exchanged_when_pushed(double object, const Hand& hand, PassivityForm f
     if (push > 0.0 && now == 0.0 && u == 1.0) ++all.bounces;
     given -= 0.5 * (push + now) * (depth - before);
     before = depth;
-    if (t < 1e-3) given = 0.0;  // a new push
+    if (t < 1e-3) given = 0.0;  // a new push begins
     all.out = std::max(all.out, given);
     all.put = std::max(all.put, -given);
     push = now;
@@ -180,14 +180,14 @@ TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
   }
 }
 
-// Without it they do, so the test above can fail.
+// The surplus exists without the controller, so the test above can fail.
 TEST(SpareProperty, WithoutItASoftWallPaysOut) {
   const Exchanged without = exchanged_when_pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
   EXPECT_GT(without.out, 2e-3);
   EXPECT_GT(without.bounces, 5);
 }
 
-// What is stable gives as much back as it did, to its end.
+// A stable wall returns as much energy as before, to its end.
 TEST(SpareProperty, AWallThatIsStableIsLeftAsItIs) {
   for (const double object : {300.0, 1000.0, 5000.0}) {
     const Exchanged off = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::none, 3),

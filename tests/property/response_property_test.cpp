@@ -32,7 +32,7 @@
 namespace enc::models {
 namespace {
 
-// ---- The ball's response under random motion: no free energy, no jump, one deflection for each force; and
+// ---- The ball's response under random motion: no free energy, no jump, one deflection for each force. Also
 // how well it follows the ball where the direction changes.
 
 constexpr double kDeepest = 6e-3;  // m
@@ -41,7 +41,7 @@ ResponseSpec fitted(const std::string& csv, double ceiling = kUnset) {
   const models::LoopFitOptions limits{kDeepest, models::fit_floor(LoopModel{}), ceiling};
   return models::fit_loop(models::parse_loop(csv, "ball", kDeepest), limits).response;
 }
-// Fitted to the plant alone, and as shipped: fitted to what the simulated rig measures.
+// Fitted to the plant alone, and as shipped: fitted to measurements of the simulated rig.
 const ResponseSpec& of_plant() {
   static const ResponseSpec kSpec = fitted(test::plant_loop_csv({}, 4e-3, kDeepest));
   return kSpec;
@@ -84,8 +84,8 @@ void append(std::vector<double>& path, double from, double to, double step) {
     path.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
 }
 
-// Starts and ends at `base`; 2 to 12 turns anywhere. Some turns come close together, where loops are least
-// complete.
+// A closed path from `base` to `base` with 2 to 12 turns anywhere. Some turns come close together, where
+// loops are least complete.
 std::vector<double> closed_path(std::mt19937_64& random, double base, double slowest, double fastest) {
   std::vector<double> path;
   double at = base;
@@ -115,8 +115,9 @@ double work(const Response& r, ResponseState& s, const std::vector<double>& path
   return sum;
 }
 
-// Speeds of a hand, 2 to 20 mm/s at 1 kHz. Every other path starts from rest at zero and counts from its
-// first cycle; the others start anywhere inside and count in their third, when the state has closed too.
+// The hand moves with 2 to 20 mm/s at 1 kHz. Every other path starts from rest at zero and counts from its
+// first cycle. The others start anywhere inside and count in their third cycle, when the state has closed
+// too.
 TEST_P(ResponseProperty, NoClosedPathYieldsEnergy) {
   const Response r = ball();
   std::mt19937_64 random(1);
@@ -139,8 +140,8 @@ TEST_P(ResponseProperty, NoClosedPathYieldsEnergy) {
   RecordProperty("least_absorbed_nJ", std::to_string(least * 1e9));
 }
 
-// Storage as core/shape/response/response.h states it, J. Its integrals of polynomials are done by Simpson's
-// rule, fine enough.
+// Stored energy by the definition in core/shape/response/response.h, J. Simpson's rule integrates the
+// polynomials finely enough.
 template <class F>
 double integral(const F& f, double from, double to, int steps = 40) {
   double sum = f(from) + f(to);
@@ -174,7 +175,7 @@ double storage(const Response& r, const ResponseSpec& spec, Reversal reversal, c
   return sum;
 }
 
-// Step by step, work done >= S gained; where the object recovers, S falls, so it is no less there.
+// In each step work done >= S gained; where the object recovers, S falls, so the work is no less there.
 TEST_P(ResponseProperty, StorageBalanceHoldsInEveryStep) {
   const Response r = ball();
   std::mt19937_64 random(2);
@@ -190,7 +191,7 @@ TEST_P(ResponseProperty, StorageBalanceHoldsInEveryStep) {
       const double from_force = r.force(same, s.deflection);
       const double done = 0.5 * (from_force + r.force(s, to)) * (to - before.deflection);
       if (s.deflection == 0.0 && reversal() == Reversal::energy_stop)
-        continue;  // L alpha^2 / 2 is given, not gained
+        continue;  // L alpha^2 / 2 is supplied, not gained
       worst = std::min(worst,
                        done - (storage(r, spec(), reversal(), s) - storage(r, spec(), reversal(), before)));
     }
@@ -223,7 +224,7 @@ TEST_P(ResponseProperty, ReversalsDoNotJump) {
   RecordProperty("largest_step_mN", std::to_string(largest * 1e3));
 }
 
-// Wherever a few turns lead.
+// A state after a few random turns.
 ResponseState somewhere(const Response& r, std::mt19937_64& random) {
   ResponseState s;
   for (int i = 0; i < 4; ++i) r.force(s, uniform(random, 0.0, kDeepest));
@@ -238,7 +239,7 @@ TEST_P(ResponseProperty, InverseFindsEveryForce) {
     const ResponseState from = somewhere(r, random);
     ResponseState at_limit = from;
     const double most = r.force(at_limit, kDeepest);
-    // A third of the forces are tiny: there the curves are softest.
+    // A third of the forces are tiny: there the curves have their lowest stiffness.
     const double wanted =
         n % 3 == 0 ? std::pow(10.0, uniform(random, -9.0, 0.0)) : uniform(random, 0.0, most);
     ResponseState s = from;
@@ -267,8 +268,8 @@ TEST_P(ResponseProperty, DeflectionRisesWithForce) {
   }
 }
 
-// Greatest force less the smallest while a hand at rest trembles by +-30 um (sources/ball 6), N: the largest
-// of all depths, reached by pressing or by releasing from the limit.
+// Range of the force, N, while a hand at rest trembles by +-30 um (sources/ball 6): the largest over all
+// depths, reached by pressing or by releasing from the limit.
 double tremor(const Response& r) {
   std::mt19937_64 random(5);
   double most = 0.0;
@@ -289,13 +290,13 @@ double tremor(const Response& r) {
   return most;
 }
 
-// The stops follow the ball closer where motion turns, and that is stiffer: 0.25 N.
+// The stops follow the ball closer at reversals, which is stiffer: 0.25 N.
 TEST_P(ResponseProperty, NoiseAtRestStaysSmall) {
   EXPECT_LE(tremor(ball()), reversal() == Reversal::energy_stop ? 0.2 : 0.25);
 }
 
-// The largest RMS difference to the ball on three loops that turn half-way, at 4 mm/s, N. A response was
-// fitted to full loops alone.
+// The largest RMS difference to the ball on three loops that turn half-way, at 4 mm/s, N. The response was
+// fitted to full loops only.
 double minor_loop_error(const Response& r) {
   double worst = 0.0;
   for (const std::vector<double>& turns :
@@ -325,8 +326,8 @@ TEST_P(ResponseProperty, StopsFollowTheBallOnMinorLoops) {
     EXPECT_GT(error, 0.08) << "the stops are not needed";
 }
 
-// A passive force turns fastest at once, so stops that are quiet for a tremor turn late: 0.2 N for 60 um
-// costs more than 0.08 N on the minor loops (docs/reference/model.md).
+// A passive force turns fastest immediately, so stops that stay quiet under a tremor turn late. 0.2 N for 60
+// um costs more than 0.08 N on the minor loops (docs/reference/model.md).
 TEST(QuietStops, KeepATremorSmallAndMissTheMinorLoops) {
   const models::Setup rig = models::load(tests::source_dir() + "/models/scenes/rig_A.toml", "sim");
   const Response quiet(fitted(trial::table_of_run(rig, 1), 0.2 / 60e-6), models::fit_floor(LoopModel{}),
@@ -335,8 +336,8 @@ TEST(QuietStops, KeepATremorSmallAndMissTheMinorLoops) {
   EXPECT_GT(minor_loop_error(quiet), 0.08);
 }
 
-// ---- Whatever is mixed of the tennis ball's three responses can be rendered: monotone, passive, not softer
-// than its parts.
+// ---- Every mixture of the tennis ball's three responses can be rendered: monotone, passive, no softer than
+// its parts.
 
 const std::string kModels = tests::source_dir() + "/models";
 constexpr double kLimit = 6e-3;
@@ -407,7 +408,7 @@ TEST_F(DirectionsProperty, NoClosedPathYieldsEnergy) {
   }
 }
 
-// Near directions have near weights: a user who wanders a little feels no step.
+// Similar directions have similar weights: a user who wanders a little feels no step.
 TEST_F(DirectionsProperty, WeightsFollowTheDirectionContinuously) {
   for (int n = 0; n < 200; ++n) {
     const PressWay way = any_way();
@@ -417,8 +418,8 @@ TEST_F(DirectionsProperty, WeightsFollowTheDirectionContinuously) {
   }
 }
 
-// ---- `encounter fit --ball` finds the ball of a rig and knows how well: balls whose numbers the fit does
-// not know are pressed in the test rig, through sensor, servo and haptic loop.
+// ---- `encounter fit --ball` identifies the ball of a rig with valid intervals. The test rig presses balls
+// with numbers unknown to the fit, through sensor, servo and haptic loop.
 
 // Modulus within 15 %, the others within 30 % of the nominal ball.
 std::vector<std::string> drawn_ball(std::uint64_t seed) {
@@ -433,7 +434,7 @@ std::vector<std::string> drawn_ball(std::uint64_t seed) {
   return settings;
 }
 
-// What the rig reads while the probe presses.
+// The rig's readings while the probe presses.
 trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
   trial::Pushes pushes;
   trial::TrialOptions options;
@@ -449,8 +450,8 @@ trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
   return pushes;
 }
 
-// Of each number, over balls: how often the interval holds the injected value, and the interval's full width
-// over the value (of kNearer over 0.1 mm).
+// Per number, over balls: how often the interval holds the injected value, and the interval's full width over
+// the value (for kNearer over 0.1 mm).
 struct Found {
   std::array<int, trial::kNearer + 1> inside{};
   std::array<std::vector<double>, trial::kNearer + 1> widths;
@@ -474,7 +475,7 @@ void identify(std::uint64_t seed, std::vector<std::string> more, bool nearer_fre
     found.widths.at(e.number).push_back(e.width());
   }
 }
-int inside(const Found& found) {  // of the numbers of the ball's law
+int inside(const Found& found) {  // counts the numbers of the ball's law
   int sum = 0;
   for (std::size_t i = 0; i < trial::kNearer; ++i) sum += found.inside.at(i);
   return sum;
@@ -502,8 +503,8 @@ TEST(IdentificationLong, IntervalsHoldEachNumberOfAHundredBalls) {
   expect_narrow(found);
 }
 
-// A ball that stands 0.1 mm nearer along the push is found with the rest. Taken to be in place, other numbers
-// answer for it, and their intervals, which know of noise only, do not hold.
+// The fit also finds a ball that stands 0.1 mm nearer along the push. If it assumes the nominal place, other
+// numbers absorb the error. Their intervals, which cover noise only, then fail.
 TEST(Identification, FindsWhereTheBallStands) {
   const std::string nearer = "truth.ball.misplaced_mm=[0,0,-0.1]";
   Found free, held;
@@ -515,7 +516,7 @@ TEST(Identification, FindsWhereTheBallStands) {
   EXPECT_LE(inside(held), 8);
 }
 
-// ---- Drawn balls under the sensor's noise: their numbers are inside of the intervals as often as these say.
+// ---- Random balls under the sensor's noise: their numbers lie inside the intervals as often as these state.
 
 TEST(BallFitProperty, IntervalsHoldWhatWasInjected) {
   constexpr int kTrials = 20;
@@ -533,7 +534,7 @@ TEST(BallFitProperty, IntervalsHoldWhatWasInjected) {
       if (e.number == trial::kRubberModulus) widest = std::max(widest, e.width());
     }
   }
-  // Of 180, 171 are expected; the errors of one ball's numbers go together, so half as many count: 5 and 4
+  // The test expects 171 of 180. Errors of one ball's numbers are correlated, so half as many count: 5 and 4
   // more or less.
   EXPECT_GE(inside, 160);
   EXPECT_LE(widest, 0.05);

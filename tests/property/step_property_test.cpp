@@ -1,5 +1,5 @@
-// Whatever comes into step(), what goes out is within the limits; the hexapod's limits; and surfaces seen
-// from any pose.
+// For any input of step(), its output is within the limits; the hexapod's limits; and drawn surfaces from any
+// pose.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -18,7 +18,7 @@
 #include "tests/support/scenes.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ENC_SANITIZED 1  // their runtime calls the system by itself
+#define ENC_SANITIZED 1  // their runtime makes system calls
 #else
 #define ENC_SANITIZED 0
 #endif
@@ -28,11 +28,11 @@ namespace {
 
 using test::Loop;
 
-// ---- Whatever comes in, what goes out is within the limits. Seeded random inputs, and a child process that
-// may not call the system.
+// ---- For any input the output is within the limits. Seeded random inputs, and a child process that may make
+// no system call.
 
 // The tool wanders over the objects and leaps now and then; forces come and go; one input in `spoil_every` is
-// spoilt.
+// invalid.
 struct Wander {
   std::mt19937_64 random;
   Vec3 at{0, 0, 0.05}, aim{0, 0, 0.05};
@@ -80,10 +80,10 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
     ASSERT_LE(loop.worst_acceleration, 1.0 + 1e-9) << "tick " << i;
     ASSERT_LE(loop.worst_outside, 50e-6) << "tick " << i;
   }
-  EXPECT_GT(loop.worst_speed, 0.9);  // it did go to its limits
+  EXPECT_GT(loop.worst_speed, 0.9);  // it reached its limits
   EXPECT_GT(loop.worst_acceleration, 0.9);
   EXPECT_GT(loop.worst_outside, -1e-3);
-  // Faults may keep a mode for long; without them all but those of the two programmes occur.
+  // Faults may prolong a mode; without them all modes but those of the two programmes occur.
   for (int mode = 0; mode < kModes && spoil_every == 0; ++mode) {
     if (static_cast<Mode>(mode) == Mode::probe || static_cast<Mode>(mode) == Mode::travel) continue;
     EXPECT_GT(modes[static_cast<std::size_t>(mode)], 0) << mode_name(static_cast<Mode>(mode));
@@ -95,7 +95,7 @@ TEST(StepProperty, CommandsStayWithinTheLimitsForRareFaults) { run_wild(2, 50, 1
 TEST(StepProperty, CommandsStayWithinTheLimitsForManyFaults) { run_wild(3, 3, 100'000); }
 
 TEST(StepProperty, TheTipNeverLeavesTheObjectHoweverTheToolMoves) {
-  // One ball, no force: the tip follows a tool that leaps about at random, also across the ball.
+  // One ball, no force: the tip follows a tool that leaps at random, also across the ball.
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -109,7 +109,7 @@ TEST(StepProperty, TheTipNeverLeavesTheObjectHoweverTheToolMoves) {
     ASSERT_LT(loop.worst_outside, 0.0) << "tick " << i;
     ASSERT_NE(loop.out.mode, Mode::hold) << why_text(loop.out.why);
   }
-  EXPECT_GT(loop.worst_outside, -0.5e-3);  // as near to the surface as it waits: the inset
+  EXPECT_GT(loop.worst_outside, -0.5e-3);  // as near to the surface as the waiting tip: the inset
   EXPECT_GT(loop.worst_speed, 0.99);
 }
 
@@ -163,7 +163,7 @@ TEST(StepProperty, MakesNoSystemCall) {
   });
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  // And the trap traps.
+  // The trap works.
   const int trapped = in_strict_child([] { return getppid() > 0; });
   EXPECT_TRUE(WIFSIGNALED(trapped) && WTERMSIG(trapped) == SIGKILL);
 }
@@ -171,7 +171,7 @@ TEST(StepProperty, MakesNoSystemCall) {
 
 // ---- The hexapod.
 
-// Reachable poses, drawn over the catalogue's travels about the pivot and kept where the machine reaches.
+// Reachable poses, drawn over the catalogue's travels about the pivot and kept if the machine reaches them.
 struct RandomPose {
   const Hexapod& machine;
   std::mt19937_64 random;
@@ -228,8 +228,8 @@ TEST(HexapodProperty, AtMostFourNewtonStepsFromATenthOfAMillimetre) {
 }
 
 TEST(HexapodProperty, WorkspaceWithoutTurnsIs160By140By50) {
-  // The extents of all places that are reached without turning the platform, on a grid of 1 mm (x, y) and 0.5
-  // mm (z), each end then found to 1e-6 m.
+  // Computes the extents of all places in reach of the unturned platform. The grid is 1 mm (x, y) and 0.5 mm
+  // (z); a search then finds each end to 1e-6 m.
   const Hexapod machine{HexapodGeometry{}};
   const auto ok = [&](const Vec3& p) {
     return machine.limit({Quat::Identity(), Vec3(machine.zero().p() + p)}) == ReachLimit::none;
@@ -259,12 +259,12 @@ TEST(HexapodProperty, WorkspaceWithoutTurnsIs160By140By50) {
   EXPECT_NEAR(extent.y() / 0.140, 1.0, 0.02) << extent.transpose();
   EXPECT_NEAR(extent.z() / 0.050, 1.0, 0.02) << extent.transpose();
   EXPECT_NEAR(extent.prod() / 1.12e-3, 1.0, 0.02)
-      << extent.transpose();  // the paper's volume is that of the box
+      << extent.transpose();  // the paper's volume is that of its bounding box
 }
 
-// ---- The seen surface for any tip in any pose.
+// ---- The drawn surface for any tip in any pose.
 
-// How far a point is inside a tip, m; negative outside.
+// Depth of a point inside a tip, m; negative outside.
 double inside(const Tip<'O'>& tip, const Vec3& p) {
   const Vec3 from = p - tip.centre.e();
   const Vec3 axis = tip.axis.e();
@@ -316,7 +316,7 @@ void any_pose(const Surface& surface, double zero, std::uint64_t seed) {
     Vec3 n;
     Tip<'O'> tip = pick.tip(zero, n);
     DentSample dent = dent_of(surface, 0, tip);
-    if (dent.depth > 0.010) {  // an edge that leans: lift it
+    if (dent.depth > 0.010) {  // an inclined edge: lift it
       tip.centre = tip.centre + (dent.depth - 0.004) * Vec<'O'>(n);
       dent = dent_of(surface, 0, tip);
     }
@@ -359,7 +359,7 @@ TEST(DentProperty, TheFieldIsContinuousAndTheContactMovesByTheDepth) {
     const DentField<double> field = dent_field(ball, dent);
     const Nearest contact = deepest(ball, tip).at;
     ASSERT_NEAR(displaced(field, contact.point, contact.normal).by, dent.depth, 1e-9);
-    // Away along any great circle: a step of 1 um moves the point by a few at most, the last not at all.
+    // Away along any great circle: a step of 1 um moves the point by a few at most, the last step not at all.
     const Vec3 up = contact.normal.e();
     const Vec3 side = (pick.direction().cross(up)).normalized();
     double before = dent.depth;

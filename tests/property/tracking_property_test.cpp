@@ -1,5 +1,5 @@
-// Tracked motion: predictions of random motions, and tools that are told apart by their markers under a
-// tracker's noise.
+// Tracked motion: predictions of random motions, and tools that the markers distinguish under a tracker's
+// noise.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,8 +18,8 @@
 namespace enc {
 namespace {
 
-// ---- Predictions of random motions through a random tracker: always finite, better than holding where a
-// hand moves as hands do, and never far off.
+// ---- Predictions of random motions through a random tracker: always finite, better than holding for motions
+// of a hand, and never far off.
 
 using Random = std::mt19937_64;
 
@@ -46,7 +46,7 @@ struct Motion {
   }
 };
 
-// By a tracker that knows all ways alike.
+// A tracker with equal noise along all axes observes the tool.
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
              bool calm = false) {
   enc::observe(rig, tool, t, tip, {rig.measurement_noise, rig.measurement_noise}, motion, calm);
@@ -56,7 +56,7 @@ struct Packet {
   Time exposed, due;
   Point<'W'> tip;
 };
-// 120 Hz, 5 to 25 ms late, a tenth lost, in no order, some twice.
+// Packets at 120 Hz, 5 to 25 ms late, a tenth lost, in random order, some twice.
 std::vector<Packet> packets_of(const Motion& motion, Random& random, double noise) {
   std::normal_distribution<> normal(0.0, noise);
   std::vector<Packet> packets;
@@ -106,7 +106,7 @@ TEST(PredictProperty, BetterThanHoldingWhereAHandMovesAsHandsDo) {
   }
 }
 
-// Poses that have nothing to do with each other, at any stamps: the answer stays near to them.
+// Unrelated poses at any stamps: the prediction stays near to them.
 TEST(PredictProperty, NeverFarFromWhatWasSeen) {
   for (const Prediction prediction : {Prediction::constant_velocity, Prediction::constant_acceleration})
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -124,20 +124,19 @@ TEST(PredictProperty, NeverFarFromWhatWasSeen) {
         for (const double later : {0.0, 0.02, 0.1, 1.0}) {
           const Point<'W'> at = predict(rig, state, now + from_seconds(later));
           ASSERT_TRUE(at.finite());
-          // What passes for a motion is bounded by the speed of a leap (predict.cpp), and so is what is made
-          // of it.
+          // The speed limit of a leap bounds motions (predict.cpp), and so their predictions.
           ASSERT_LT((at - tip).norm(), 3.0) << seed << " " << i;
         }
       }
     }
 }
 
-// ---- Tools that scenes name, seen by their markers with a tracker's noise: how often one is taken for
-// another, or its markers for each other [VHMR 3.2].
+// ---- Tools of scenes, measured by their markers with a tracker's noise: how often the core mistakes one
+// tool for another, or markers for each other [VHMR 3.2].
 
 using Markers = std::vector<Vec3>;
 
-// Each geometry of every scene once.
+// Each marker geometry of every scene, once.
 std::vector<Markers> shipped_tools() {
   std::vector<Markers> tools;
   for (const auto& entry : std::filesystem::directory_iterator(tests::source_dir() + "/models/scenes")) {
@@ -151,13 +150,14 @@ std::vector<Markers> shipped_tools() {
 
 struct Confusion {
   std::int64_t looks = 0, turned = 0, none = 0;
-  std::int64_t other = 0;  // taken for another tool
+  std::int64_t other = 0;  // mistaken for another tool
   [[nodiscard]] std::int64_t wrong() const { return turned + none + other; }
 };
 
-// Looks at each tool anywhere, any way up, its markers in any order; `noise` is the rms of an axis, m.
+// Measures each tool at any place, in any orientation, its markers in any order; `noise` is the rms per axis,
+// m.
 Confusion confusion(const std::vector<Markers>& tools, double noise, int looks) {
-  // A pose that is farther off has mistaken markers for each other.
+  // A pose with a larger error has mistaken markers for each other.
   constexpr double kTurned = 10.0 * std::numbers::pi / 180.0;
   std::mt19937_64 random(1);
   std::normal_distribution<double> gauss;
@@ -183,8 +183,8 @@ Confusion confusion(const std::vector<Markers>& tools, double noise, int looks) 
   return sum;
 }
 
-// The closest pair that a scene may name together: triangles of which one side is longer, half at each end,
-// so that the error of this one distance decides.
+// The closest pair that a scene may name together: triangles that differ in one side, half at each end, so
+// that the error of this one distance decides.
 std::vector<Markers> just_apart() {
   const Vec3 a(-0.04, 0, 0), b(0.04, 0, 0), c(0.01, 0.12, 0), half(1e-5, 0, 0);
   std::vector<Markers> tools{{a, b, c}, {a, b, c}};
@@ -202,8 +202,8 @@ TEST(ToolsProperty, NoShippedToolIsMistaken) {
   EXPECT_EQ(confusion(tools, 0.1e-3, 2'000).wrong(), 0);
 }
 
-// A scene may name two tools that are taken for each other once in a million looks (markers.h). Twice the
-// noise makes that once in a hundred, by the tail of the normal distribution; here this is counted.
+// A scene may name two tools that are mistaken for each other once in a million looks (markers.h). Twice the
+// noise makes that once in a hundred, by the tail of the normal distribution; the test counts this.
 TEST(ToolsProperty, TheClosestPairThatASceneMayNameIsToldApart) {
   constexpr int kLooks = 50'000;
   const std::vector<Markers> two = just_apart();

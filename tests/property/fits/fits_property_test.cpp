@@ -1,5 +1,5 @@
-// Fits on drawn data: loops of one law, pivot calibration, and registration of point sets come back with
-// errors inside of their intervals.
+// Fits on drawn data: loops of one law, pivot calibration, and registration of point sets return results with
+// errors inside their intervals.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,8 +28,8 @@ using models::PivotPose;
 using sim::Stream;
 using test::LawLoop;
 
-// ---- `fit` on loops of one law, as rigs record them: at any speeds, holds, rates and zeros the curves are
-// those of the law, and inside of their intervals as often as these say.
+// ---- `fit` on loops of one law, as rigs record them. At any speeds, holds, rates and zeros the curves are
+// those of the law. They lie inside their intervals as often as these state.
 
 constexpr double kLimit = 6e-3, kFloor = 124.95;  // m, N/m
 constexpr double kNear = 0.02;                    // N
@@ -75,7 +75,7 @@ TEST(LoopProperty, NeitherSpeedsNorHoldsMoveTheCurves) {
     }
 }
 
-// How often the law lies inside of the interval, at 1 to 6 mm of either branch.
+// Counts how often the law lies inside the interval, at 1 to 6 mm of either branch.
 struct Inside {
   int draws = 0;
   std::array<std::array<int, 6>, 2> held{};
@@ -111,7 +111,7 @@ TEST(LoopProperty, IntervalsHoldTheLaw) {
   expect_inside({.begin_mm = 2.0, .marks_all = true}, "with contact that begins at 2 mm");
 }
 
-// Before contact the force is not 0, contact does not begin at 0, or both.
+// The force before contact is not 0, contact does not begin at 0, or both.
 TEST(LoopProperty, ZeroAndBeginArePutRight) {
   for (const double zero : {-0.3, 0.0, 0.6})
     for (const double begin : {-0.5, 0.0, 0.1, 2.0})
@@ -154,23 +154,24 @@ TEST(LoopProperty, RatesAndNoiseOnlyWidenTheIntervals) {
   }
 }
 
-// ---- Pivot calibration of drawn poses: the tip is as near as it is told, and inside of its intervals as
-// often as these say.
+// ---- Pivot calibration of drawn poses: the tip is within its stated accuracy, and inside its intervals as
+// often as these state.
 
-constexpr double kSide = 30.0 * M_PI / 180.0;                     // of the swing, to either side
+constexpr double kSide = 30.0 * M_PI / 180.0;                     // swing to either side
 const Vec3 kTip(0.001, -0.002, -0.120), kDimple(0.1, -0.9, 0.6);  // in T and in C, m
 const std::vector<Vec3> kMarkers{{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.017, -0.030, 0.012}};
 
 using Tracker = std::function<Pose<'C', 'T'>(const Pose<'C', 'T'>&)>;
 
-// How a person swings the tool, s. At rest it stands as it does when it begins to turn.
+// Durations of a person's swing of the tool, s. During the rest the tool stands as at the beginning of its
+// turn.
 struct Swing {
   bool one_after_the_other = false;  // about x and then about y, or both at once
   double lasts = 20.0;
-  double rests = 0.0;  // before it, with a tracker of its own
+  double rests = 0.0;  // s of rest before the swing, with a tracker of its own
 };
 
-// At 100 Hz.
+// Poses of the swing at 100 Hz.
 std::vector<PivotPose> swung(const Swing& swing, const Tracker& tracker, const Tracker& at_rest = {}) {
   std::vector<PivotPose> poses;
   const int rest = static_cast<int>(std::lround(100.0 * swing.rests));
@@ -199,7 +200,7 @@ Tracker noisy(Stream& random, const Vec3& place, double turn, const Vec3& bias =
   };
 }
 
-// Noise of four markers, m, to which the pose is fitted.
+// Noise of the four markers, m, from which the pose is fitted.
 Tracker of_markers(Stream& random, double noise) {
   return [&random, noise ](const Pose<'C', 'T'>& X) -> Pose<'C', 'T'> {
     Eigen::Matrix<double, 3, 4> there, seen;
@@ -212,7 +213,7 @@ Tracker of_markers(Stream& random, double noise) {
   };
 }
 
-// Errors that last for some 0.1 s, as those of a tracker that filters, or for longer.
+// Errors that last for some 0.1 s, as from a tracker that filters, or longer.
 Tracker slow(Stream& random, double place, double turn, double lasts = 0.1) {
   std::array<Vec3, 2> off{random.normal3(), random.normal3()};
   return [&random, place, turn, lasts, off ](const Pose<'C', 'T'>& X) mutable -> Pose<'C', 'T'> {
@@ -224,8 +225,8 @@ Tracker slow(Stream& random, double place, double turn, double lasts = 0.1) {
 
 struct Tally {
   int draws = 0;
-  std::array<int, 3> held{0, 0, 0};  // by the intervals
-  int near = 0;                      // within 0.1 mm
+  std::array<int, 3> held{0, 0, 0};  // counts of intervals that hold, per axis
+  int near = 0;                      // count within 0.1 mm
   Vec3 mean = Vec3::Zero();          // error, m
 };
 using Trackers = std::function<Tracker(Stream&)>;
@@ -265,7 +266,7 @@ TEST(PivotProperty, ATrackerThatTurnsALittleTellsTheTip) {
   expect_held(all);
 }
 
-// 0.3 mm of each marker: 0.15 mm of their middle, 0.3 deg of the pose.
+// 0.3 mm for each marker: 0.15 mm for their middle, 0.3 deg for the pose.
 TEST(PivotProperty, RoughMarkersTellTheTipToATenthOfAMillimetre) {
   for (const bool one_after_the_other : {false, true}) {
     const Tally all = tally(
@@ -275,11 +276,11 @@ TEST(PivotProperty, RoughMarkersTellTheTipToATenthOfAMillimetre) {
   }
 }
 
-// Plain least squares put it 0.02 mm too near to the markers, and the intervals beside it.
+// Plain least squares place the tip 0.02 mm too near to the markers, outside their intervals.
 TEST(PivotProperty, NoiseOfTheRotationDrawsNoTipToTheMarkers) {
   const Tally all =
       tally("rough", {true}, [](Stream& r) { return noisy(r, Vec3::Constant(0.15e-3), 0.2 * M_PI / 180.0); });
-  EXPECT_LE(std::abs(all.mean.z()), 0.01e-3);  // of a mean that scatters by 0.0015 mm
+  EXPECT_LE(std::abs(all.mean.z()), 0.01e-3);  // for a mean that scatters by 0.0015 mm
   expect_held(all);
 }
 
@@ -289,7 +290,7 @@ TEST(PivotProperty, NeighbouringErrorsThatAreAlikeMakeTheIntervalsWider) {
         tally("slow", {one_after_the_other}, [](Stream& r) { return slow(r, 0.15e-3, 0.2 * M_PI / 180.0); }));
 }
 
-// Few blocks tell little of how unlike they are.
+// A few blocks carry little information about their scatter.
 TEST(PivotProperty, ShortLogsHaveWiderIntervals) {
   for (const double lasts : {4.0, 5.0, 6.0, 8.0})
     for (const bool one_after_the_other : {false, true}) {
@@ -299,7 +300,7 @@ TEST(PivotProperty, ShortLogsHaveWiderIntervals) {
     }
 }
 
-// What `intervals` of `encounter calibrate tip` promises.
+// The promise of `intervals` of `encounter calibrate tip`.
 TEST(PivotProperty, ErrorsMayLastForAThirdOfASecond) {
   for (const double lasts : {8.0, 20.0})
     for (const bool one_after_the_other : {false, true}) {
@@ -309,7 +310,7 @@ TEST(PivotProperty, ErrorsMayLastForAThirdOfASecond) {
     }
 }
 
-// A tracker is quieter while the tool rests, which is no reason to leave its swing out.
+// A tracker is quieter while the tool rests; the fit must still use the swing.
 TEST(PivotProperty, ARestBeforeTheSwingDoesNoHarm) {
   for (const double rests : {15.0, 12.0})
     for (const bool one_after_the_other : {false, true}) {
@@ -321,8 +322,8 @@ TEST(PivotProperty, ARestBeforeTheSwingDoesNoHarm) {
     }
 }
 
-// ---- Registration on seeded random sets: known transforms come back, the least error is the least, and
-// noise does to other points what theory says it does.
+// ---- Registration on seeded random sets: the fit recovers known transforms and finds the least error. Noise
+// moves other points as theory predicts.
 
 Quat any_rotation(Stream& random) {
   const Vec3 v = random.normal3();
@@ -345,7 +346,7 @@ TEST(RegisterProperty, RecoversKnownTransforms) {
   Stream random(1, "register");
   for (int i = 0; i < 5000; ++i) {
     const Pose<'W', 'C'> truth = any_pose(random);
-    // Round, flat (a plane) and long sets, up to a length of 50 times their width.
+    // The sets are round, flat (a plane) or long, up to a length of 50 times their width.
     const double flat = i % 4 == 0 ? 0.0 : std::exp(-3.9 * random.uniform());
     const double narrow = std::exp(-3.9 * random.uniform());
     const Vec3 size = 0.1 * Vec3(1.0, narrow, flat);
@@ -354,10 +355,10 @@ TEST(RegisterProperty, RecoversKnownTransforms) {
     try {
       found = models::register_points(pairs_of(points, truth));
     } catch (const std::exception&) {
-      continue;  // four random points may lie on a line; how often is counted below
+      continue;  // four random points may lie on a line; counted below
     }
     ASSERT_LT((found.X_WC.p() - truth.p()).norm(), 1e-9) << i;
-    ASSERT_LT(found.X_WC.q().angularDistance(truth.q()), 1e-7) << i;  // acos is blunt near 1
+    ASSERT_LT(found.X_WC.q().angularDistance(truth.q()), 1e-7) << i;  // acos is imprecise near 1
     ASSERT_LT((found.X_WC.q().toRotationMatrix() - truth.q().toRotationMatrix()).norm(), 1e-9) << i;
     ASSERT_LT(found.rms, 1e-12) << i;
     ASSERT_GE(found.condition, 1.0) << i;
@@ -415,13 +416,13 @@ TEST(RegisterProperty, ShiftingAndTurningTheSetsTurnsTheAnswer) {
 }
 
 // Fitzpatrick, West and Maurer 1998, IEEE Trans. Med. Imaging 17: with equal noise along all axes, the mean
-// square error at a target is FLE^2 / N (1 + 1/3 sum over the set's axes of d^2 / f^2): d the target's, f the
-// points' rms distance from that axis. And the mean square left over is (1 - 2/N) FLE^2.
+// square error at a target is FLE^2 / N (1 + 1/3 sum over the set's axes of d^2 / f^2). d is the target's
+// distance from that axis, f the points' rms distance. The mean square residual is (1 - 2/N) FLE^2.
 TEST(RegisterProperty, ErrorsAtTargetsAsTheoryHasThem) {
   Stream random(5, "register");
   constexpr std::size_t kPairs = 8;
   constexpr double kNoise = 0.3e-3;  // m, along each axis
-  // A cross of the axes: its middle and its axes are known.
+  // A cross of the axes has a known middle and known axes.
   const Vec3 half(0.12, 0.06, 0.09);
   std::vector<Vec3> points;
   for (int sign : {-1, 1}) {

@@ -1,5 +1,5 @@
-// A machine that stands in many poses tells what its force sensor carries and where its tracker is: over
-// seeds, with the errors of real devices, each within the interval that is told.
+// Fits from a machine that stands in many poses: the load of its force sensor and the place of its tracker.
+// Over seeds, with the errors of real devices, each number lies within its stated interval.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -29,7 +29,7 @@ Vec3 anywhere(sim::Stream& random, double size) {
   return v;
 }
 
-// Poses of the machine: tilted up to 10 degrees to each side, turned up to 20, all about.
+// Poses of the machine: tilted up to 10 degrees to each side, turned up to 20, spread over the workspace.
 std::vector<Pose<'W', 'H'>> stood(sim::Stream& random, std::size_t count = 24) {
   std::vector<Pose<'W', 'H'>> all;
   for (std::size_t i = 0; i < count; ++i) {
@@ -47,7 +47,7 @@ struct Sensor {
   Vec3 middle{0.004, -0.002, 0.06};
 };
 
-// Every 5 s; `zero` ends where the last stand had it.
+// Stands 5 s apart; `zero` ends at its value in the last stand.
 std::vector<WeightStand> weighed(Sensor& sensor, sim::Stream& random, std::size_t count = 24) {
   std::vector<WeightStand> all;
   for (const Pose<'W', 'H'>& X_WH : stood(random, count)) {
@@ -62,13 +62,13 @@ std::vector<WeightStand> weighed(Sensor& sensor, sim::Stream& random, std::size_
   return all;
 }
 
-// Sensors turned by up to 2 degrees, or mounted any way round.
+// The sensor is turned by up to 2 degrees, or mounted in any orientation.
 struct Mounting {
   const char* name;
   double most;  // rad
 };
 
-// Of all numbers of all cases together 99 % are asked for: what misses twice as often fails.
+// Over all numbers of all cases 99 % must hold: twice as many misses fail.
 struct Pooled {
   double held = 0.0, all = 0.0;
   template <std::size_t n>
@@ -95,7 +95,7 @@ TEST(WeightFit, FindsWeightZeroAndTurnWithinItsIntervals) {
         const std::vector<WeightStand> stands = weighed(sensor, random);
         const models::WeightFit fit = models::fit_weight(stands);
         held[0] += fit.mass.holds(sensor.mass);
-        // About F's axes: R_FH found is exp(turn) of the true one.
+        // About F's axes: the fitted R_FH is exp(turn) times the true one.
         const Vec3 off = models::turn_of(fit.R_HF.conjugate() * sensor.X_HF.q());
         for (Eigen::Index a = 0; a < 3; ++a) {
           held[static_cast<std::size_t>(1 + a)] +=
@@ -145,7 +145,7 @@ TEST(WeightFit, RefusesWhatIsNoWeight) {
   EXPECT_THAT(refused(touched), HasSubstr("5 stands"));
 }
 
-// A sign, a unit or a cable that is wrong: a turn and a zero make up for nearly all of it.
+// A wrong sign, unit or cable: a turn and a zero compensate nearly all of it.
 TEST(WeightFit, RefusesASensorWithAWrongAxis) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed)
     for (const Vec3& wrong : {Vec3(1, 1, -1), Vec3(-1, 1, 1), Vec3(1, -1, 1), Vec3(-1, -1, -1), Vec3(1, 1, 0),
@@ -162,7 +162,7 @@ TEST(WeightFit, RefusesASensorWithAWrongAxis) {
 struct Seen {
   Pose<'W', 'C'> X_WC;
   Pose<'H', 'T'> X_HT{rotation_xyz(kDegree * Vec3(3, -4, 100)), Vec3(0.002, -0.001, 0.12)};
-  double place = 5e-6, turn = 2e-5;  // m, rad rms of a stand's mean
+  double place = 5e-6, turn = 2e-5;  // m, rad: rms of a stand's mean
 };
 
 std::vector<EyeStand> watched(const Seen& seen, sim::Stream& random, std::size_t count = 24) {
@@ -190,7 +190,7 @@ TEST(HandEyeFit, FindsTheTrackerWithinItsIntervals) {
         const Vec3 turned = models::turn_of(seen.X_WC.q() * fit.X_WC.q().conjugate());
         const Vec3 moved = seen.X_WC.p() - fit.X_WC.p();
         const Vec3 tip = seen.X_HT.inverse().p() - fit.tip.value;
-        // Of what is seen at W's origin.
+        // The error of a pose measured at W's origin.
         const Vec3 origin = (fit.X_WC * (seen.X_WC.inverse() * Point<'W'>(0, 0, 0))).e();
         const auto tally = [&](std::size_t first, const Vec3& error, const Vec3& half) {
           for (std::size_t a = 0; a < 3; ++a)
@@ -241,7 +241,7 @@ TEST(HandEyeFit, RefusesTurnsAboutOneAxisAndToolsThatSlip) {
   EXPECT_THAT(refused(slipped), HasSubstr("in 5 stands"));
 }
 
-// Both places make up for it: what is left over is a fifth of a millimetre for each percent.
+// Both places compensate the scale error: the residual is a fifth of a millimetre for each percent.
 TEST(HandEyeFit, RefusesATrackerWhoseLengthsAreNotTheMachines) {
   const Seen seen{{rotation_xyz(kDegree * Vec3(0, 30, 0)), Vec3(0.1, -0.9, 0.6)}};
   const auto scaled = [&](std::uint64_t seed, double scale) -> std::string {

@@ -1,5 +1,5 @@
-// step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s, and
-// what judges each tick.
+// step() with every input that devices can produce: random scenes of both machines, 20 s each, and the checks
+// on each tick.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace enc::test {
 namespace {
 
-// ---- Scenes drawn at random, of both machines, with rigs that go with them.
+// ---- Random scenes of both machines, with rigs that match them.
 
 struct Random {
   std::mt19937_64 engine;
@@ -125,22 +125,22 @@ Drawn draw_scene(std::uint64_t seed, Random& random) {
   return drawn;
 }
 
-// ---- What judges each tick of a fuzz: modes with their causes, commands within their limits. Empty: nothing
-// is wrong.
+// ---- Checks on each tick of a fuzz: modes have their causes, commands keep their limits. Empty: nothing is
+// wrong.
 
-// Ticks for which a mode has gone on without its cause (mode.h), by what the core itself believes.
+// Counts ticks on which a mode outlives its cause (mode.h), by the core's own estimates.
 class Modes {
  public:
-  std::int64_t judged = 0;  // ticks on which a hold would have been one too many
+  std::int64_t judged = 0;  // ticks on which a hold would have been wrong
   std::string judge(const Scene& scene, const State& state, const Outputs& out, bool well);
 
  private:
   double well_ = 0.0, far_ = 0.0, restore_ = 0.0, loose_ = 0.0, in_contact_ = 0.0;
   double alone_ = 0.0,
-         same_force_ = 0.0;  // s for which a force of so many N stayed the same, its tool out of view
+         same_force_ = 0.0;  // s of a constant force of that many N, with its tool out of view
 };
 
-// Commands of a position-controlled machine; targets of an arm.
+// Checks the commands of a position-controlled machine and the targets of an arm.
 class Limits {
  public:
   std::string judge(const Scene& scene, const State& state, const Outputs& out);
@@ -161,8 +161,8 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const double dt = scene.dt;
   well_ = well ? well_ + dt : 0.0;
   judged += well_ > 1.5 ? 1 : 0;
-  // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
-  // there, and a tip that is outside and on its way back.
+  // After 1.5 s without a fault nothing holds. Exceptions: a stuck arm while the finger is there, and a tip
+  // that is outside and on its way back.
   if (out.mode == Mode::hold && well_ > 1.5 && !recall<ImpedanceState>(state).aim.stuck &&
       !recall<CommandState>(state).following.lost && (out.why & kOutsideObject) == 0)
     return "hold goes on: " + why_text(out.why);
@@ -192,7 +192,7 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const bool same = std::abs(force - same_force_) <= 0.15 * scene.force.contact;
   if (!same) same_force_ = force;
   alone_ = !own && same ? alone_ + dt : 0.0;
-  // LoopDelay poses do not count, and how late they are is not seen here: half as long again.
+  // LoopDelay poses do not count, and their delay is unknown here: allow half as long again.
   const double longest = elsewhere && force <= 3.0 * scene.force.contact ? 7.5 : 90.0;
   const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
@@ -236,14 +236,14 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
   const Vec3 velocity = recall<ImpedanceState>(state).aim.velocity.e(),
              at = recall<ImpedanceState>(state).aim.target.e();
-  // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
+  // Along the normal of a ball that is hit the finger moves the prop, and the target follows the prop.
   const bool hit = out.mode == Mode::contact && state.object >= 0 &&
                    scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
   const Vec3 normal = hit ? Vec3(contact_of(state).X_WN.q() * Vec3::UnitZ()) : Vec3(Vec3::Zero());
   const auto of_the_arm = [&](const Vec3& v) { return Vec3(v - normal * normal.dot(v)); };
   if (velocity.norm() > rig.speed * (1 + 1e-9)) return fmt::format("target at {} m/s", velocity.norm());
   std::string what;
-  // A hold, or an arm that was not heard of, begins anew where the arm is.
+  // A hold, or an arm without measurements, begins anew at the arm's place.
   if (known_ && !anew(out) && of_the_arm(at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
     what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
   const double change = of_the_arm(velocity - velocity_).norm();
@@ -256,20 +256,18 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   return what;
 }
 
-// ---- step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s.
-// What is judged on each tick: the command is within speed, acceleration and reach; the whole tip it is sent
-// to is inside of the object; no mode outlives its cause (mode.h); and when all is well again, the hold is
-// over.
+// ---- step() with every input that devices can produce: random scenes of both machines, 20 s each. Each tick
+// checks four things. The command is within speed, acceleration and reach. The whole tip at the command is
+// inside the object. No mode outlives its cause (mode.h). The hold ends when all is well again.
 //
-// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED make it longer and other: 600 scenes take some minutes.
+// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED lengthen and vary the test: 600 scenes take some minutes.
 
 struct Tally {
   std::array<std::int64_t, kModes> ticks{};
   std::int64_t inside = 0, well = 0, not_following = 0;
 };
 
-// A hand, its tool, the devices: what they would say of a machine that follows as the rig believes, or at
-// once.
+// A hand, its tool and the devices, which report a machine that follows as the rig assumes, or at once.
 class World {
  public:
   World(const Scene& scene, Random& random) : scene_(scene), random_(random), lags_(random.once_in(2)) {
@@ -279,11 +277,11 @@ class World {
     if (scene.impedance()) {
       joints_ = scene.impedance()->arm.zero();
       at_ = sent_ = scene.impedance()->arm.tip(joints_).e();
-      // Half of the arms are where they shall be; the others stay at home, and half of these need not follow.
+      // Half of the arms are at their targets; the others stay at home, and half of these need not follow.
       stuck_ = !lags_ && random.once_in(2);
       in.withheld = !lags_ && !stuck_;
     }
-    honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
+    honest_ = random.once_in(3);  // the devices report the truth, only the hand touches the tip
     jams_ = !scene.impedance() && random.once_in(4);
     if (!honest_ && random.once_in(3)) zero_jump_ = random.in(0.05, 0.4);
     SpoilOne count{random.engine, -1};
@@ -292,9 +290,9 @@ class World {
     pace_ = random.in(0.0, 1.0);
   }
 
-  // Before step(): what the devices say on this tick. False: something of it is wrong.
+  // Sets the devices' values for this tick before step(). Returns false if a value is wrong.
   bool sense() {
-    if (k_.index % 2000 == 0) {  // another weather every 2 s
+    if (k_.index % 2000 == 0) {  // new faults every 2 s
       constexpr std::array<unsigned, 5> kSpoil{0, 0, 500, 20, 3};
       spoil_every_ = kSpoil[random_.of(kSpoil.size())];
       seen_ = !random_.once_in(4);
@@ -302,11 +300,11 @@ class World {
     }
     if (honest_) spoil_every_ = 0;
     if (zero_.norm() > 0.1) drift_ = -0.5 * zero_;
-    if (zero_jump_ > 0.0 && k_.index >= 2500) {  // after the first tare, and for good
+    if (zero_jump_ > 0.0 && k_.index >= 2500) {  // after the first tare, and permanently
       zero_ = Vec3(0, 0, -zero_jump_);
       drift_ = Vec3(0, 0, 0);
     }
-    // The tool goes out of view, and another one lies there or is taken up.
+    // The tool goes out of view, and another one lies in its place or is taken up.
     if (scene_.tools.size() > 1 && !honest_ && random_.once_in(4000)) {
       other_until_ = k_.index + 500 + static_cast<std::int64_t>(random_.of(12'000));
       other_ = Vec3(random_.in(-0.15, 0.15), random_.in(-0.15, 0.15), random_.in(-0.01, 0.15));
@@ -339,11 +337,11 @@ class World {
     ++k_.index;
     k_.t += k_.dt;
   }
-  // What the core believes against what is so; and a machine that does not follow.
+  // Compares the core's estimates with the truth, and detects a machine that does not follow.
   std::string judge(const State& state, const Outputs& out) {
     if (scene_.has_tracker && clean_ > 0.4 && std::isfinite(out.gap)) {
       const double wrong = (out.view.tip.e() - hand_).norm();
-      // A finger that vision sees with 0.5 mm of noise is believed less well than a tool.
+      // Vision measures a finger with 0.5 mm of noise, so its tolerance is wider than a tool's.
       if (wrong > (scene_.impedance() ? 4e-3 + 0.2 * fastest_ : 1.5e-3 + 0.08 * fastest_))
         return fmt::format("the tool is {:.2f} mm from where it is believed", 1e3 * wrong);
     }
@@ -372,11 +370,11 @@ class World {
   Inputs in;
 
  private:
-  // Glides over the objects, stands, leaps; slowly or as fast as a hand can.
+  // The hand glides over the objects, stands or leaps; slowly or as fast as a hand can.
   void move_hand() {
     if (random_.once_in(pace_ < 0.5 ? 1500 : 300)) {
       aim_ = Vec3(random_.in(-0.07, 0.07), random_.in(-0.07, 0.07), random_.in(-0.03, 0.05));
-      // A hand that is faster has pressed before it is seen to be near.
+      // A faster hand would press before the tracker shows it near.
       speed_ = honest_ ? random_.in(0.005, 0.1) : random_.once_in(4) ? 1.0 : random_.in(0.005, 0.2);
       if (random_.once_in(8)) aim_.z() += 0.15;
     }
@@ -418,7 +416,7 @@ class World {
     const Pose<'R', 'H'> pose(scene_.X_WR.q().conjugate(), at_);
     in.tip = {{pose, Vec<'R'>(velocity_), Vec<'R'>::zero()}, k_.t, Health::ok};
     const Pose<'W', 'H'> X_WH = scene_.X_WR * pose;
-    // The tool presses the tip where they meet, with 2 N/mm; or something else does.
+    // The tool presses the tip with 2 N/mm if they touch; another force may press, too.
     Vec3 force = junk_;
     if (!scene_.tools.empty()) {
       const Vec3 apart = X_WH.p() - hand_;
@@ -493,7 +491,7 @@ std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
 
 class StepFuzz : public testing::TestWithParam<int> {};
 
-// In shards, so that ctest runs them side by side.
+// Shards let ctest run the scenes in parallel.
 TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
   constexpr std::uint64_t kShards = 4;
   const std::uint64_t scenes = number_of("ENCOUNTER_FUZZ_SCENES", 96);
@@ -521,7 +519,7 @@ TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
   const auto ticks = [&](Mode mode) { return tally.ticks[static_cast<std::size_t>(mode)]; };
   for (const Mode mode : {Mode::away, Mode::follow, Mode::contact, Mode::hold})
     EXPECT_GT(ticks(mode), 100) << mode_name(mode);
-  if ((first + shard) % 4 != 3) {  // that one is the arms'
+  if ((first + shard) % 4 != 3) {  // only for machines, not arms
     EXPECT_GT(ticks(Mode::restore), 100);
   }
   if (scenes > 100) {
