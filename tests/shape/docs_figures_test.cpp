@@ -1,5 +1,6 @@
-// The numbers in the docs: each table of figures is written from benchmarks/reference/figures.csv by
-// docs/figures.py, or names the commit that measured it, and no number of it changes alone.
+// The numbers in the docs: docs/figures.py writes each table of figures from
+// benchmarks/reference/figures.csv, or the table names the commit that measured it. No number of a table
+// changes alone.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +24,7 @@ using ::testing::HasSubstr;
 const fs::path kTop = tests::source_dir();
 constexpr const char* kFigures = "benchmarks/reference/figures.csv";
 
-// Of docs/figures.py, of the pages and figures under `root`: exit code 1 where one is wrong.
+// Result of docs/figures.py for the pages and figures under `root`: exit code 1 if one is wrong.
 Result checked(const fs::path& root) {
   return run({"/usr/bin/python3", "-B", (kTop / "docs/figures.py").string(), "--root", root.string()});
 }
@@ -48,7 +49,7 @@ void write(const fs::path& file, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) out << line << "\n";
 }
 
-// Another digit in place of the last one of the line's words, not of its marks.
+// Replaces the last digit of the line's words, not of its marks.
 bool change_a_digit(std::string& line) {
   std::size_t mark = line.size();
   for (std::size_t i = line.size(); i-- > 0;) {
@@ -66,7 +67,7 @@ TEST(DocsFigures, AreThoseOfTheFile) {
   EXPECT_EQ(r.code, 0) << r.out << r.err;
 }
 
-// One number in each table with a digest, all at once: each table is named.
+// Changes one number in each table with a digest at the same time: the check names each table.
 TEST(DocsFigures, ANumberThatIsEditedIsFoundInEachTable) {
   static const std::regex kDigest("<!--table [0-9a-f]{6}-->");
   const test::TemporaryFolder folder;
@@ -133,8 +134,8 @@ TEST_F(DocsPage, ATableOfFiguresHasADigestOfItsOtherNumbers) {
       HasSubstr("README.md:1:1: a number of this table is not what commit 1a2b3c4 measured"));
 }
 
-// The output that the README explains is that of the program. Its first line is the scene's title; times are
-// the machine's, and a line with an ellipsis is shortened.
+// The output in the README is the program's output. Its first line is the scene's title; times depend on the
+// machine, and a line with an ellipsis is shortened.
 TEST(DocsFigures, TheReadmeShowsWhatTheProgramPrints) {
   const std::vector<std::string> page = lines_of(kTop / "README.md");
   auto line = std::find(page.begin(), page.end(), "## Reading the output");
@@ -159,7 +160,7 @@ TEST(DocsFigures, TheReadmeShowsWhatTheProgramPrints) {
   }
 }
 
-// A page names benchmarks that there are: `bench NAME` or `bench NAME.figure`.
+// The benchmarks named on a page exist: `bench NAME` or `bench NAME.figure`.
 TEST(DocsFigures, ABenchmarkThatAPageNamesIsThere) {
   static const std::regex kNamed(R"re((?:^\s*\./|`(?:\./)?)(?:encounter )?bench ([a-z][a-z0-9_-]*))re");
   std::set<std::string> there{"paper-2020", "paper-2003"};  // groups

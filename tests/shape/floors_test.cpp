@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// From the ground up: a floor includes itself and what stands before it.
+// From the bottom up: a floor includes itself and the floors before it.
 constexpr std::array<std::string_view, 9> kFloors{"math",    "base",    "shape",  "machine", "spec",
                                                   "devices", "control", "record", "vision"};
 
@@ -30,7 +30,7 @@ struct Arrow {
 
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().generic_string(); }
 
-// "devices" of "core/devices/rig.h"; of what stands in core itself the file.
+// "devices" for "core/devices/rig.h"; for files in core itself the file.
 std::string floor_of(const std::string& file) {
   const std::string rest = file.substr(file.find('/') + 1);
   return rest.substr(0, rest.find('/'));
@@ -40,7 +40,7 @@ std::size_t height_of(const std::string& file) {
                                   kFloors.begin());
 }
 
-// Every include of one of our files by another.
+// Every include of one of our files in another.
 std::vector<Arrow> arrows() {
   static const std::regex kOurs(R"re(^\s*#\s*include\s*"([^"]+/[^"]+)")re");
   const fs::path top = tests::source_dir();
@@ -59,8 +59,8 @@ std::vector<Arrow> arrows() {
   return all;
 }
 
-// Folders that are in a circle, or between two: what is left when those that include no other, and those that
-// no other includes, are taken away again and again.
+// Folders in a circle, or between two circles: the rest after repeatedly removing folders that include no
+// other, and folders that no other includes.
 std::set<std::string> in_circles(const std::vector<Arrow>& all) {
   std::map<std::string, std::set<std::string>> reads;
   for (const Arrow& arrow : all)

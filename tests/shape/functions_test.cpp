@@ -1,5 +1,5 @@
-// Functions, found in the text by braces and names, without a compiler. A function is read at one sight: at
-// most 40 lines from its opening to its closing brace, its lambdas included. A helper has a name or
+// Functions, found in the text by braces and names, without a compiler. A reader sees a function at one
+// sight: at most 40 lines from its opening to its closing brace, lambdas included. A helper has a name or
 // parameters of its own within its folder.
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- The text of a source file without what is no code, to be read by its braces and names.
+// ---- The text of a source file without its comments and quotes, for a search by braces and names.
 
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -47,7 +47,7 @@ std::size_t behind_quote(std::string_view text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-// Where the comment, directive or quote ends that begins at `at`; `at`: none begins there.
+// The end of the comment, directive or quote that begins at `at`; `at` if no such text begins there.
 std::size_t end_of_words(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const bool in_name = at > 0 && in_word(text[at - 1]);  // 1'000 has no quotes
@@ -64,7 +64,7 @@ std::size_t end_of_words(std::string_view text, std::size_t at) {
   return rest[0] == '"' || (rest[0] == '\'' && !in_name) ? behind_quote(text, at) : at;
 }
 
-// Without comments, directives, and what stands in quotes; its lines stay lines.
+// Removes comments, directives and quoted text; the lines stay lines.
 std::string bare(std::string_view text) {
   std::string code;
   for (std::size_t i = 0; i < text.size();) {
@@ -86,9 +86,9 @@ std::string bare(std::string_view text) {
 constexpr std::size_t kMostLines = 40;
 
 struct Longer {
-  std::string_view function, why;  // "FILE: NAME", or with its parameters where others have that name
+  std::string_view function, why;  // "FILE: NAME", or with its parameters if others have that name
 };
-// These may be longer. Take one off that is no longer; none is added.
+// These functions may be longer. Remove an entry that is no longer too long; add no new one.
 constexpr auto kExceptions = std::to_array<Longer>({
     {"commands.cpp: Commands::all", "the commands of a controller, a table with a line or two for each"},
     {"schema_arm.cpp: describe(Visitor& v, ArmRig& a)", "keys of a file, a table"},
@@ -103,7 +103,7 @@ constexpr auto kExceptions = std::to_array<Longer>({
     {"settings.cpp: GcsSettings::declare", "keys of a driver, a table"},
 });
 
-// Still to be shortened. None is added.
+// Still to be shortened. Add no new one.
 constexpr auto kToShorten = std::to_array<std::string_view>({
     "ablation.cpp: run",
     "block_fit.cpp: BlockFit::solve",
@@ -180,7 +180,7 @@ std::size_t behind_parenthesis(std::string_view text, std::size_t open) {
   return text.size();
 }
 
-// "Arm::mass(int q)" of "PerJoint Arm::mass(int q) const".
+// "Arm::mass(int q)" from "PerJoint Arm::mass(int q) const".
 std::string name_of(const std::string& head) {
   const std::size_t open = head.find('(');
   if (open == std::string::npos) return head;
@@ -195,7 +195,7 @@ bool is_type(std::string_view head) {
                                   head.starts_with("union ") || head.starts_with("enum "));
 }
 
-// Whether a brace behind `head` is that of a member, in a list such as "Run(int a) : a_".
+// Whether a brace behind `head` belongs to a member, in a list such as "Run(int a) : a_".
 bool initialises_member(const std::string& head) {
   const std::size_t open = head.find('(');
   if (open == std::string::npos || (!in_word(head.back()) && head.back() != '>')) return false;
@@ -206,7 +206,7 @@ bool initialises_member(const std::string& head) {
 
 struct Function {
   std::string name;
-  std::size_t line, lines;  // of its opening brace, and up to the closing one
+  std::size_t line, lines;  // line of its opening brace, and number of lines up to the closing one
 };
 
 enum class Scope { names, function, member, other };
@@ -259,7 +259,7 @@ class Reader {
   }
   void close() {
     if (open_.empty()) {
-      parentheses_ = -1;  // there is no beginning of this
+      parentheses_ = -1;  // its beginning is missing
       return;
     }
     const Open last = open_.back();
@@ -281,7 +281,7 @@ Reader read(std::string_view text) {
   return reader;
 }
 
-// Those of product code that are too long, "FILE: NAME", each with its place.
+// Functions of product code that are too long, "FILE: NAME", each with its place.
 struct Found {
   std::string file, name, place;
   std::size_t lines;
@@ -375,11 +375,10 @@ TEST(Functions, ExceptionsAreFewAndStillNeeded) {
     EXPECT_TRUE(is_longer(one)) << one << ": take it off the list";
 }
 
-// ---- Helpers. The files of a folder are compiled as one (enc_batches in cmake/targets.cmake): two helpers
-// of one name and with the same parameters, in anonymous namespaces of two of them, are one too many there,
-// and nowhere else.
+// ---- Helpers. The build compiles the files of a folder as one (enc_batches in cmake/targets.cmake). There,
+// and only there, two helpers in anonymous namespaces of two files collide if they share name and parameters.
 
-// "int" of "int count = 3"; of "const Setup&" all.
+// "int" from "int count = 3"; "const Setup&" stays whole.
 std::string type_of(std::string_view parameter) {
   parameter = trim(parameter.substr(0, parameter.find('=')));
   std::size_t word = parameter.size();
@@ -397,7 +396,7 @@ std::string type_of(std::string_view parameter) {
   return std::string(trim(text));
 }
 
-// Of "(int a, std::map<int, int> b)" from its parenthesis on.
+// The types in "(int a, std::map<int, int> b)" from its parenthesis on.
 std::string types_of(std::string_view list) {
   std::string types;
   int depth = 0;
@@ -414,7 +413,7 @@ std::string types_of(std::string_view list) {
   return types;
 }
 
-// "refused(const Setup&)" of what stands before a brace; none: it is no function of ours.
+// "refused(const Setup&)" from the text before a brace; nullopt if it is no function of ours.
 std::optional<std::string> function_of(std::string_view head) {
   head = trim(head);
   for (const std::string_view other : {"struct ", "class ", "enum ", "union "})
@@ -438,11 +437,11 @@ std::optional<std::string> function_of(std::string_view head) {
   return {};
 }
 
-// Each function that is in an anonymous namespace, behind the named ones around it.
+// Each function in an anonymous namespace, behind the named namespaces around it.
 std::set<std::string> helpers_of(std::string_view text) {
   struct Space {
     bool space;
-    std::string name;  // of a namespace; empty: anonymous
+    std::string name;  // name of a namespace; empty: anonymous
   };
   std::set<std::string> found;
   std::vector<Space> scopes;

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Texts = std::vector<std::string>;
 
-// A free relative or a genitive at a sentence's beginning, "nobody", devices that tell, and the like.
+// Free relatives and genitives at the beginning of a sentence, negative subjects, devices that speak, and
+// similar turns.
 const std::regex& turns() {
   static const std::regex kTurns(
       R"((?:^|[.;:!] )(?:What|Where)\b(?![^.?]*\?)|(?:^|[.;:?!] )Of (?!course)|(?:^|[.;:?!] )Who(?:ever)?\b(?![^.?]*\?)|\b[Nn]obody\b|\b(?:is|are|was) none\b|\bnone of (?:it|the|its)\b|\b[Ll]ikewise\b|\bt(?:ells?|old)\b|\bshall\b)");
@@ -89,7 +90,7 @@ Texts prose_of(const fs::path& file) {
 
 struct Count {
   std::size_t words = 0, turns = 0, texts = 0, openings = 0;
-  std::multimap<std::size_t, std::string, std::greater<>> worst;  // turns and the file
+  std::multimap<std::size_t, std::string, std::greater<>> worst;  // turns and their file
   [[nodiscard]] double turns_per_1000() const {
     return 1e3 * static_cast<double>(turns) / static_cast<double>(std::max<std::size_t>(words, 1));
   }
@@ -150,7 +151,7 @@ TEST(Words, CommentsOfTests) { expect_within(count({"tests"}, kSources, comments
 TEST(Words, Docs) { expect_within(count({"docs"}, {".md"}, prose_of), {2.6, 20.0}); }
 TEST(Words, Tutorials) { expect_within(count({"docs/tutorial"}, {".md"}, prose_of), {1.0, 20.0}); }
 
-// The three minutes of a reader.
+// A reader has three minutes.
 TEST(Words, ReadmeIsShort) {
   const std::string text = test::bytes_of(tests::source_dir() + "/README.md");
   EXPECT_LE(words_in(text), 900U);
