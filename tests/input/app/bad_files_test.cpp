@@ -1,5 +1,5 @@
-// Files and words that are wrong: each ends with exit code 2 (3 for a device) and one line that says where
-// and what was expected.
+// Wrong files and arguments: each ends with exit code 2 (3 for a device) and one line with the place and the
+// expectation.
 #include <algorithm>
 #include <regex>
 #include <string>
@@ -22,12 +22,12 @@ using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
 struct BadFile {
-  const char* name;   // of the test
-  const char* file;   // edited, under models/
-  const char* from;   // this ...
-  const char* to;     // ... becomes this
-  const char* at;     // the place told is where this begins, after the edit
-  const char* words;  // what the line says
+  const char* name;   // name of the test
+  const char* file;   // edited file, under models/
+  const char* from;   // replaces this text ...
+  const char* to;     // ... by this text
+  const char* at;     // the reported place is the beginning of this text, after the edit
+  const char* words;  // words of the line
 };
 void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
 
@@ -126,7 +126,7 @@ TEST_F(Program, EmptyScene) {
 }
 
 // Slope of the press curve d - 0.9 d^2 is 1 - 1.8 d: it falls from 1 / 1.8 = 0.5556 mm to the limit of 6 mm.
-// The curve is searched in steps, hence the 0.01 mm.
+// The program searches the curve in steps, hence the 0.01 mm.
 TEST_F(Program, NonMonotonePolynomialIsRefusedWithItsInterval) {
   const std::string response = "models/responses/tennis_ball.toml";
   write(response,
@@ -140,7 +140,7 @@ TEST_F(Program, NonMonotonePolynomialIsRefusedWithItsInterval) {
   EXPECT_NEAR(std::stod(interval[2]), 6.0, 1e-9);
 }
 
-// The response file is at fault, not the scene that names a behaviour that names it.
+// The line names the response file, not the scene or its behaviour.
 TEST_F(Program, NonMonotonePolynomialIsToldWithThePlaceInTheResponseFile) {
   const std::string response = "models/responses/tennis_ball.toml";
   write(response,
@@ -185,7 +185,7 @@ TEST_F(Program, ModelsComeFromTheEnvironmentToo) {
   EXPECT_THAT(r.err, StartsWith("encounter: " + path("elsewhere/behaviours.toml") + ":"));
 }
 
-// A scene in a shared folder runs with the program's own files, not with those that somebody put there.
+// A scene in a shared folder runs with the program's own files, not with files that somebody put there.
 TEST_F(Program, WhatLiesBesideOrAboveASceneIsNotTaken) {
   fs::create_directories(path("shared/scenes"));
   fs::copy_file(ball(), path("shared/scenes/ball.toml"));
@@ -219,7 +219,7 @@ TEST_F(Program, ARigFileThatASceneNamesIsFoundFromTheScene) {
   EXPECT_EQ(run_program(check).code, 0);
 }
 
-// Else a scene could print the lines of a report.
+// Otherwise a scene could print the lines of a report.
 TEST_F(Program, ATitleOrNameIsPrintableOnOneLine) {
   const std::string text = bytes_of(plane());
   for (const char* letters :
@@ -234,7 +234,7 @@ TEST_F(Program, ATitleOrNameIsPrintableOnOneLine) {
   EXPECT_THAT(refused({"run", plane(), "--set", "scene.tit\033[2Jle=x"}), HasSubstr("\\x1b[2J"));
 }
 
-// A file in a shared folder may be called as somebody likes.
+// In a shared folder anybody may choose the name of a file.
 TEST_F(Program, ANameOfAFileForgesNoLine) {
   const std::string scene = path("a\nstate hash  122d7c00183e94e0.toml");
   fs::copy_file(plane(), scene);
@@ -243,7 +243,8 @@ TEST_F(Program, ANameOfAFileForgesNoLine) {
   EXPECT_THAT(r.out, HasSubstr("a\\nstate hash  122d7c00183e94e0.toml, rig "));
 }
 
-// Of each role that the scene names, in a rig file or by --set; `run` and `check` say it in the same words.
+// A missing driver, for each role that the scene names, in a rig file or by --set. `run` and `check` report
+// it in equal words.
 TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
   for (const char* role : {"manipulator", "force", "tracker", "display"}) {
     const std::string table = std::string("[") + role + "]\ndriver = ";
@@ -271,7 +272,7 @@ TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
       << "the scene has no display";
 }
 
-// Its table is the right one, and where a role names it the name is mistyped: either place is said.
+// The driver's table is right and the role misspells its name: the line gives both places.
 TEST_F(Program, ADriverThatIsMistypedBesideItsTableIsNamedToo) {
   const std::string text =
       replaced(bytes_of(path("models/rigs/fakes.toml")), "driver = \"gcs\"", "driver = \"gsc\"");
@@ -298,7 +299,7 @@ TEST_F(Program, ADriverThatDoesNotFillItsRoleIsNamedWithThoseThatDo) {
                          "'sim', 'igtl'; name"));
 }
 
-// Nobody listens at port 1. Which of three devices is meant, and where the rig file names it.
+// No server listens at port 1. The line names which of three devices fails, and its place in the rig file.
 TEST_F(Program, ADeviceThatDoesNotAnswerIsNamedByItsRoleAndItsPlace) {
   const std::string text = bytes_of(path("models/rigs/fakes.toml"));
   for (const auto& [role, driver, key] :
@@ -314,7 +315,7 @@ TEST_F(Program, ADeviceThatDoesNotAnswerIsNamedByItsRoleAndItsPlace) {
   }
 }
 
-// ---- Words that are wrong, each refused in one line before anything has run; and the help.
+// ---- Wrong arguments: one line refuses each before anything runs; and the help.
 
 TEST_F(Program, SetThatCannotBe) {
   EXPECT_THAT(scene_refused(ball(), {"--set", "object.ball.radus_mm=30"}),
@@ -345,7 +346,7 @@ TEST_F(Program, LengthThatIsNotPositive) {
   EXPECT_THAT(refused({"run", ball(), "--for-s=soon"}), HasSubstr("--for-s"));
 }
 
-// NaN is how "not given" is said inside; given by a person it is bad input all the same.
+// Inside the program NaN means "not given"; from a person it is bad input.
 TEST_F(Program, LengthThatIsNaN) {
   EXPECT_THAT(refused({"run", plane(), "--for-s=nan", "--record", path("never.encrec")}),
               HasSubstr("--for-s: expected a positive number"));
@@ -357,7 +358,7 @@ TEST_F(Program, SeedThatIsNoWholeNumber) {
         << seed;
 }
 
-// Of every command that has one.
+// Every command with a seed refuses it.
 TEST_F(Program, SeedThatIsNegativeOrTooLarge) {
   for (const char* seed : {"-1", "99999999999999999999999"})
     for (const Words& words :

@@ -1,5 +1,5 @@
-// A scene that looks through a camera, as a person runs it: with the twin's, with a folder of images, and
-// what is refused.
+// A scene with a camera as a person runs it: with the twin's camera, with a folder of images, and the
+// refusals.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -82,7 +82,7 @@ TEST_F(Camera, OneThatComesBackWithoutAStallIsNotInTheWorld) {
               HasSubstr("'back_at_s' is 3; expected more than 'stalls_at_s'"));
 }
 
-// Found before anything moves: such a camera would not see what is to be met.
+// Refused before anything moves: such a camera would not see the objects of the scene.
 TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
   const std::string keypad = tests::source_dir() + "/models/scenes/camera/keypad.toml";
   const auto line = [&](const std::string& scene, const std::string& set) {
@@ -106,7 +106,7 @@ TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
 
 TEST_F(Camera, AnObjectOutOfViewAmongOthersIsAWarning) {
   const std::string keypad = tests::source_dir() + "/models/scenes/camera/keypad.toml";
-  const Environment no_leaks{{"ASAN_OPTIONS", "detect_leaks=0"}};  // of the libraries that draw
+  const Environment no_leaks{{"ASAN_OPTIONS", "detect_leaks=0"}};  // leaks in the graphics libraries
   const Result all = run_program({"check", keypad}, no_leaks);
   EXPECT_THAT(all.err, Not(HasSubstr("no finger is seen"))) << all.err;
   const auto warning = [&](const char* height) {
@@ -121,7 +121,7 @@ TEST_F(Camera, AnObjectOutOfViewAmongOthersIsAWarning) {
   EXPECT_THAT(warning("640"), HasSubstr("'key_7' outside of the left image, and 2 more out of view, where"));
 }
 
-// The rig is told 5 mm beside where its camera stands; what says so are the prop's contacts.
+// The rig places its camera 5 mm beside its true place; the contacts of the prop reveal it.
 TEST_F(Camera, ACameraThatHasMovedIsSaid) {
   Words words{"run", kScene};
   for (const char* set : {"user.approach_mm_s=[100, 100]", "user.approach_from_mm=125", "user.depth_mm=6",
@@ -137,7 +137,7 @@ TEST_F(Camera, ACameraThatHasMovedIsSaid) {
                                HasSubstr("encounter calibrate camera")));
 }
 
-// What was recorded replays to the same bits with its images, in both ways.
+// A record replays to the same bits with its images, in both ways.
 TEST_F(Camera, ARunAndItsFramesGiveTheSameBits) {
   const std::string record = path("a.encrec"), frames = path("kept");
   const Result once = run({"--for-s", "2.5", "--record", record, "--frames", frames, "--set",
@@ -166,7 +166,7 @@ TEST_F(Camera, ARunAndItsFramesGiveTheSameBits) {
               HasSubstr("the scene has no [camera]"));
 }
 
-// A camera that plays the frames is that camera.
+// A camera that plays the frames replaces the original camera.
 TEST_F(Camera, PlayedFramesGiveTheStateHashOfTheirRun) {
   const std::string frames = path("kept");
   const Result seen = run({"--for-s", "2.5", "--frames", frames});
@@ -195,7 +195,7 @@ TEST_F(Camera, AFolderThatIsNoSequenceIsOneLine) {
                     HasSubstr("nowhere: is not there; expected a folder of images or a video")));
 }
 
-// A sequence that was recorded gives the same every time, however busy the machine is.
+// A recorded sequence gives equal results every time, however busy the machine is.
 TEST_F(Camera, AFolderRepeatsToTheBit) {
   const std::string folder = path("frames");
   std::filesystem::create_directory(folder);
@@ -221,7 +221,7 @@ TEST_F(Camera, AFolderRepeatsToTheBit) {
   EXPECT_THAT(refused(half), HasSubstr("640 x 480 px and the rig file says 320 x 480 px"));
 }
 
-// check refuses what run would, with the same words.
+// check refuses whatever run would refuse, with the same words.
 TEST_F(Camera, NumbersThatDoNotFitEachOtherAreSaidByCheck) {
   const auto line = [&](const std::string& set) { return refused({"check", kScene, "--set", set}); };
   EXPECT_THAT(line("rig.vision.median_px=4"), HasSubstr("the side of the median filter is even"));
@@ -236,7 +236,7 @@ TEST_F(Camera, NumbersThatDoNotFitEachOtherAreSaidByCheck) {
               HasSubstr("the rig's images are 640 x 480 px and the twin's 320 x 480"));
 }
 
-// A rig whose numbers are in a file: they are its own, nothing beside it is passed over, and it is named.
+// A rig with a calibration file uses all of its numbers, reports any number beside it, and names the file.
 TEST_F(Camera, ACalibrationSaysAllAndIsNamed) {
   write("models/rigs/head.toml",
         "format = 1\ntitle = \"13 pairs\"\nwidth_px = 640\nheight_px = 480\n\n"
@@ -302,7 +302,7 @@ TEST_F(Camera, AWrongKeyOfVisionIsSaidWithItsPlace) {
               HasSubstr("a camera to the right of the left one"));
 }
 
-// The left image, the same without the arm, and with the wall: three pictures of one moment.
+// The left image, the image without the arm, and the image with the wall: three pictures of one moment.
 TEST_F(Camera, TheViewThroughItIsRawWithoutTheArmOrAugmented) {
   std::string before;
   for (const char* what : {"raw", "removed", "augmented"}) {

@@ -1,4 +1,4 @@
-// `encounter check`, limits that it names before a run, and the verdict of a run on itself.
+// `encounter check`, the limits that it names before a run, and the verdict at the end of a run.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -25,14 +25,14 @@ using tests::Result;
 using tests::run_program;
 using tests::shipped_scene;
 
-// ---- `encounter check`: what it says of every shipped scene, and the scene file that it prints.
+// ---- `encounter check`: its output for every shipped scene, and the scene file that it prints.
 
 const std::string kModels = tests::source_dir() + "/models";
 
 Result checked(const std::vector<std::string>& words) {
   std::vector<std::string> command{"check"};
   command.insert(command.end(), words.begin(), words.end());
-  // The libraries that draw keep some bytes at exit, which a leak checker would make ours.
+  // The graphics libraries keep some bytes at exit, which a leak checker would attribute to the program.
   Result r = run_program(command, {{"ASAN_OPTIONS", "detect_leaks=0"}});
   EXPECT_EQ(r.code, 0) << r.err;
   return r;
@@ -42,7 +42,7 @@ std::string said(const std::vector<std::string>& words) {
   return r.out + r.err;
 }
 
-// Of what can be rendered stably it has a table of its own.
+// The stability of renderings has a table of its own.
 TEST(Check, AnswersInAtMost30LinesAndATable) {
   for (const std::string& name : models::files_in(kModels, "scenes")) {
     const std::string answer = said({shipped_scene(name)});
@@ -56,7 +56,7 @@ TEST(Check, AnswersInAtMost30LinesAndATable) {
   }
 }
 
-// What the scene does not have has no edge and no words.
+// A part that the scene lacks has no edge and no words.
 TEST(Check, NamesNoPartThatIsNotThere) {
   for (const std::string& name : models::files_in(kModels, "scenes")) {
     const SceneSpec s = models::load(shipped_scene(name), "").scene;
@@ -73,7 +73,7 @@ TEST(Check, NamesNoPartThatIsNotThere) {
     only_with(!s.objects.empty(), "X_WO");
     only_with(s.arm.has_value(), "law: ");
     only_with(s.manipulator && s.force, "softest spring that stands still");
-    // The last line lists modules by name; one of them is called so.
+    // The last line lists modules by name; one of them has that name.
     EXPECT_THAT(answer.substr(0, answer.find("\n  process")), Not(HasSubstr("window")));
 
     const app::SeenParts seen = app::seen_parts(s);
@@ -84,7 +84,7 @@ TEST(Check, NamesNoPartThatIsNotThere) {
   }
 }
 
-// Many objects share lines; what somebody asks of one, and what is beyond the arm, has its own.
+// Many objects share lines; an object with a requirement or beyond the arm has a line of its own.
 TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
   EXPECT_THAT(
       said({shipped_scene("keypad")}),
@@ -93,7 +93,7 @@ TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
             HasSubstr("the weakest object: up to 7.06 N ('key_5')")));
 }
 
-// Whoever sets a number that nothing reads is told; one that is read says nothing.
+// The command warns about a number that nothing reads, and is silent about the others.
 TEST(Check, SaysWhatNothingReads) {
   const auto warned = [](const std::string& name, const std::string& set) {
     return checked({shipped_scene(name), "--set", set}).err;
@@ -124,7 +124,7 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
     std::ofstream(path) << text;
     EXPECT_EQ(hash_of(path, {}), hash_of(shipped_scene(name), {"--set", "rig.tracker.lost_age_ms=350"}))
         << name;
-    // But for where it comes from, which is its first line.
+    // The scenes agree except for their origin, which is the first line.
     const auto scene_of = [](const std::string& file) { return file.substr(file.find('\n')); };
     EXPECT_THAT(text, testing::StartsWith("# Encounter "));
     EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr("--set 'rig.tracker.lost_age_ms=350'"));
@@ -168,7 +168,7 @@ TEST(Check, AdviceAsksForAnErrorAndAHand) {
               HasSubstr("does not divide the haptic period"));
 }
 
-// What is there at run time is asked of the kernel and of the physics, in a short run.
+// The command obtains the costs at run time from the kernel and the physics, in a short run.
 TEST(CheckCosts, SaysWhatASceneIsMadeOf) {
   const std::string plane = said({shipped_scene("plane")});
   EXPECT_THAT(plane, AllOf(HasSubstr("costs       ready after "), HasSubstr(" x real time"),
@@ -190,8 +190,8 @@ TEST(CheckAdvise, IsNoPartOfTheResolvedScene) {
   EXPECT_THAT(r.err, HasSubstr("--resolved"));
 }
 
-// ---- What is beyond a limit: said before, said afterwards with exit code 1, and refused where a real
-// machine is armed.
+// ---- Numbers beyond a limit: check warns, a run reports them with exit code 1, and an armed machine refuses
+// them.
 
 using Words = std::vector<std::string>;
 
@@ -253,7 +253,7 @@ TEST(Limits, AWallThatNoLawHoldsIsNamed) {
                                HasSubstr("make it softer")));
 }
 
-// What rings by itself needs no contact to be beyond its bound.
+// A tip that rings by itself exceeds its bound without a contact.
 TEST(Limits, AFreeTipThatIsUnstableIsNamedUntouched) {
   const Words late{"rig.arm.loop.delay_ms=20"};
   const Result run = run_program(with({"run", shipped_scene("wall"), "--for-s", "0.1"}, late));
@@ -319,8 +319,8 @@ TEST(Limits, ContactsInWhichNothingIsFeltAreNamed) {
   EXPECT_THAT(met.out, HasSubstr("LIMIT       nothing was touched in 3 of 3 contacts"));
 }
 
-// ---- What a run says of itself: nothing touched, beside the prop, contacts that are none, forces that are
-// not the object's; and that it says nothing where nothing was wrong.
+// ---- The verdict of a run: nothing touched, beside the prop, false contacts, forces that differ from the
+// object's. It is silent if nothing was wrong.
 
 Result run_scene(const std::string& name, const std::string& set, int seed = 1) {
   std::vector<std::string> words{"run", tests::source_dir() + "/models/scenes/" + name + ".toml", "--seed",
@@ -357,7 +357,7 @@ TEST(Verdict, ATouchBesideThePropIsNamed) {
               HasSubstr("2 of 15 touches were beside the prop"));
 }
 
-// A creep, a drift to where the tool is not, and noise are no limit cycles (Limits.ALimitCycleIsNamed is).
+// A creep, a drift to a place without the tool, and noise are no limit cycles (Limits.ALimitCycleIsNamed is).
 TEST(Verdict, WhatIsNoLimitCycleIsNotNamedOne) {
   EXPECT_THAT(run_scene("tennis_ball", "truth.tracker.bias_mm=[0,0,-5]").out, Not(HasSubstr("swung")));
   EXPECT_THAT(run_scene("tennis_ball", "truth.tracker.bias_mm=[5,0,0]").out, Not(HasSubstr("swung")));
@@ -382,12 +382,11 @@ TEST(Verdict, MoreContactsThanPressesAreNamed) {
   expect_limit("plane", "truth.hexapod.mass_kg=1e-12", "9 contacts of 1 press");
 }
 
-// Those that come nearest to a line: late contacts and misses at 20 Hz, fast presses, soft springs.
+// The runs closest to a warning: late contacts and misses at 20 Hz, fast presses, low stiffness.
 TEST(Verdict, NothingIsNamedWhereNothingIsWrong) {
   for (const char* name : {"reaching", "wall", "tiles", "hit_ball", "stiffness", "synchrony", "push_limit"})
     for (int seed = 1; seed <= tests::thorough(1, 5); ++seed) {
-      // There a finger presses the prop aside while it is on its way, and a motor comes to its peak for 30
-      // ms.
+      // In this run a finger presses the moving prop aside, and a motor reaches its peak for 30 ms.
       if (std::string(name) == "reaching" && seed == 4) continue;
       const Result run = run_scene(name, "", seed);
       EXPECT_EQ(run.code, 0) << name << " " << seed << "\n" << run.out;

@@ -1,5 +1,5 @@
-// The program and its files: nothing is overwritten or lost; and records: what is wrong with one, and that a
-// replay is the run again.
+// The program and its files: it overwrites and loses nothing. Records: damage to a record, and a replay that
+// equals the run.
 #include "tests/support/files.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-// ---- The program and its files: nothing is overwritten, nothing is lost, nothing silly is accepted.
+// ---- The program and its files: it overwrites nothing, loses nothing, and accepts no nonsense.
 
 using Words = std::vector<std::string>;
 
@@ -59,7 +59,7 @@ class ProgramFiles : public testing::Test {
   [[nodiscard]] std::string good_loop() const {
     return loop("loop.csv", [](double d) { return 2.0 * d; });
   }
-  // The one line on stderr of what is refused.
+  // The single line on stderr of a refusal.
   static std::string line(const Words& args, int code = 2, double timeout = 60.0) {
     const Result r = run_program(args, kShipped, timeout);
     EXPECT_EQ(r.code, code) << args[0] << ": " << r.out << r.err;
@@ -75,14 +75,14 @@ class ProgramFiles : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-// ---- nothing is overwritten
+// ---- the program overwrites nothing
 TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
   const std::string p = plane(), csv = good_loop(), record = recorded();
   const std::string view = module_folder() + "/encounter_view.so";
   std::vector<Words> all{{"run", p, "--for-s", "0.1", "--record", p},
                          {"fit", csv, "--out", csv},
                          {"export", record, "--csv", record}};
-  const std::string picture = path("scene.png");  // a scene of such a name
+  const std::string picture = path("scene.png");  // a scene with such a name
   std::filesystem::copy_file(p, picture);
   if (std::filesystem::exists(view)) {
     all.push_back({"view", picture, "--at-s", "0.1", "--shot", picture});
@@ -130,7 +130,7 @@ TEST_F(ProgramFiles, TwoRunsDoNotRecordIntoOneFile) {
   EXPECT_THAT(r.err, HasSubstr("another run is writing it"));
 }
 
-// ---- nothing is lost
+// ---- the program loses nothing
 TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   const std::string record = recorded(), csv = good_loop();
   const std::string points = write("points.csv", "x_m,y_m,z_m\n0,0,0.1\n");
@@ -150,14 +150,14 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
     Words command{"bash", "-c", "\"$@\" >/dev/full", "bash", program_file()};
     command.insert(command.end(), args.begin(), args.end());
     Environment environment = kShipped;
-    environment.emplace_back("ASAN_OPTIONS", "detect_leaks=0");  // of the libraries that doctor looks at
+    environment.emplace_back("ASAN_OPTIONS", "detect_leaks=0");  // leaks in the libraries that doctor checks
     const Result r = run(command, environment);
     EXPECT_EQ(r.code, 2) << args[0];
     EXPECT_THAT(r.err, HasSubstr("standard output")) << args[0];
   }
 }
 
-// With standard output closed, the next file that is opened would get its number, and the report.
+// With standard output closed, the next file that the program opens would get its number, and the report.
 TEST_F(ProgramFiles, AClosedStandardOutputIsSaidAndTheRecordIsWhole) {
   const Words closed{"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 --record \"$3\" >&-"};
   Words command = closed;
@@ -192,7 +192,7 @@ TEST_F(ProgramFiles, APipeIsNoRecord) {
   EXPECT_THAT(r.err, HasSubstr("is a pipe; expected a file"));
 }
 
-// The run was not whole: that nothing was touched is not the user's doing.
+// The run was incomplete, so the user is not to blame for a missing touch.
 TEST_F(ProgramFiles, AFullDiskIsNoVerdictOnTheUser) {
   const Result r = run({"bash", "-c", "ulimit -f 200; exec \"$1\" run \"$2\" --record \"$3\"", "bash",
                         program_file(), shipped_scene("tennis_ball"), path("l.encrec")},
@@ -225,7 +225,7 @@ TEST_F(ProgramFiles, AReportSaysHowItWasMade) {
             HasSubstr("\"rig.tracker.lost_age_ms=90\"")));
 }
 
-// A ball that gives more than it takes is none: with a loss nothing is said.
+// A ball that returns more energy than it takes is not passive; the command is silent about a loss.
 TEST_F(ProgramFiles, ALoopThatGivesEnergyIsDoubted) {
   std::string text = "time_s,deflection_mm,force_N,repeat\n";
   for (int k = 0; k < 600; ++k) {
@@ -267,7 +267,7 @@ TEST_F(ProgramFiles, DamageIsNotCalledCutOff) {
               HasSubstr("holds no whole tick"));
 }
 
-// ---- nothing silly is accepted
+// ---- the program accepts no nonsense
 TEST_F(ProgramFiles, ALoopWhoseForceDoesNotRiseIsNoLoop) {
   for (const std::string& file : {loop("zero.csv", [](double) { return 0.0; }),
                                   loop("falling.csv", [](double d) { return 6.0 - d; })}) {
@@ -330,7 +330,7 @@ TEST_F(ProgramFiles, AnArmsTableHasItsTip) {
   std::istringstream rows(run_program({"export", path("w.encrec")}, kShipped).out);
   std::string row;
   std::getline(rows, row);
-  double least = 1e9, most = -1e9;  // of tip_x_mm
+  double least = 1e9, most = -1e9;  // extremes of tip_x_mm
   while (std::getline(rows, row)) {
     const std::size_t cell = row.find(',', row.find(',') + 1) + 1;
     ASSERT_NE(row[cell], ',') << row;
@@ -340,7 +340,7 @@ TEST_F(ProgramFiles, AnArmsTableHasItsTip) {
   EXPECT_GT(most - least, 1.0);
 }
 
-// ---- Records: where they cannot be written, what is wrong with one, and that a replay is the run again.
+// ---- Records: unwritable places, damage to a record, and a replay that equals the run.
 
 using Json = nlohmann::json;
 
@@ -362,8 +362,9 @@ TEST_F(Program, FullDiskWhileRecordingEndsTheRunAndLeavesWhatWasWritten) {
   EXPECT_EQ(r.code, 2);
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   EXPECT_THAT(r.err, AllOf(StartsWith("encounter: cannot write the record"), HasSubstr("File too large")));
-  EXPECT_THAT(r.out, AllOf(HasSubstr("\nmodes "), HasSubstr("\nstate hash ")));  // the report of what did run
-  EXPECT_FALSE(fs::exists(record));                                              // it is not whole
+  // the report of the part that ran
+  EXPECT_THAT(r.out, AllOf(HasSubstr("\nmodes "), HasSubstr("\nstate hash ")));
+  EXPECT_FALSE(fs::exists(record));  // it is incomplete
   const std::string aside = record + ".part";
   EXPECT_THAT(r.err, AllOf(HasSubstr(aside), HasSubstr("replay --partial")));
   EXPECT_LE(fs::file_size(aside), 200U * 1024U);
@@ -397,7 +398,7 @@ TEST_F(Program, TruncatedRecord) {
   const Result part = run_program({"replay", path("cut.encrec"), "--partial"});
   EXPECT_EQ(part.code, 0) << part.err;
   EXPECT_THAT(part.out, HasSubstr("equal to the bit"));
-  write("cut.encrec", whole.substr(0, 100));  // in its header
+  write("cut.encrec", whole.substr(0, 100));  // within its header
   EXPECT_THAT(refused({"replay", path("cut.encrec")}), HasSubstr("cut off in its header"));
   EXPECT_THAT(refused({"replay", path("cut.encrec"), "--partial"}), HasSubstr("cut off in its header"));
 }
@@ -432,7 +433,8 @@ TEST_F(Program, ChecksumFailure) {
   EXPECT_THAT(refused({"replay", path("bad.encrec")}), HasSubstr("checksum failure"));
 }
 
-// One input changed by one part in 10^12 and sealed again: the file is sound, the answer is no.
+// One input changes by one part in 10^12 and the record is sealed again: the file is sound, the replay
+// differs.
 TEST_F(Program, AlteredAndResealedRecordDiffers) {
   RecordReader reader(recorded());
   {
@@ -450,7 +452,7 @@ TEST_F(Program, AlteredAndResealedRecordDiffers) {
   EXPECT_THAT(r.out, StartsWith("differs from tick 400 on: "));
 }
 
-// Sealed as a whole record is, so that its numbers alone can tell.
+// Sealed as a complete record, so that only its numbers reveal the error.
 TEST_F(Program, NumbersOutOfRangeAreRefusedByEachReaderOfRecords) {
   RecordReader reader(recorded());
   const auto spoiled = [&](const std::string& name, const RecordTexts& texts, const auto& spoil) {
@@ -478,7 +480,7 @@ TEST_F(Program, NumbersOutOfRangeAreRefusedByEachReaderOfRecords) {
                   MatchesRegex(".*: byte [0-9]+: '(mode|t)' of a tick is [0-9]+; expected .*\n"))
           << words.back();
     }
-  // Each is possible, and together they are more than the record can be of.
+  // Each number is possible; together they exceed the size of the record.
   const std::string late =
       spoiled("late.encrec", reader.texts(), [](RecordedTick& f) { f.tick.t += Duration(kMostTime / 2); });
   EXPECT_THAT(refused({"shadow", late}), HasSubstr("expected at most as many lost cycles"));
@@ -488,7 +490,7 @@ TEST_F(Program, NumbersOutOfRangeAreRefusedByEachReaderOfRecords) {
   EXPECT_THAT(refused({"shadow", lost}), HasSubstr("expected at most as many lost cycles"));
 }
 
-// The mesh in a record is looked at as one of a file is.
+// The program checks the mesh in a record like one from a file.
 TEST_F(Program, AMeshInARecordIsASolidOrRefused) {
   const std::string models = source_dir() + "/models", scene = models + "/scenes/hare.toml",
                     whole = path("hare.encrec");
@@ -505,7 +507,7 @@ TEST_F(Program, AMeshInARecordIsASolidOrRefused) {
     std::memcpy(places.data(), mesh.data() + sizeof(counts), 8 * places.size());
     spoil(places);
     std::memcpy(mesh.data() + sizeof(counts), places.data(), 8 * places.size());
-    std::string& resolved = texts.at("resolved");  // its hash is anybody's to write, too
+    std::string& resolved = texts.at("resolved");  // anybody can write its hash, too
     const std::size_t key = resolved.find("mesh_hash"), end = resolved.find('\n', key);
     resolved.erase(key, end - key);
     RecordWriter record(path("other.encrec"), texts, reader.layout());
@@ -531,7 +533,7 @@ TEST_F(Program, ReplayIsEqualAndNamesTheHashOfTheRun) {
   const Result run =
       run_program({"run", ball(), "--for-s", "0.5", "--json", "--seed", "5", "--record", path("run.encrec")});
   ASSERT_EQ(run.code, 0) << run.err;
-  fs::remove_all(path("models"));  // the record needs nothing else
+  fs::remove_all(path("models"));  // the record needs no other file
   const Result replay = run_program({"replay", path("run.encrec")});
   EXPECT_EQ(replay.code, 0) << replay.err;
   EXPECT_EQ(replay.out, "501 ticks run again, equal to the bit; state hash " +

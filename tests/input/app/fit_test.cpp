@@ -1,4 +1,4 @@
-// `encounter fit` and `fit --ball` as a person uses them: what they print, a response that a scene plays, and
+// `encounter fit` and `fit --ball` as a person uses them: their output, a response that a scene plays, and
 // mistakes, one line each.
 #include <algorithm>
 #include <fstream>
@@ -72,8 +72,8 @@ TEST_F(Program, FitRefusesBadLoopsInOneLine) {
   }
 }
 
-// The force has an offset, contact begins at 2 mm and the way out is fast: both are told, and no number is
-// none.
+// The force has an offset, contact begins at 2 mm and the way out is fast: the output states all three, and
+// prints no missing number.
 TEST_F(Program, FitSaysWhatItPutRight) {
   write("off.csv",
         test::law_loop_csv(
@@ -89,8 +89,8 @@ TEST_F(Program, FitSaysWhatItPutRight) {
               HasSubstr("the force is 0.60 N: subtracted; contact begins at 2.00 mm: shifted; to 6 mm"));
 }
 
-// An object of 0.04 N/mm is not rendered by a rig that renders 0.125: three times as much came out of the
-// fit.
+// A rig that renders at least 0.125 N/mm cannot render an object of 0.04 N/mm: the fit would return three
+// times as much.
 TEST_F(Program, FitDoesNotBelieveACurveThatItHadToRaise) {
   const auto of = [&](double newtons_per_mm, const std::string& name) {
     std::string text = "time_s,deflection_mm,force_N,repeat\n";
@@ -140,7 +140,7 @@ TEST_F(Program, StopsThatAFileDoesNotHaveAreMissed) {
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
 }
 
-// ---- `fit --ball` as a person uses it: what it prints, and every mistake in one line.
+// ---- `fit --ball` as a person uses it: its output, and every mistake in one line.
 
 using Words = std::vector<std::string>;
 
@@ -187,8 +187,8 @@ TEST_F(FitBall, TellsTheBallAndWhatItDoesNotKnow) {
   EXPECT_NEAR(modulus, 2.6, 0.3);
 }
 
-// docs/guide/identification.md. The felt begins softly, so contact is found 0.3 mm too late; that is no
-// shift.
+// docs/guide/identification.md. The felt is soft at first, so the fit detects contact 0.3 mm too late; that
+// is no shift.
 TEST_F(FitBall, TheGuidesExampleFitsWithEverySeed) {
   for (const char* seed : {"1", "2", "3", "5", "8"}) {
     SCOPED_TRACE(seed);

@@ -29,7 +29,7 @@ std::string line_and_column(const std::string& text, const std::string& what) {
 std::string loop_text() {
   std::string text = "time_s,deflection_mm,force_N,repeat\n";
   for (int i = 1; i <= 3000; ++i) {
-    const int steps = i <= 1500 ? i : 3000 - i;  // of 4 um
+    const int steps = i <= 1500 ? i : 3000 - i;  // steps of 4 um
     const auto fixed = [](int micro) {
       const std::string digits = std::to_string(micro);
       return "0." + std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;

@@ -1,5 +1,5 @@
-// The program as a person calls it: a folder of our own with a copy of models/, so that a test may break what
-// it likes.
+// The program as a person calls it: a temporary folder with a copy of models/, so that a test may break
+// whatever it likes.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 using test::replaced;
 
-// "12:3" of the first `what` in a text; columns count from 1.
+// "12:3" for the first `what` in a text; columns count from 1.
 [[nodiscard]] std::string line_and_column(const std::string& text, const std::string& what);
 // For `fit`: one press to 6 mm at 4 mm/s, 2 N/mm in, 1.5 N/mm out.
 [[nodiscard]] std::string loop_text();
@@ -33,11 +33,11 @@ class Program : public ::testing::Test {
   void edit(const std::string& name, const std::string& from, const std::string& to) const;
   [[nodiscard]] Words files() const;
 
-  // Runs what must be refused; gives its one line. Nothing on stdout, no file made, none changed in number.
+  // Runs a command that must be refused and returns its single line. Expects an empty stdout and no new file.
   [[nodiscard]] std::string refused(const Words& args, int code = 2) const;
-  // `run` with a record and `check` say the same.
+  // Expects `run` with a record and `check` to refuse the scene in equal words.
   [[nodiscard]] std::string scene_refused(const std::string& scene, const Words& more = {}) const;
-  // A good record of half a second.
+  // Records half a second of a good run.
   [[nodiscard]] std::string recorded(const Words& more = {}) const;
 
   test::TemporaryFolder temporary_;

@@ -1,4 +1,5 @@
-// The program as a person calls it: what good input prints, what `export` writes, and what the program maps.
+// The program as a person calls it: the output for good input, the files of `export`, and the libraries that
+// the program loads.
 #include "tests/input/app/program.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ TEST_F(Program, JsonSaysWhatIsInTheProcess) {
     mujoco = mujoco || library.starts_with("libmujoco");
   }
   EXPECT_TRUE(mujoco);
-  // Two seconds without a press have no error of the force: null, never NaN.
+  // Two seconds without a press have no force error: null, never NaN.
   EXPECT_THAT(r.out, Not(HasSubstr("nan")));
   EXPECT_TRUE(json.at("rmse_press_N").is_null());
 }
@@ -59,7 +60,7 @@ TEST_F(Program, JsonSaysWhatWasBuiltAndWhatWasLeftOut) {
   const auto parts = [&](const std::string& scene) {
     return Json::parse(run_program({"run", scene, "--for-s", "0.01", "--json"}).out);
   };
-  const Json wall = parts(plane());  // names no [display]
+  const Json wall = parts(plane());  // has no [display]
   EXPECT_THAT(names(wall.at("built")),
               ::testing::UnorderedElementsAre("manipulator", "force", "tracker", "user"));
   EXPECT_THAT(names(wall.at("left_out")), Contains("display"));
@@ -72,7 +73,7 @@ TEST_F(Program, JsonSaysWhatWasBuiltAndWhatWasLeftOut) {
 TEST_F(Program, TextStaysWithinTwentyFiveLines) {
   const Result r = run_program({"run", ball(), "--for-s", "8"});
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_EQ(r.err, "");  // no progress in a pipe
+  EXPECT_EQ(r.err, "");  // no progress display in a pipe
   EXPECT_LE(std::count(r.out.begin(), r.out.end(), '\n'), 25);
   EXPECT_THAT(r.out, AllOf(HasSubstr("\nbuilt "), HasSubstr("\nleft out "), HasSubstr("\nmodes "),
                            HasSubstr("\nforce "), HasSubstr("\napproach "), HasSubstr("miss"),
@@ -80,7 +81,7 @@ TEST_F(Program, TextStaysWithinTwentyFiveLines) {
                            HasSubstr("\ntime "), HasSubstr("\nstate hash ")));
 }
 
-// A tool that is never seen again: the run ends in hold.
+// The tool never comes back into view: the run ends in hold.
 TEST_F(Program, ARunThatEndsInHoldSaysSo) {
   const Result r =
       run_program({"run", plane(), "--for-s", "1.5", "--json", "--set", "truth.tracker.blackout_at_s=1",
@@ -146,7 +147,7 @@ TEST_F(Program, CheckPrintsTheFramesAndTheResolvedScene) {
   EXPECT_THAT(run_program({"check", plane(), "--resolved"}).out,
               AllOf(HasSubstr("format = 1\n"), HasSubstr("[rig.loop]\nrate_hz = 1000\n"),
                     HasSubstr("[truth.tracker]\n"), HasSubstr("press_N_per_mm_k = [2, 0, 0, 0]")));
-  // --set shows in both: the wall 11 mm up is at 11 mm.
+  // --set shows in both: the wall at 11 mm is 11 mm up.
   const std::string up = "object.wall.position_mm=[0,0,11]";
   EXPECT_THAT(run_program({"check", plane(), "--set", up}).out,
               HasSubstr("[0.000, 0.000, 11.000] mm  object"));
@@ -163,7 +164,7 @@ TEST_F(Program, ParametersHaveAHeaderAndOneRowEach) {
   EXPECT_EQ(line, "name,unit,value,source,confidence,meaning");
   Words names;
   while (std::getline(lines, line)) {
-    // Six fields: five commas outside of quotes.
+    // Six fields: five commas outside quotes.
     bool quoted = false;
     int commas = 0;
     for (const char c : line) {
@@ -184,7 +185,7 @@ TEST_F(Program, ParametersHaveAHeaderAndOneRowEach) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(json[i].at("name"), names[i]);
 }
 
-// What every row says, --set takes back: the same value changes nothing.
+// --set accepts the value of every row: it changes nothing.
 TEST_F(Program, EveryParameterCanBeSetToWhatItIs) {
   const Json list = Json::parse(run_program({"params", plane(), "--json"}).out);
   const auto below_the_first_line = [](const std::string& text) { return text.substr(text.find('\n')); };
@@ -216,7 +217,7 @@ TEST_F(Program, AnObjectIsNotPressedHarderThanTheMachineCarries) {
   EXPECT_THAT(none.err, HasSubstr("does not even carry"));
 }
 
-// Without what a wall clock measured.
+// Removes the measurements of a wall clock.
 std::string timeless(const std::string& text) {
   std::istringstream lines(text);
   std::string kept;
@@ -229,13 +230,13 @@ std::string timeless(const std::string& text) {
 }
 
 TEST_F(Program, ACommaForThePointChangesNothing) {
-  // Made here, because few machines have it; where it cannot be made the C locale stands in.
+  // The locale is made here, because few machines have it; where that fails the C locale stands in.
   fs::create_directories(path("locale"));
   const bool made = run({"localedef", "-i", "de_DE", "-f", "UTF-8", path("locale/de_DE.UTF-8")}).code == 0;
   const Environment german{{"LC_ALL", made ? "de_DE.UTF-8" : "C"}, {"LOCPATH", path("locale")}};
   const Environment plain{{"LC_ALL", "C"}};
   if (made) {
-    EXPECT_EQ(run({"bash", "-c", "printf '%.1f' 1,5"}, german).out, "1,5");  // it is what it should be
+    EXPECT_EQ(run({"bash", "-c", "printf '%.1f' 1,5"}, german).out, "1,5");  // the locale works
   }
   const Words set{"--set", "object.wall.position_mm=[0,0,10.5]"};
   write("loop.csv", loop_text());
@@ -251,8 +252,8 @@ TEST_F(Program, ACommaForThePointChangesNothing) {
   }
 }
 
-// ---- `export`: a record as a table or as MCAP, a scene as MuJoCo's own programs open it; and what is none
-// of these, in one line.
+// ---- `export`: a record as a table or as MCAP, a scene as MuJoCo's own programs open it; and one line for
+// every other input.
 
 using Words = std::vector<std::string>;
 
@@ -286,7 +287,7 @@ TEST(Export, AWorldHasTheRigAndTheNumbersThatItIsGiven) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("d.xml")));
 }
 
-// As the run had it, to the last digit; of a record that has none, why.
+// The energy balance of the run, to the last digit; for a record without one, the reason.
 TEST(Export, TheLedgerOfARecordIsThatOfItsRun) {
   const test::TemporaryFolder folder;
   const std::string record = folder.file("keypad.encrec"), keypad = kRoot + "/models/scenes/keypad.toml";
@@ -325,7 +326,8 @@ TEST(Export, WhatIsOfTheOtherIsRefused) {
   EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(xml).parent_path()));
 }
 
-// MCAP is a file of its own beside table, ledger and world, and its readers look for its end: no pipe.
+// MCAP needs a file of its own beside table, energy balance and world. Its readers look for its end, so a
+// pipe is no use.
 TEST(Export, McapIsAFileOfItsOwn) {
   const test::TemporaryFolder folder;
   const std::string mcap = folder.file("r.mcap"), csv = folder.file("t.csv");
@@ -345,7 +347,7 @@ TEST(Export, McapIsAFileOfItsOwn) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// As any other file that the program writes: never over one that is there, nor over what it reads.
+// Like every file of the program, MCAP never replaces an existing file or its input.
 TEST(Export, McapReplacesNothingUnasked) {
   const test::TemporaryFolder folder;
   const std::string mcap = folder.file("r.mcap");
@@ -368,7 +370,7 @@ TEST(Export, McapReplacesNothingUnasked) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// What is not there is said where somebody looks: in the terminal, as for a table, and in the file.
+// The program reports missing parts where people look: in the terminal, as for a table, and in the file.
 TEST(Export, McapSaysWhatOfItsRecordIsMissing) {
   const test::TemporaryFolder folder;
   const std::string mcap = folder.file("r.mcap"), cut = folder.file("cut.encrec");
@@ -398,7 +400,8 @@ TEST(Export, McapSaysWhatOfItsRecordIsMissing) {
   EXPECT_THAT(both(1), HasSubstr("checksum"));
 }
 
-// ---- What the program is made of and maps: a scene gets what it names, and nothing of what others need.
+// ---- The parts and libraries of the program: a scene loads whatever it names, and nothing that only others
+// need.
 
 using Json = nlohmann::json;
 
@@ -406,7 +409,7 @@ using Json = nlohmann::json;
 TEST(Footprint, TheProgramHoldsNoBenchmark) {
   const std::string program = test::bytes_of(program_file());
   ASSERT_GT(program.size(), 100'000U);
-  EXPECT_NE(program.find("3enc5trial"), std::string::npos);  // so names can be found
+  EXPECT_NE(program.find("3enc5trial"), std::string::npos);  // so the search does find names
   EXPECT_EQ(program.find("3enc5bench"), std::string::npos);
   EXPECT_EQ(program.find("fit_ball"), std::string::npos);
 }
@@ -434,7 +437,7 @@ TEST(Footprint, VersionIsOneLine) {
               testing::MatchesRegex("Encounter [0-9]+\\.[0-9]+\\.[0-9]+, commit [-0-9a-z]+ of [-0-9a-z]+\n"));
 }
 
-// ---- The runner of the tests themselves.
+// ---- The test runner itself.
 
 TEST(RunProgram, reports_output_code_and_time) {
   const tests::Result r =

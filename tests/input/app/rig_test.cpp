@@ -32,7 +32,7 @@ class RigProgram : public testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  // What must be refused, by `run` and by `check` in the same words; gives its line.
+  // Expects `run` and `check` to refuse the settings in equal words; returns the line.
   [[nodiscard]] static std::string refused(Words set) {
     Words args{shipped_scene("rig_A")};
     for (std::string& text : set) {
@@ -58,7 +58,7 @@ class RigProgram : public testing::Test {
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     return r.err;
   }
-  // A rig's scene of another make.
+  // The rig's scene with one text replaced.
   [[nodiscard]] std::string edited(const std::string& from, const std::string& to) const {
     std::string text = bytes_of(shipped_scene("rig_A"));
     const auto at = text.find(from);
@@ -73,7 +73,7 @@ class RigProgram : public testing::Test {
 
 struct Row {
   std::string mode;
-  std::vector<double> numbers;  // of all other columns before the source; NaN where the cell is empty
+  std::vector<double> numbers;  // all other columns before the source; NaN for an empty cell
   std::string source;
   std::vector<std::string>
       markers;  // the tool, its markers, and the stamps of tip and force; no empty last cell
@@ -117,7 +117,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
   EXPECT_THAT(run_program({"replay", path("a.encrec")}).out, HasSubstr("equal to the bit"));
   ASSERT_EQ(run_program({"export", path("a.encrec"), "--csv", path("a.csv")}).code, 0);
   const std::string csv = bytes_of(path("a.csv"));
-  EXPECT_EQ(run_program({"export", path("a.encrec")}).out, csv);  // standard output is the default
+  EXPECT_EQ(run_program({"export", path("a.encrec")}).out, csv);  // the default is standard output
 
   RecordReader record(path("a.encrec"));
   const std::vector<Row> rows = rows_of(csv);
@@ -153,7 +153,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
   EXPECT_NEAR(pushed[2], 3000, 60);
 }
 
-// In an ordinary scene the columns are what the object was made to answer: contact after contact.
+// In an ordinary scene the columns hold the response of the rendered object, contact after contact.
 TEST_F(RigProgram, ExportsAnOrdinaryPress) {
   ASSERT_EQ(run_program({"run", shipped_scene("plane"), "--record", path("p.encrec")}).code, 0);
   RecordReader record(path("p.encrec"));
@@ -199,7 +199,7 @@ TEST_F(RigProgram, MistakesInAProbe) {
   EXPECT_THAT(refused({"probe.speed_mm_s=51"}), HasSubstr("cannot push that fast"));
   EXPECT_THAT(refused({"probe.object=bal"}), HasSubstr("did you mean 'ball'?"));
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,70]"}), HasSubstr("outside the machine's reach"));
-  // So far away that its surface is known to half a nanometre: it was looked for until it came near to 1e-12
+  // At this distance the surface has a resolution of half a nanometre; the search once tried to reach 1e-12
   // m.
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,2147483648]"}),
               HasSubstr("outside the machine's reach"));
@@ -244,19 +244,19 @@ TEST_F(RigProgram, ScenesThatAreNoRig) {
   EXPECT_THAT(said("[force]\n", "[force]\n[display]\n"), HasSubstr("remove [display]"));
   EXPECT_THAT(said("shape = \"sphere\"\nradius_mm = 33 ", "shape = \"plane\" "),
               HasSubstr("expected a sphere"));
-  // A real thing without a probe, or beside the one that is pressed.
+  // A real object without a probe, or beside the one that is pressed.
   const std::string second =
       "[[object]]\nname = \"cup\"\nshape = \"sphere\"\nradius_mm = 20\n"
       "position_mm = [0, 60, 20]\n\n[manipulator]\n";
   EXPECT_THAT(said("[manipulator]\n", second), HasSubstr("object 'cup' has no 'behaviour'; expected one"));
 }
 
-// ---- `encounter shadow` as a person uses it: a record beside its twin, what diverges in words, what is
-// refused; and `calibrate` and `fit`, which read a record, too.
+// ---- `encounter shadow` as a person uses it: a record beside its twin, divergence in words, refusals. Also
+// `calibrate` and `fit`, which read a record, too.
 
 class ShadowInput : public Program {
  protected:
-  // A short run with this truth.
+  // Records a short run with this ground truth.
   [[nodiscard]] std::string run_of(const std::string& scene, const Words& more) const {
     Words words{"run", path("models/scenes/" + scene + ".toml"), "--record", path("r.encrec"), "--force"};
     words.insert(words.end(), more.begin(), more.end());
@@ -307,7 +307,7 @@ TEST_F(ShadowInput, ACameraThatWasMovedIsRegistration) {
                            HasSubstr("farther than by the twin's tracker, towards +z\n")));
 }
 
-// Where it is too far off for a size it is said in words, and fails all the same.
+// The object is too far off for a number: the report says so in words, and fails.
 TEST_F(ShadowInput, AnObjectThatStandsFarOffDiverges) {
   const std::string record = run_of("rig_identify", kQuickProbe);
   const Words beside{"shadow", record, "--set", "truth.ball.misplaced_mm=[0,0,5]"};
@@ -341,7 +341,7 @@ TEST_F(ShadowInput, SaysWhatOfARecordIsMissing) {
               AllOf(HasSubstr("checksum"), HasSubstr("in the comparison")));
 }
 
-// They have no --partial: the table of what is whole is export's.
+// These commands have no --partial: export makes the table of the complete part.
 TEST_F(ShadowInput, CalibrateAndFitSayHowACutRecordIsRead) {
   const std::string bytes = test::bytes_of(run_of("plane", {"--for-s", "0.5"}));
   write("cut.encrec", bytes.substr(0, bytes.size() / 2));
@@ -378,7 +378,7 @@ TEST_F(ShadowInput, RefusesInOneLine) {
       AllOf(HasSubstr("arm.encrec: "), HasSubstr("without [manipulator]"), HasSubstr("record a run")));
 }
 
-// What export makes of it is what they read: the words are the same.
+// The commands read a record as its exported table: the output is equal.
 TEST_F(ShadowInput, CalibrateAndFitReadARecordAsItsTable) {
   const std::string carried = run_of("tracking", kQuickTravel);
   ASSERT_EQ(run_program({"export", carried, "--csv", path("l.csv")}).code, 0);

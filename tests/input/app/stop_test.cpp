@@ -1,4 +1,4 @@
-// Signals: a run ends as its end does, with its report, its record and its own exit code.
+// Signals: a run that is stopped ends normally, with its report, its record and its own exit code.
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -24,7 +24,7 @@ using testing::Not;
 
 void after_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
-// The program in a process of its own, with what it prints in a file.
+// The program in a process of its own, with its output in a file.
 class Started {
  public:
   explicit Started(std::vector<std::string> args) : out_(folder_.path() / "out") {
@@ -41,7 +41,7 @@ class Started {
     execv(words[0], words.data());
     _exit(127);
   }
-  // When signals are caught: a person does not press Ctrl-C in the first milliseconds.
+  // Waits until the program catches signals: a person does not press Ctrl-C in the first milliseconds.
   void ready() const {
     for (int i = 0; i < 500; ++i) {
       std::ifstream status("/proc/" + std::to_string(child_) + "/status");
@@ -53,7 +53,7 @@ class Started {
     }
   }
   void send(int signal) const { kill(child_, signal); }
-  // Exit code; 128 + signal, negated, where a signal killed it.
+  // Returns the exit code, or 128 + signal, negated, after a fatal signal.
   int wait() const {
     int status = 0;
     waitpid(child_, &status, 0);
@@ -73,19 +73,19 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
     const test::TemporaryFolder folder;
     const std::string record = (folder.path() / "r.encrec").string();
     const Started run({"run", shipped_scene("tennis_ball"), "--pace", "wall", "--record", record});
-    const std::string aside = record + ".part";  // until it is sealed
+    const std::string aside = record + ".part";  // exists until the record is sealed
     while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(20);
     after_ms(300);
     run.send(signal);
     EXPECT_EQ(run.wait(), code);
     EXPECT_THAT(run.text(), HasSubstr("stopped     by a signal"));
     EXPECT_THAT(run.text(), HasSubstr("state hash"));
-    const Result replayed = run_program({"replay", record});  // it is sealed
+    const Result replayed = run_program({"replay", record});  // the record is sealed
     EXPECT_EQ(replayed.code, 0) << replayed.err;
   }
 }
 
-// Nothing has begun yet, so a start-up that computes for long ends at once and leaves nothing.
+// The run has not begun, so a long start-up ends at once and leaves nothing.
 TEST(Stop, AStartUpThatTakesLongEndsAtOnce) {
   const test::TemporaryFolder folder;
   const std::string scene = folder.file("many.toml"), record = folder.file("r.encrec");
@@ -109,7 +109,7 @@ TEST(Stop, AStartUpThatTakesLongEndsAtOnce) {
   }
 }
 
-// Whoever sends it: a supervisor, a timer, a limit.
+// The sender may be a supervisor, a timer or a limit.
 TEST(Stop, EachSignalThatWouldKillEndsTheRunCleanly) {
   std::vector<int> signals{SIGQUIT, SIGABRT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
                            SIGIO,   SIGPWR,  SIGSEGV, SIGBUS,    SIGFPE,  SIGRTMIN + 3};
@@ -127,7 +127,7 @@ TEST(Stop, EachSignalThatWouldKillEndsTheRunCleanly) {
   }
 }
 
-// Half a table is worth nothing, and half of an MCAP file has no end that its readers look for.
+// Half a table is useless, and readers of MCAP look for the end that half a file lacks.
 TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   const test::TemporaryFolder folder;
   const std::string record = folder.file("r.encrec");
@@ -142,7 +142,7 @@ TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   }
 }
 
-// Also where the clock waits for hours, and where devices are real and armed.
+// Also while the clock waits for hours, and with real, armed devices.
 TEST(Stop, AlsoWhileTheClockWaits) {
   const Started slow({"run", shipped_scene("tennis_ball"), "--pace", "1e-6"});
   slow.ready();
@@ -157,7 +157,7 @@ TEST(Stop, AlsoWhileTheClockWaits) {
   EXPECT_THAT(armed.text(), HasSubstr("stopped     by a signal"));
 }
 
-// Ctrl-C ends the reader, too: the code is that of the signal all the same, and nothing is killed.
+// Ctrl-C ends the reader, too: the program still returns the code of the signal, and is not killed.
 TEST(Stop, AlsoWhereNobodyReadsTheReport) {
   const Result r = tests::run(
       {"bash", "-c",
@@ -172,7 +172,7 @@ TEST(Stop, AlsoWhereNobodyReadsTheReport) {
 }
 
 TEST(Stop, WhatIsIgnoredStaysIgnored) {
-  std::signal(SIGHUP, SIG_IGN);  // as nohup does; the child inherits it
+  std::signal(SIGHUP, SIG_IGN);  // like nohup; the child inherits it
   const Started run({"run", shipped_scene("plane"), "--pace", "wall", "--for-s", "1"});
   std::signal(SIGHUP, SIG_DFL);
   run.ready();
@@ -180,7 +180,8 @@ TEST(Stop, WhatIsIgnoredStaysIgnored) {
   EXPECT_EQ(run.wait(), 0) << run.text();
 }
 
-// A process that was stopped for a second: armed, the cycles are lost and said; simulated, nothing is lost.
+// A process that was stopped for a second: an armed run loses the cycles and reports them; a simulated run
+// loses none.
 TEST(Stop, AStoppedProcessMakesNothingUp) {
   const std::vector<std::string> sample{"--set",          "rig.manipulator.driver=\"sample\"",
                                         "--set",          "rig.force.driver=\"sample\"",
@@ -223,7 +224,7 @@ TEST(Stop, ADryRunSaysWhatWasWithheld) {
                    "rig.manipulator.driver=\"sample\"", "--set", "rig.force.driver=\"sample\""},
                   {{"ENCOUNTER_MODULES", module_folder()}});
   const std::size_t after =
-      dry.out.find(" ticks", dry.out.find("state hash"));  // on a busy machine some are lost
+      dry.out.find(" ticks", dry.out.find("state hash"));  // a busy machine loses some ticks
   const std::size_t before = dry.out.rfind(' ', after - 1);
   EXPECT_THAT(dry.out, HasSubstr(dry.out.substr(before + 1, after - before - 1) + " commands were withheld"));
   EXPECT_THAT(dry.out, HasSubstr("--armed sends them"));

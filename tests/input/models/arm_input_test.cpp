@@ -1,5 +1,5 @@
-// What can be wrong in the files of an arm, its truth, its gains and its objects: each test expects one line
-// that names the place of the mistake.
+// Mistakes in the files of an arm, its ground truth, its gains and its objects: each test expects one line
+// with the place of the mistake.
 #include <algorithm>
 #include <fstream>
 
@@ -24,10 +24,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// ---- What can be wrong in the files of an arm, its truth and its objects: refused in one line, with the
+// ---- Mistakes in the files of an arm, its ground truth and its objects: one line refuses each, with the
 // place of the key.
 
-// As `encounter run` says it.
+// The message as `encounter run` prints it.
 std::string said(const std::vector<std::string>& set, const std::string& scene = "wall",
                  const std::string& rig = "") {
   try {
@@ -54,7 +54,7 @@ TEST(ArmInput, LimitsOfAJointGoUpAndHaveHomeBetweenThem) {
               HasSubstr("expected a range"));
 }
 
-// In the key's own unit: a slip of a thousand is refused.
+// Limits are in the key's own unit, so a slip by a factor of a thousand is refused.
 TEST(ArmInput, AnAgeHasAnEndOfBothKinds) {
   for (const auto& [key, scene] :
        {std::pair{"rig.arm.stale_ms=", "wall"}, {"rig.force.stale_ms=", "tennis_ball"}}) {
@@ -107,7 +107,7 @@ TEST(ArmInput, APyramidalConeIsWarnedOf) {
       << "pushed by a law of its own";
 }
 
-// It would be met where it is nearest, and give no force.
+// The finger would touch this wall at its nearest point and feel no force.
 TEST(ArmInput, AWallThatTheMachineDoesNotMoveAlongIsRefused) {
   EXPECT_EQ(said({}, "wall", "stage"), "");
   EXPECT_THAT(said({"object.wall.normal=[0, 1, 0]"}, "wall", "stage"),
@@ -186,7 +186,7 @@ TEST(ArmInput, KeysThatOnlyTheOtherMachineReads) {
               HasSubstr("expected 'stick'"));
 }
 
-// The place is the scene's, where another name is written.
+// The message gives the place of the key that names the other machine's behaviour.
 TEST(ArmInput, ABehaviourOfTheOtherMachine) {
   EXPECT_THAT(said({"object.wall.behaviour=wall"}),
               AllOf(StartsWith("--set object.wall.behaviour=wall: "), HasSubstr("\"phantom_wall\"")));
@@ -209,7 +209,7 @@ TEST(ArmInput, OneFingerOfAFingersSize) {
 TEST(ArmInput, APressOutOfReach) {
   EXPECT_THAT(said({"user.offset_mm=5000"}),
               AllOf(HasSubstr("wall.toml:"), HasSubstr("the arm does not get")));
-  // The middle of a key is met, wherever its face is touched.
+  // The prop presents the middle of a key, wherever the finger touches its face.
   EXPECT_THAT(said({"object.key.position_mm=[0, 0, -400]"}, "room"),
               HasSubstr("does not get to object 'key'"));
 }
@@ -237,7 +237,7 @@ TEST(ArmInput, MadeForARigThatIsNotThere) {
   }
 }
 
-// A note is about a scene that runs.
+// Notes are for scenes that run.
 TEST(ArmInput, OfARefusedSceneOneLineIsSaid) {
   const tests::Result result =
       tests::run_program({"run", scene_file("hit_ball"), "--set", "object.ball.behaviour=phantom_button"});
@@ -255,24 +255,24 @@ TEST(ArmReport, CheckSaysWhatAnArmRenders) {
                                 Not(HasSubstr("not rendered"))));
 }
 
-// Without a touch that could be measured nothing is printed as nan; figures of a deflection are a hexapod's.
+// Without a measurable touch the report prints no nan. Figures of a deflection are for hexapods only.
 TEST(ArmReport, WhatWasNotMeasuredIsSaid) {
   const std::vector<std::string> args{"run",     scene_file("wall"),
                                       "--for-s", "5",
                                       "--set",   "truth.arm.peak_torque_Nm=[1e-9, 1e-9, 1e-9]",
                                       "--set",   "truth.arm.continuous_torque_Nm=[1e-9, 1e-9, 1e-9]"};
   const tests::Result weak = tests::run_program(args);
-  EXPECT_EQ(weak.code, 4) << weak.err;  // it falls, and that is found out
+  EXPECT_EQ(weak.code, 4) << weak.err;  // the arm falls, and the run detects it
   EXPECT_THAT(weak.out, AllOf(HasSubstr("sideways    not measured"),
                               HasSubstr("machine does not follow its commands"), Not(HasSubstr("nan"))));
   const tests::Result json = tests::run_program({"run", scene_file("wall"), "--for-s", "0.2", "--json"});
   EXPECT_THAT(json.out, AllOf(HasSubstr("\"meetings\""), Not(HasSubstr("\"rmse_press_N\""))));
-  // A spring is fitted where one is pressed, not over reaches for several objects.
+  // The report fits a spring if one spring is pressed, not over reaches for several objects.
   EXPECT_THAT(tests::run_program({"run", scene_file("reaching"), "--for-s", "6"}).out,
               Not(HasSubstr("spring ")));
 }
 
-// ---- Gains of an arm's law that cannot be: one line, with the number that is wrong.
+// ---- Impossible gains of an arm's law: one line with the wrong number.
 
 std::string said_gains(const std::string& set) {
   return error_of([&] {

@@ -1,4 +1,4 @@
-// Objects, tools and meshes that are wrong, or of a size or at a place that nobody meant.
+// Wrong objects, tools and meshes, or of an unintended size or place.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -39,8 +39,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using tests::shipped_scene;
 
-// ---- The world subsystem's files: scenes of an arm, the interaction database, and what is wrong with them
-// in one line.
+// ---- Files of the world subsystem: scenes of an arm, the interaction database, and their mistakes, one line
+// each.
 
 const fs::path kModels = fs::path(tests::source_dir()) / "models";
 
@@ -49,7 +49,7 @@ models::Setup setup_of(const std::string& scene, const std::vector<std::string>&
   return models::load((kModels / "scenes" / (scene + ".toml")).string(), rig, set);
 }
 
-// What is wrong; empty if the scene can be made ready.
+// The error message; empty if prepare() accepts the scene.
 std::string said_objects(const std::string& scene, const std::vector<std::string>& set) {
   return test::error_of([&] { (void)trial::prepare_setup(setup_of(scene, set)); });
 }
@@ -116,7 +116,7 @@ TEST(ObjectsInput, MoreObjectsThanCanMove) {
   }
 }
 
-// Editing one entry changes the objects that name it, and no other.
+// An edited entry changes only the objects that name it.
 TEST(ObjectsInput, EachEntryIsItsObjectsAlone) {
   const TemporaryFolder folder;
   fs::copy(kModels, folder.path(), fs::copy_options::recursive);
@@ -155,13 +155,13 @@ TEST(ObjectsInput, AStageOfTwoSlidesRunsTheWall) {
   EXPECT_TRUE(trial.result().holds.empty());
 }
 
-// ---- Tools and meshes of a size or at a place that nobody meant: what `check` prints of each, the warnings,
-// and what a refusal says of the mesh.
+// ---- Tools and meshes of an unintended size or place: the output of `check` for each, the warnings, and the
+// refusals of meshes.
 
 class Sizes : public ::testing::Test {
  protected:
   Sizes() { std::filesystem::copy(shipped_scene("hare"), folder_.path() / "ball.toml"); }
-  // The hare's scene with another mesh, which stands at the origin of W.
+  // The hare's scene with another mesh, at the origin of W.
   [[nodiscard]] models::Setup with_mesh(const Mesh& mesh, const std::vector<std::string>& more = {}) const {
     std::ofstream(folder_.path() / "ball.stl", std::ios::binary) << models::mesh_bytes(mesh, ".stl");
     std::vector<std::string> set{"object.hare.mesh=ball.stl", "object.hare.position_mm=[0, 0, -25]"};
@@ -189,7 +189,7 @@ TEST_F(Sizes, AMeshOfAnotherUnitIsRefusedWithItsExtentAndTheScale) {
   EXPECT_THAT(
       said(100),
       HasSubstr("is the file in cm? then write scale = 0.01; or in inches? then write scale = 0.0254"));
-  // With that scale it is accepted.
+  // The program accepts the mesh with that scale.
   EXPECT_EQ(refusal(with_mesh(at(ball_, 0.0, 1000), {"object.hare.scale=0.001"})), "");
 }
 
@@ -234,7 +234,7 @@ TEST(ToolSizes, ATipInMetresIsWarnedOf) {
               Not(IsEmpty()));
 }
 
-// Markers in m or cm are too near to one another to be told apart, so the scene is refused.
+// Markers in m or cm are too close together to be distinguished, so the program refuses the scene.
 TEST(ToolSizes, MarkersInAnotherUnitAreAskedFor) {
   const auto said = [](const std::string& markers, const std::string& tip) -> std::string {
     try {
@@ -310,8 +310,7 @@ TEST(SizesText, IsPrintedByCheck) {
             "sizes       tool 'finger': tip radius 8 mm; 20 g\n");
 }
 
-// ---- Mesh files that are wrong: each is refused by the program with exit code 2 and one line that names the
-// file.
+// ---- Wrong mesh files: the program refuses each with exit code 2 and one line that names the file.
 
 // A tetrahedron.
 Mesh good() {
@@ -323,7 +322,7 @@ std::string put(std::string text, std::size_t at, std::uint32_t word) {
   std::memcpy(text.data() + at, &word, sizeof(word));
   return text;
 }
-// A word of the tetrahedron's .glb, found from the end: 12 indices of two bytes after 12 floats.
+// Changes a word of the tetrahedron's .glb, counted from the end: 12 indices of two bytes after 12 floats.
 std::string with_float(std::size_t i, float value) {
   std::string text = bytes(".glb");
   std::memcpy(text.data() + text.size() - 24 - 48 + 4 * i, &value, sizeof(value));
@@ -376,7 +375,7 @@ TEST_P(BadMesh, IsRefusedInOneLine) {
   expect_refused(path.string(), GetParam().words);
 }
 
-// Many nodes with one mesh: what is read grows with them, and so must the time, not with their square.
+// Many nodes share one mesh: the time to read them must grow with their number, not with its square.
 std::string many_nodes(int count) {
   std::string nodes, roots;
   for (int i = 0; i < count; ++i) {
@@ -528,7 +527,7 @@ INSTANTIATE_TEST_SUITE_P(Others, BadMesh, ::testing::ValuesIn(bad_others()), kNa
 
 using BadPlace = BadMesh;
 
-// A mesh that reaches as far as it may has an answer, and one that its scene makes larger is refused there.
+// A mesh at the limit of its size is accepted; a scene that scales it beyond the limit is refused.
 TEST_F(BadPlace, AsFarAsItMayAndNoFarther) {
   const fs::path path = folder_ / "a.obj";
   std::ofstream(path) << "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nv 0 0 1e6\n" << kClosed;

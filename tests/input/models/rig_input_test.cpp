@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// ---- What can be wrong in [admittance] of a rig: one line that says where, what, and what was expected.
+// ---- Mistakes in [admittance] of a rig: one line with the place, the mistake and the expectation.
 
 std::string refused(const std::string& setting) {
   return test::error_of(
@@ -43,7 +43,7 @@ TEST(DampingInput, SaysWhatIsWrong) {
   EXPECT_THAT(refused("rig.admittance.margin=0"), AllOf(HasSubstr("margin"), HasSubstr("expected")));
   EXPECT_THAT(refused("rig.admittance.calm_time_s=-1"), AllOf(HasSubstr("calm_time"), HasSubstr("expected")));
   EXPECT_THAT(refused("rig.admittance.least_swing_um=nan"), HasSubstr("least_swing"));
-  EXPECT_THAT(refused("rig.admittance.slowest=1"), HasSubstr("slowest_hz"));  // without its unit
+  EXPECT_THAT(refused("rig.admittance.slowest=1"), HasSubstr("slowest_hz"));  // lacks its unit
   EXPECT_THAT(refused("truth.force.oversampling=0"), AllOf(HasSubstr("oversampling"), HasSubstr("expected")));
   EXPECT_EQ(refused("rig.admittance.damping=observed"), "");
 }
@@ -115,7 +115,7 @@ TEST_F(DriverInput, RunCheckAndDoctorSayWhatTheDriverSays) {
   EXPECT_THAT(run_program({"check", scene_}).out, Not(HasSubstr("device ")));
 }
 
-// Where the module is not there the file is still read, listed and kept; only a run wants the device.
+// Without the module the program still reads, lists and keeps the table; only a run needs the device.
 TEST_F(DriverInput, WithoutItsModuleATableIsKept) {
   const std::string table = "[driver.sample]\nport = 4712\n";
   const Result check = program("check", table, {}, "/nowhere");
@@ -138,7 +138,7 @@ TEST_F(DriverInput, ARecordKeepsItAndReplaysWithoutTheModule) {
   EXPECT_EQ(replayed.code, 0) << replayed.err;
 }
 
-// ---- The day on which a rig was measured.
+// ---- The day of a rig's measurement.
 
 std::string said_date(const std::string& text) {
   return test::error_of([&] {
@@ -158,8 +158,8 @@ TEST(CalibrationInput, ADayOfTheCalendarIsTaken) {
   EXPECT_NE(said_date("2026"), "") << "a number";
 }
 
-// ---- The file of `encounter calibrate rig RIG`: a rig reads it, its numbers take the place of the rig
-// file's, and one that is of another rig, or wrong, is refused in a line.
+// ---- The file of `encounter calibrate rig RIG`: its numbers replace those of the rig file. One line refuses
+// a wrong file, or one from another rig.
 
 const std::string kShippedModels = tests::source_dir() + "/models/";
 
@@ -226,7 +226,7 @@ TEST_F(RigCalibrationFile, ItsNumbersTakeThePlaceOfTheRigs) {
   EXPECT_EQ(setup.rig.frames.H_F.position, Vec3(0, 0, -0.127)) << "the file does not say it";
   EXPECT_EQ(setup.rig.force.mass, 1.1099);
   EXPECT_EQ(setup.rig.calibration.date, "2026-11-28");
-  // A record of it needs no other file, and has the same numbers.
+  // A record of this rig needs no other file, and has equal numbers.
   const models::Setup again = models::parse_resolved(models::resolved(setup), "record");
   EXPECT_EQ(again.rig.frames.W_C.position, measured().W_C->position);
   EXPECT_EQ(again.rig.calibration.file, "");
@@ -239,13 +239,13 @@ TEST_F(RigCalibrationFile, ItsNumbersTakeThePlaceOfTheRigs) {
   };
   EXPECT_THAT(source(setup, "rig.force.mass_kg"), HasSubstr("measured.toml"));
   EXPECT_THAT(source(setup, "rig.force.filter_hz"), Not(HasSubstr("measured.toml")));
-  // What is set by hand stays so.
+  // Numbers set by --set take precedence.
   const models::Setup set = loaded({"rig.force.mass_kg=0.5"});
   EXPECT_EQ(set.rig.force.mass, 0.5);
   EXPECT_EQ(set.rig.frames.W_C.position, measured().W_C->position);
 }
 
-// A real rig has no [truth]: its twin stands where the rig is thought to be.
+// A real rig has no [truth]: its twin takes the places that the rig states.
 TEST_F(RigCalibrationFile, WhatNothingSaysOfTheTruthIsAsBelieved) {
   const std::string sim = test::bytes_of(kShippedModels + "rigs/sim.toml");
   const std::string calibrated = test::bytes_of(path("rig.toml"));
@@ -268,7 +268,7 @@ TEST_F(RigCalibrationFile, WhatNothingSaysOfTheTruthIsAsBelieved) {
   EXPECT_EQ(set.twin.frames.H_F.rotation, set.rig.frames.H_F.rotation);
   EXPECT_GT(set.twin.frames.H_F.rotation.norm(), 0.01);
 
-  // Key by key: what is said stays, whoever says it.
+  // Key by key: a stated number stays, wherever it is stated.
   write("rig.toml", real + "[truth.frames.W_C]\nposition_mm = [1, -900, 600]\n");
   const models::Setup part =
       loaded({"rig.frames.W_C.rotation_deg=[1,2,3]", "truth.hexapod.geometry.stroke_mm=23"});
@@ -285,7 +285,7 @@ TEST_F(RigCalibrationFile, WhatNothingSaysOfTheTruthIsAsBelieved) {
   EXPECT_EQ(measured_once.twin.hexapod.mass, 1.1099);
   EXPECT_LT((measured_once.twin.frames.H_F.position - Vec3(0, 0, -0.127)).norm(), 1e-12);
 
-  write("rig.toml", calibrated);  // of a simulated rig, whose truth is another
+  write("rig.toml", calibrated);  // a simulated rig, whose ground truth differs
   EXPECT_LT((loaded().twin.frames.W_C.position - Vec3(0.0, -0.900, 0.600)).norm(), 1e-12);
   EXPECT_LT((loaded().twin.frames.H_F.rotation - Vec3(0, 0, 0)).norm(), 1e-12);
 }

@@ -1,5 +1,5 @@
-// Bad scenes, rigs, behaviours and responses: one line each, with file, line and column, what was expected
-// and the nearest valid name; and files that are right alone but do not fit together.
+// Bad scenes, rigs, behaviours and responses: one line each, with file, line and column, the expectation and
+// the nearest valid name. Also files that are right alone but do not fit together.
 #include "models/setup/scene_file.h"
 
 #include <filesystem>
@@ -75,11 +75,11 @@ class SceneFile : public ::testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void write(const std::string& name, const std::string& text) const;
 
-  // What load() says, without the folder.
+  // The error message of load(), without the folder.
   [[nodiscard]] std::string said(const std::vector<std::string>& overrides = {},
                                  const std::string& scene = "scenes/ball.toml",
                                  const std::string& rig = "sim") const;
-  // After one replacement in the scene.
+  // The error message after one replacement in the scene.
   [[nodiscard]] std::string scene_said(const std::string& from, const std::string& to) const;
   [[nodiscard]] std::string rig_said(const std::string& from, const std::string& to) const;
 
@@ -132,8 +132,8 @@ std::string SceneFile::rig_said(const std::string& from, const std::string& to) 
   return said();
 }
 
-// ---- Bad scenes, rigs, behaviours and responses: one line each, with file, line and column, what was
-// expected and what to do.
+// ---- Bad scenes, rigs, behaviours and responses: one line each, with file, line and column, the expectation
+// and the remedy.
 
 TEST_F(SceneFile, is_fine_as_it_stands) {
   EXPECT_EQ(said(), "(no error)");
@@ -331,8 +331,8 @@ TEST_F(SceneFile, file_that_cannot_be_read) {
       StartsWith("behaviours.toml:1:1: cannot read this list of behaviours: No such file or directory"));
 }
 
-// ---- Scenes and what they name, each right by itself, that do not fit together; and what --set and the
-// places say.
+// ---- Scenes and the files that they name, each right by itself, that do not fit together. Also messages
+// about --set, and places.
 
 TEST_F(SceneFile, behaviour_that_says_too_little_or_too_much) {
   write("behaviours.toml", replaced(kBehaviours, "response = \"tennis_ball\"\n", ""));
@@ -367,7 +367,7 @@ TEST_F(SceneFile, tips_that_are_none) {
       tip("tip_shape = \"edge\"\ntip_axis = [0.6, 0, 0.6]\ntip_edge_mm = 20"),
       StartsWith("scenes/ball.toml:13:1: 'tip_axis' has length 0.848528; expected length 1; write it like "
                  "'tip_axis = [0.7"));
-  EXPECT_THAT(tip("tip_edge_mm = 20"), HasSubstr("'tip_edge_mm'"));  // a sphere has none
+  EXPECT_THAT(tip("tip_edge_mm = 20"), HasSubstr("'tip_edge_mm'"));  // a sphere has no edge
 }
 
 TEST_F(SceneFile, things_that_do_not_fit_together) {
@@ -430,7 +430,7 @@ TEST_F(SceneFile, overrides) {
               StartsWith("--set behaviour.wall.limit_mm=3: unknown parameter"));
 }
 
-// What core's prepare() throws has stems for keys; the program looks up where they stand.
+// prepare() of core throws errors with stems as keys; the program looks up their places.
 TEST_F(SceneFile, places) {
   const models::Setup s = load(path("scenes/ball.toml"), "sim");
   const auto at = [&](const char* key) { return place_of(s, key).substr(folder_.string().size() + 1); };
@@ -446,7 +446,7 @@ TEST_F(SceneFile, places) {
   EXPECT_EQ(at("nothing"), "scenes/ball.toml:1:1");
 }
 
-// Every committed scene loads. (What needs its measured curve is skipped until that is generated.)
+// Every committed scene loads. (A scene that needs its measured curve is skipped until that is generated.)
 TEST(Scenes, all_load) {
   const std::string models = tests::source_dir() + "/models";
   EXPECT_GE(files_in(models, "scenes").size(), 3U);

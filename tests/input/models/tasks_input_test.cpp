@@ -1,5 +1,5 @@
-// Bad tables of tasks ([pusher], [user.reaches], [user.session]), limits and tools: each is refused in one
-// line that says what is wrong and what to do.
+// Bad tables of tasks ([pusher], [user.reaches], [user.session]), limits and tools: one line refuses each
+// with the mistake and the remedy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// ---- Bad [pusher] tables: one line each, and what is softer than the loop renders is refused unless it is
-// wanted.
+// ---- Bad [pusher] tables: one line each. The program refuses a stiffness below the minimum of the loop
+// unless the user requests it.
 
-// What the scene `stiffness` says with these settings; empty if it can be made ready.
+// The error message of the scene `stiffness` with these settings; empty if prepare() accepts it.
 std::string said_of(const std::vector<std::string>& set, const std::string& scene = "stiffness") {
   return error_of([&] { (void)trial::prepare_setup(models::load(scene_file(scene), "sim", set)); });
 }
@@ -48,7 +48,7 @@ TEST(PusherInput, WhatTheMachineCannotDo) {
   EXPECT_THAT(said_of({"pusher.rest_s=0.1"}), HasSubstr("'rest_s' is 0.1; expected at least"));
 }
 
-// A fake of the rig is pushed by its own world, a machine by whoever is there.
+// The fake's own world pushes a fake rig; a person pushes a real machine.
 TEST(PusherInput, WhoPushesARealSensorIsSaid) {
   const auto notes = [](const char* rig) { return models::load(scene_file("stiffness"), rig).notes; };
   EXPECT_THAT(notes("sim"), ::testing::IsEmpty());
@@ -100,7 +100,7 @@ TEST(ReachesInput, AReachBeginsWhereTheFingerIsAway) {
               AllOf(HasSubstr("'follow.pause_mm', 120 mm"), HasSubstr("raise it")));
 }
 
-// ---- Bad [user.session] tables: one line each, which says what is wrong and what to do.
+// ---- Bad [user.session] tables: one line each, with the mistake and the remedy.
 
 std::string said_session(const std::vector<std::string>& set, const std::string& scene = "session") {
   return error_of([&] { (void)trial::prepare_setup(models::load(scene_file(scene), "sim", set)); });
@@ -158,8 +158,8 @@ TEST(SessionInput, ToolsAndPlaces) {
   EXPECT_THAT(said_session({"user.session.other_tool=stylus"}), HasSubstr("which is held already"));
   EXPECT_THAT(said_session({"user.session.tray_mm=[-80,0,0]"}),
               AllOf(HasSubstr("'tray_mm' is"), HasSubstr("pause_mm")));
-  // By whichever object: the machine follows a tool to the nearest one. And by the second tool's place beside
-  // it.
+  // Any object counts, because the machine follows a tool to the nearest one. So does the second tool's place
+  // beside it.
   EXPECT_THAT(said_session({"user.session.tray_mm=[-150,0,60]"}, "training"),
               AllOf(HasSubstr("'tray_mm' is 68 mm from the surface of 'bone'"), HasSubstr("pause_mm")));
   EXPECT_THAT(said_session({"user.session.tray_mm=[0,-150,0]"}), HasSubstr("the other tool's place"));
@@ -167,7 +167,7 @@ TEST(SessionInput, ToolsAndPlaces) {
   EXPECT_THAT(said_session({"user.session.polar_max_dge=3"}), HasSubstr("polar_max_deg"));
 }
 
-// ---- Bad keys of the scene `synchrony` and of what it uses of rig and truth: one line each, with its place.
+// ---- Bad keys of the scene `synchrony` and of its rig and ground truth: one line each, with its place.
 
 std::string said_synchrony(const std::vector<std::string>& set) {
   try {
@@ -222,9 +222,9 @@ TEST(SynchronyInput, ALimitOfTheRealBallIsRefused) {
       AllOf(HasSubstr("is real"), HasSubstr("limits_mm")));
 }
 
-// ---- Tools of masses that cannot be: refused by name before anything moves.
+// ---- Tools of impossible masses: refused by name before anything moves.
 
-// Of a whole trial, which builds the twin.
+// The error message of a whole trial, which builds the twin.
 std::string said_tool(const std::string& scene, const std::string& rig, const std::vector<std::string>& set) {
   try {
     trial::TrialOptions options;
@@ -236,8 +236,7 @@ std::string said_tool(const std::string& scene, const std::string& rig, const st
   }
 }
 
-// A milligram is the least that a file may say; what the simulated hand cannot hold is refused where it is
-// built.
+// A file may state at least a milligram; the twin refuses a mass that the simulated hand cannot hold.
 TEST(ToolInput, AMassThatIsNoneIsRefused) {
   for (const char* mass : {"0", "-1", "1e-20", "1e-9", "9e-7", "nan", "inf"}) {
     EXPECT_THAT(said_tool("wall", "vishap", {std::string("tool.finger.mass_kg=") + mass}),
@@ -261,8 +260,8 @@ TEST(ToolInput, AToolThatTheHandCannotHoldIsRefusedByName) {
   }
 }
 
-// A tracker cannot tell how a tool is turned about the line that its markers are on. With 0.3 mm noise the
-// first of these is turned by almost anything, the second by 3 deg (rms).
+// A tracker cannot measure the rotation of a tool about the line through its markers. With 0.3 mm noise the
+// first of these tools errs by almost any angle, the second by 3 deg (rms).
 TEST(ToolInput, MarkersThatAreAlmostOnALineAreRefused) {
   const auto said = [](const std::string& markers) {
     return said_tool("tennis_ball", "sim", {"tool.stylus.markers_mm=" + markers});
@@ -274,7 +273,7 @@ TEST(ToolInput, MarkersThatAreAlmostOnALineAreRefused) {
             HasSubstr("move one of 'markers_mm'"), Not(HasSubstr("\n"))));
   EXPECT_THAT(said("[[0, 0, 0], [60, 7, 0], [130, 0, 0]]"), HasSubstr("are on a line, or almost: they are"));
   EXPECT_EQ(said("[[0, 0, 0], [60, 8, 0], [130, 0, 0]]"), "");
-  // Of more markers each may be nearer to the line, and off it in whatever direction.
+  // With more markers each may be nearer to the line, and off it in any direction.
   EXPECT_THAT(said("[[0, 0, 0], [20, 4, 0], [60, 0, 3], [130, 0, 0]]"), HasSubstr("at least 3.00 mm, or"));
   EXPECT_EQ(said("[[0, 0, 0], [20, 6, 0], [60, 0, 6], [130, 0, 0]]"), "");
   EXPECT_THAT(said("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]"), HasSubstr("they are 0.00 mm rms off"));

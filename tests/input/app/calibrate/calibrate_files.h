@@ -1,4 +1,4 @@
-// Logs that tests of `calibrate` write, and what the program says of one that is none.
+// Logs that tests of `calibrate` write, and the program's message about an invalid log.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class CalibrateFiles : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
   }
-  // What one line on stderr says, with exit code 2.
+  // The single line on stderr, with exit code 2.
   static std::string line(const std::vector<std::string>& args) {
     const Result r = run_program(args, kShipped);
     EXPECT_EQ(r.code, 2) << r.out;

@@ -1,5 +1,5 @@
-// `encounter calibrate rig`, `calibrate camera` and `calibrate tracker` as a person uses them: what they find
-// and print, and mistakes, one line each.
+// `encounter calibrate rig`, `calibrate camera` and `calibrate tracker` as a person uses them: results,
+// output, and mistakes, one line each.
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -22,8 +22,8 @@ using test::replaced;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// ---- `encounter calibrate rig` as a person uses it: what it says, the file that it
-// writes and that the rig reads; and mistakes, one line each.
+// ---- `encounter calibrate rig` as a person uses it: its output, the file that it writes and the rig reads;
+// and mistakes, one line each.
 
 class CalibrateRig : public CalibrateFiles {
  protected:
@@ -43,9 +43,9 @@ TEST_F(CalibrateRig, WritesWhatTheRigReads) {
   const std::string file = test::bytes_of(out);
   EXPECT_THAT(file, AllOf(HasSubstr("# 12 poses in "), HasSubstr("\n[of]\nmanipulator = \"sim\"\n"),
                           HasSubstr("[frames.W_C]"), HasSubstr("[frames.H_F]"), HasSubstr("mass_kg = 1.1")));
-  // It is not written over.
+  // The command does not overwrite the file.
   EXPECT_THAT(line({"calibrate", "rig", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
-  // The rig that names it believes it, and says so.
+  // The rig that names the file uses its numbers, and reports them.
   write("rig.toml", replaced(test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml"), "\n[loop]\n",
                              "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
   const std::string scene = tests::source_dir() + "/models/scenes/tracking.toml";
@@ -72,7 +72,7 @@ TEST_F(CalibrateRig, TellsTheSameInJson) {
 
 TEST_F(CalibrateRig, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "rig", "fakes"}), AllOf(HasSubstr("fakes.toml:"), HasSubstr("--armed")));
-  // Nothing is connected to, and nothing would feel what is in the way.
+  // The command connects to no device, and no device would detect an obstacle.
   EXPECT_THAT(line({"calibrate", "rig", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
               AllOf(HasSubstr("--set rig.force.driver=sim: "), HasSubstr("needs a force sensor"),
                     HasSubstr("here it is 'sim'")));
@@ -100,13 +100,12 @@ TEST_F(CalibrateRig, RefusesInALineWhatCannotBe) {
               HasSubstr("the tool was seen in 0 stands"));
 }
 
-// ---- `encounter calibrate camera` as a person uses it: the camera's pose from pairs of points, and from an
-// arm that is driven through its view; and mistakes in points and rigs, one line each.
+// ---- `encounter calibrate camera` as a person uses it. The camera's pose comes from pairs of points, and
+// from an arm that moves through its view. Mistakes in points and rigs, one line each.
 
 class CalibrateCamera : public CalibrateFiles {};
 
-// Five places seen without noise by a camera that is turned by 90 deg about z and stands at (1, 2,
-// 3) m.
+// Five places without noise, from a camera that is turned by 90 deg about z and stands at (1, 2, 3) m.
 const std::string kPointHeader = "camera_x_m,camera_y_m,camera_z_m,device_x_m,device_y_m,device_z_m\n";
 const std::string kPoints =
     "0,0,0,1,2,3\n0.1,0,0,1,2.1,3\n0,0.1,0,0.9,2,3\n0,0,0.1,1,2,3.1\n0.1,0.1,0.1,0.9,2.1,3.1\n";
@@ -215,7 +214,7 @@ TEST_F(CalibrateCamera, OptionsAndInputsOfAnotherSubjectAreRefused) {
 
 class CalibrateTracker : public CalibrateFiles {};
 
-// 20 ms late, there and back along x at two speeds.
+// A log that is 20 ms late, there and back along x at two speeds.
 std::string log_text() {
   const auto tip = [](double t) {
     const double phase = std::fmod(t, 4.0), speed = t < 4.0 ? 20.0 : 40.0;
@@ -256,7 +255,7 @@ TEST_F(CalibrateTracker, ReadsWhatExportWrites) {
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("3001 rows at 1000 Hz"), HasSubstr("x did not move"),
                            HasSubstr("nothing moved to compare them with")));
-  // The bias that was set, within what the interval says (95 %, so twice its half is all but certain).
+  // The injected bias, within the interval (95 %, so twice its half is nearly certain).
   const auto axes =
       nlohmann::json::parse(run_program({"calibrate", "tracker", path("r.csv"), "--json"}).out)["axes"];
   for (const auto& [axis, bias_mm] : {std::pair{"x", 0.2}, {"y", 0.0}, {"z", -0.1}}) {
@@ -266,8 +265,8 @@ TEST_F(CalibrateTracker, ReadsWhatExportWrites) {
   }
 }
 
-// The whole way, of the scene in which the machine carries a tool past the tracker: 3.5 ms of the tracker,
-// half an exposure, 9.2 ms of the server, 0.5 ms of network, half a cycle; injected 5 ms more.
+// The whole delay of the scene in which the machine carries a tool past the tracker: 3.5 ms of the tracker,
+// half an exposure, 9.2 ms of the server, 0.5 ms of network, half a cycle; plus 5 ms injected.
 TEST_F(CalibrateTracker, FindsTheLatencyOfTheTrackingScene) {
   const std::string scene = tests::source_dir() + "/models/scenes/tracking.toml";
   ASSERT_EQ(run_program({"run", scene, "--record", path("t.encrec"), "--set", "travel.dwell_s=0.5", "--set",
@@ -285,7 +284,7 @@ TEST_F(CalibrateTracker, FindsTheLatencyOfTheTrackingScene) {
 TEST_F(CalibrateTracker, RefusesBadLogsInOneLine) {
   const std::string good = log_text();
   const std::string head = good.substr(0, good.find('\n') + 1);
-  const auto at = [&](int row) {  // where a row begins
+  const auto at = [&](int row) {  // the beginning of a row
     std::size_t place = 0;
     for (int i = 0; i <= row; ++i) place = good.find('\n', place) + 1;
     return place;
@@ -322,7 +321,7 @@ TEST_F(CalibrateTracker, RefusesBadLogsInOneLine) {
   EXPECT_THAT(line({"calibrate", "tracker", path("l.csv"), "--rate-Hz", "-1"}), HasSubstr("--rate-Hz"));
 }
 
-// A person presses a ball: the tip follows the tool, and is no reference for it.
+// A person presses a ball: the tip follows the tool, so it is no reference for the tool.
 TEST_F(CalibrateTracker, AToolThatGoesItsOwnWayTellsNothing) {
   const std::string scene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
   ASSERT_EQ(run_program({"run", scene, "--for-s", "40", "--record", path("p.encrec")}, kShipped).code, 0);
@@ -330,7 +329,7 @@ TEST_F(CalibrateTracker, AToolThatGoesItsOwnWayTellsNothing) {
   EXPECT_THAT(line({"calibrate", "tracker", path("p.csv")}), HasSubstr("of the tool's motion"));
 }
 
-// Rows of 1 kHz, a packet each 10 ms, 8 s; mm.
+// Rows at 1 kHz, a packet every 10 ms, 8 s; mm.
 template <class Tip, class Tool>
 std::string made_log(Tip tip, Tool tool) {
   std::string text = "time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm\n";
@@ -343,7 +342,7 @@ std::string made_log(Tip tip, Tool tool) {
 }
 double swing(double t) { return std::fmod(t, 4.0) < 2.0 ? 0.0 : 20.0 * std::sin(M_PI * t); }
 
-// A machine that stands still carries no tool that moves.
+// A machine at standstill carries no tool that moves.
 TEST_F(CalibrateTracker, AToolThatMovesAlongAStillTipTellsNothing) {
   const auto step = [](double t, double noise) {
     return fmt::format("23,{:.4f},{:.4f}", (t > 4.0 ? 5.0 : 0.0) + noise, noise);
@@ -394,7 +393,7 @@ TEST_F(CalibrateTracker, OptionsAndTablesOfAnotherSubjectAreRefused) {
                     HasSubstr("run: encounter calibrate tip " + poses)));
 }
 
-// The tool's places in another order: no age fits, whatever is found.
+// Shuffled places of the tool: no age fits, whatever the search returns.
 TEST_F(CalibrateTracker, ShuffledRowsTellNothing) {
   std::istringstream rows(log_text());
   std::string header, text;
@@ -405,7 +404,7 @@ TEST_F(CalibrateTracker, ShuffledRowsTellNothing) {
     left.push_back(row.substr(0, cut));
     right.push_back(row.substr(cut));
   }
-  for (std::size_t i = 0; i < left.size(); ++i)  // 377 is prime to 800: each packet once
+  for (std::size_t i = 0; i < left.size(); ++i)  // 377 is coprime to 800: each packet once
     text += left[i] + right[i % 10 == 0 ? 10 * (i / 10 * 377 % 800) : i] + "\n";
   EXPECT_THAT(line({"calibrate", "tracker", write("s.csv", header + "\n" + text)}),
               HasSubstr("of the tool's motion"));

@@ -1,5 +1,5 @@
-// `encounter calibrate tip POSES.csv` as a person uses it, and the form `calibrate WHAT` that the commands
-// had before.
+// `encounter calibrate tip POSES.csv` as a person uses it, and the earlier form `calibrate WHAT` of the
+// commands.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,7 @@ using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-// ---- `encounter calibrate tip POSES.csv` as a person uses it: a tool that is swung about its tip; and
+// ---- `encounter calibrate tip POSES.csv` as a person uses it: a person swings the tool about its tip; and
 // mistakes in its log, one line each.
 
 class CalibrateTip : public CalibrateFiles {};
@@ -35,7 +35,8 @@ class CalibrateTip : public CalibrateFiles {};
 const std::string kHead = "time_s,tool,tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw\n";
 const Vec3 kTip(3, -2, -120), kDimple(100, -900, 600);  // in T and in C, mm
 
-// 10 s at 50 Hz of a pen whose tip is at [3, -2, -120] mm, turned by these angles, deg. What it slips by: mm.
+// 10 s at 50 Hz of a pen with its tip at [3, -2, -120] mm, turned by these angles in deg; the tip slips in
+// mm.
 std::string rows(
     const std::function<Vec3(double)>& angles,
     const std::function<double(double)>& slip = [](double) { return 0.0; }) {
@@ -89,7 +90,7 @@ TEST_F(CalibrateTip, ASlipIsLeftOutAndCounted) {
                            testing::ContainsRegex("medians of 0.25 s wander by up to [78]\\.")));
 }
 
-// The second axis is turned about with the tip out of its dimple, in 17 % of the log.
+// During the turn about the second axis, 17 % of the log, the tip is out of its dimple.
 TEST_F(CalibrateTip, TheSwingOfWhatIsLeftIsChecked) {
   const auto out = [](double t) { return t > 8.29; };
   const std::string log = write("o.csv", kHead + rows(
@@ -124,7 +125,7 @@ TEST_F(CalibrateTip, SaysThatTheToolRested) {
                              "of 9.98 s; expected at least 4 s; swing it"));
 }
 
-// What a terminal obeys is not printed, and what is no text has no name.
+// The program prints no terminal commands, and a name must be text.
 TEST_F(CalibrateTip, AToolsNameIsTextAndNothingElse) {
   const auto named = [&](const std::string& name) {
     std::string text = kHead + rows(about_two_axes);
@@ -168,7 +169,7 @@ TEST_F(CalibrateTip, DoubtsMetresInColumnsOfMillimetres) {
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("if the log is in metres"));
 }
 
-// Each row of the log with other numbers: its time, place (mm) and rotation.
+// Rewrites each row of the log: its time, place (mm) and rotation.
 std::string reread(const std::function<void(double& time, Vec3& place, Quat& turn)>& change) {
   std::istringstream in(rows(about_two_axes));
   std::string text = kHead;
@@ -186,7 +187,7 @@ std::string reread(const std::function<void(double& time, Vec3& place, Quat& tur
   return text;
 }
 
-// Poses of the tracker in the tool leave no residual: the tip and its dimple change places.
+// Inverted poses, of the tracker in the tool, leave no residual: the tip and its dimple change places.
 TEST_F(CalibrateTip, RefusesInvertedPoses) {
   const std::string log = write("i.csv", reread([](double&, Vec3& place, Quat& turn) {
                                   turn = turn.conjugate();
@@ -199,7 +200,8 @@ TEST_F(CalibrateTip, RefusesInvertedPoses) {
                              "\\[3.0, -2.0, -120.0\\] mm; expected poses of the markers"));
 }
 
-// A tip farther from the markers than the dimple from the tracker may be so: told, and not refused.
+// A tip can be farther from the markers than the dimple from the tracker: the command warns and does not
+// refuse.
 TEST_F(CalibrateTip, DoubtsALongToolNearItsTracker) {
   const std::string log = write("n.csv", reread([](double&, Vec3& place, Quat& turn) {
                                   place += turn * Vec3(0, 0, 280) - kDimple + Vec3(0, 0, 150);
@@ -213,7 +215,7 @@ TEST_F(CalibrateTip, DoubtsALongToolNearItsTracker) {
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("are these poses inverted?"));
 }
 
-// The tracker is moved and turned at 6 s.
+// The tracker moves and turns at 6 s.
 TEST_F(CalibrateTip, TellsWhenTheFrameMoved) {
   const Quat turned = rotation_xyz(M_PI / 180.0 * Vec3(0, 0, 5));
   const std::string log = write("f.csv", reread([&](double& time, Vec3& place, Quat& turn) {
@@ -257,7 +259,7 @@ TEST_F(CalibrateTip, ATimeInAnotherUnitIsAskedFor) {
   EXPECT_THAT(in_unit(50), HasSubstr("rows are 1 s apart: frame numbers?"));
 }
 
-// A quaternion that is read otherwise than it was written leaves a residual; one that fits is told.
+// A misread quaternion leaves a residual; the message names the convention that fits.
 TEST_F(CalibrateTip, TellsWhichQuaternionWouldFit) {
   const auto written = [&](const std::function<Quat(const Quat&)>& as) {
     return line(
@@ -340,7 +342,7 @@ TEST_F(CalibrateTip, OptionsAndTablesOfAnotherSubjectAreRefused) {
               AllOf(HasSubstr("tool_qx"), HasSubstr("Example: encounter calibrate tip ")));
 }
 
-// A table that has the machine's tip, too, is a tracker's log to the other command.
+// The command for trackers takes a table that also has the machine's tip as its log.
 TEST_F(CalibrateTip, ATableWithTipAndMarkersIsAskedForItsPoses) {
   const std::string head = replaced(kHead, "tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw",
                                     "markers_x_mm,markers_y_mm,markers_z_mm,markers_qx,markers_qy,markers_qz,"
@@ -355,10 +357,10 @@ TEST_F(CalibrateTip, ATableWithTipAndMarkersIsAskedForItsPoses) {
   EXPECT_THAT(line({"calibrate", "tracker", log}), HasSubstr("b.csv:"));
 }
 
-// What a record of the laboratory holds: C is turned in W, and the tip is at [0, 0, -120] mm in T. A tool
-// that stands upright has the mean of its markers, [8.75, 2.75, 3] mm in T, above its tip.
+// Content of a record of the laboratory: C is turned in W, and the tip is at [0, 0, -120] mm in T. An upright
+// tool has the mean of its markers, [8.75, 2.75, 3] mm in T, above its tip.
 TEST_F(CalibrateTip, ReadsWhatExportWrites) {
-  const Quat turn = rotation_xyz(M_PI / 180.0 * Vec3(20, -30, 50));  // of C in W, unlike its inverse
+  const Quat turn = rotation_xyz(M_PI / 180.0 * Vec3(20, -30, 50));  // C in W, unlike its inverse
   const std::string set = "frames.W_C.rotation_deg=[20, -30, 50]";
   ASSERT_EQ(run_program(
                 {"run", shipped_scene("clamped_tool"), "--for-s", "5", "--record", path("r.encrec"), "--set",
@@ -367,7 +369,7 @@ TEST_F(CalibrateTip, ReadsWhatExportWrites) {
                 .code,
             0);
   ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
-  const Quat upright = turn.conjugate() * rotation_z_to(Vec3(8.75, 2.75, 123)).conjugate();  // of T in C
+  const Quat upright = turn.conjugate() * rotation_z_to(Vec3(8.75, 2.75, 123)).conjugate();  // T in C
   std::ifstream in(path("r.csv"));
   int seen = 0;
   for (std::string row; std::getline(in, row);) {
@@ -390,8 +392,8 @@ TEST_F(CalibrateTip, ReadsWhatExportWrites) {
   EXPECT_THAT(line({"calibrate", "tip", path("r.csv")}), HasSubstr("r.csv:1:1: the tool hardly turned"));
 }
 
-// ---- `calibrate WHAT`, as it was before each subject had its command: one line that names the new command,
-// with the same arguments; and words that are no subject.
+// ---- `calibrate WHAT`, the form before each subject had its command: one line names the new command with
+// equal arguments. Also words that are no subject.
 
 using Words = std::vector<std::string>;
 
@@ -451,7 +453,7 @@ TEST_F(CalibrateOldForm, AFolderIsAStereoHeadOrHands) {
   EXPECT_EQ(named({"--skin=masks", folder}), "skin " + folder + " --masks=masks");
 }
 
-// Its ending and its options tell what it was.
+// The name's ending and the options show what the file was.
 TEST_F(CalibrateOldForm, WhatIsNotThereIsNamed) {
   EXPECT_EQ(named({path("none.csv")}), "tracker " + path("none.csv"));
   EXPECT_EQ(named({path("none.toml")}), "rig " + path("none.toml"));

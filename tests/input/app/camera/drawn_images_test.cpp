@@ -1,4 +1,4 @@
-// Images that the twin draws: `encounter calibrate camera RIG --through-images`, and the same bits with any
+// Images that the twin draws: `encounter calibrate camera RIG --through-images`, and equal bits with any
 // number of threads.
 #include <algorithm>
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// ---- `encounter calibrate camera RIG --through-images` as a person uses it, and what it refuses.
+// ---- `encounter calibrate camera RIG --through-images` as a person uses it, and its refusals.
 
 std::vector<std::string> words(const std::vector<std::string>& more) {
   std::vector<std::string> all{"calibrate", "camera", "vishap", "--through-images"};
@@ -30,7 +30,7 @@ std::vector<std::string> words(const std::vector<std::string>& more) {
   return all;
 }
 
-// What one line on stderr says, with exit code 2.
+// The single line on stderr, with exit code 2.
 std::string line(const std::vector<std::string>& args) {
   const Result r = run_program(args, kShipped);
   EXPECT_EQ(r.code, 2) << r.out;
@@ -75,7 +75,7 @@ TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
               HasSubstr("--through-images is of a rig"));
 }
 
-// The program looks for its own modules beside itself: here it has only that of fits.
+// The program looks for its own modules beside itself: here it has only the module of fits.
 TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
   namespace fs = std::filesystem;
   test::TemporaryFolder temporary;
@@ -92,11 +92,12 @@ TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
                            HasSubstr("'./encounter calibrate camera RIG --through-images' builds it")));
 }
 
-// ---- With how many threads the twin's images are drawn is nobody's business: the bits are the same.
+// ---- The number of threads that draw the twin's images does not matter: the bits are equal.
 
 const std::string kFolder = tests::source_dir() + "/models";
 
-// A finger that comes, is seen from 0.9 s on, and touches at 1.4 s; images of a quarter of the pixels.
+// A finger that approaches, is visible from 0.9 s on, and touches at 1.4 s; images with a quarter of the
+// pixels.
 const std::vector<std::string> kPress{"run",
                                       kFolder + "/scenes/camera/wall.toml",
                                       "--json",
@@ -111,8 +112,8 @@ struct Drawn {
   std::map<std::string, std::string> images;  // by name
 };
 
-// Mesa asks for the number once, when OpenGL starts; so each is a process. Of the drivers llvmpipe has
-// threads.
+// Mesa reads the number once, when OpenGL starts; so each number needs a process. Only the driver llvmpipe
+// has threads.
 Drawn drawn_by(const std::string& threads) {
   const test::TemporaryFolder folder;
   const std::filesystem::path frames = folder.path() / "frames";

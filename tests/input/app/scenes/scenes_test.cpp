@@ -25,16 +25,16 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// ---- Every shipped scene ends with exit code 0, whichever hand is drawn, or its file says why not. Those
-// here ended in a limit or a hold once: a tray that the machine followed the tool to, a bound that knew
-// nothing of the drawn reach.
+// ---- Every shipped scene ends with exit code 0 for every simulated hand, or its file gives the reason.
+// Scenes listed here once ended in a limit or a hold. In one the machine followed the tool to a tray, in
+// another a bound ignored the drawn reach.
 
 Result run_seed(const std::string& scene, int seed) {
   return run_program(
       {"run", source_dir() + "/models/scenes/" + scene + ".toml", "--seed", std::to_string(seed)});
 }
 
-// What a scene file says of a seed: "# Expected: seed 20 ends with exit code 1." and why.
+// The expected exit code from the scene file: "# Expected: seed 20 ends with exit code 1." and the reason.
 int expected_code(const std::string& scene, int seed) {
   std::ifstream in(source_dir() + "/models/scenes/" + scene + ".toml");
   const std::regex says("# Expected: seed ([0-9]+) ends with exit code ([0-9])\\..+");
@@ -64,12 +64,12 @@ TEST(ShippedScenesLong, EndWellWithSeeds1To20) {
     for (int seed = 1; seed <= 20; ++seed) expect_well(scene, seed);
 }
 
-// ---- A newcomer's way: the shipped scenes by name, the first scene of their own, a behaviour of their own
-// in it.
+// ---- The first steps of a newcomer: the shipped scenes by name, a first scene of their own, and a behaviour
+// of their own in it.
 
 using Json = nlohmann::json;
 
-// The scene that the guide shows, as a reader copies it.
+// The scene from the guide, as a reader copies it.
 std::string scene_of_guide() {
   const std::string page = test::bytes_of(source_dir() + "/docs/guide/scene.md");
   const std::string begin = "```toml\n";
@@ -101,7 +101,7 @@ TEST_F(OwnScene, MayHaveABehaviourOfItsOwn) {
   EXPECT_DOUBLE_EQ(setup.scene.behaviours[0].stiffness, 800.0);
   EXPECT_DOUBLE_EQ(setup.scene.behaviours[0].curves.press[0], 800.0);
   EXPECT_EQ(run_program({"run", plane(), "--for-s", "0.1"}).code, 0);
-  // The same numbers may be set, and stand alone with the scene.
+  // The scene's numbers can be set by --set, and also stand alone with the scene.
   EXPECT_DOUBLE_EQ(
       models::load(plane(), "", {"behaviour.sponge.stiffness_N_per_mm=1"}).scene.behaviours[0].stiffness,
       1000.0);
@@ -140,7 +140,7 @@ TEST_F(OwnScene, ABehaviourWithAMistakeIsNamedWithItsPlace) {
               StartsWith(plane() + ":" + line_and_column(test::bytes_of(plane()), "-0.8") + ": "));
 }
 
-// A scene names no file outside of models/, and reading a list of scenes waits for nothing.
+// A scene names no file outside models/, and reading a list of scenes waits for no device.
 TEST_F(OwnScene, NamesNoFileByItsPath) {
   edit("models/scenes/plane.toml", "behaviour = \"wall\"", "behaviour = \"sponge\"");
   edit("models/scenes/plane.toml", "[[object]]",
@@ -177,7 +177,7 @@ TEST_F(OwnScene, AShippedSceneIsFoundByItsName) {
     EXPECT_THAT(by_name.out, HasSubstr("models/scenes/" + std::string(name) + ".toml"));
   }
   EXPECT_EQ(run_program({"check", "camera/wall"}).code, 0);
-  // A file of that name, here, comes first.
+  // A local file of that name takes precedence.
   EXPECT_EQ(models::scene_file_of(plane()), plane());
   EXPECT_EQ(models::scene_file_of("plane"), plane());
   EXPECT_EQ(models::scene_file_of("plane.toml"), "plane.toml");

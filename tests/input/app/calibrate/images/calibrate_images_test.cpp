@@ -27,11 +27,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // ---- `encounter calibrate stereo` as a person uses it: drawn pairs of a board in, a head out; and one line
-// for every folder that is none.
+// for every unusable folder.
 
 const Board kBoard{9, 6, 0.024};
 
-// Drawn once for all tests, which copy them.
+// Drawn once; all tests copy them.
 const std::vector<test::DrawnPair>& drawn_pairs() {
   static const std::vector<test::DrawnPair> kPairs = [] {
     std::vector<test::DrawnPair> pairs;
@@ -60,14 +60,14 @@ class CalibrateStereo : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words, {});
   }
-  // What a search says with exit code 2, behind lines on how far it is.
+  // The message of a search that ends with exit code 2, behind lines on its progress.
   [[nodiscard]] std::string refusal(const std::vector<std::string>& more) const {
     const Result r = calibrate(more);
     EXPECT_EQ(r.code, 2) << r.out;
     EXPECT_EQ(r.out, "");
     return r.err;
   }
-  // What one line on stderr says, with exit code 2.
+  // The single line on stderr, with exit code 2.
   [[nodiscard]] std::string line(const std::vector<std::string>& more = {}) const {
     return one_line(calibrate(more));
   }
@@ -88,13 +88,13 @@ TEST_F(CalibrateStereo, FindsTheHeadAndWritesWhatARigReads) {
               testing::ContainsRegex("^# Encounter [0-9.]+: ./encounter calibrate stereo " + folder_ +
                                      " --square-mm 24 --corners 9x6\nformat = 1\n"));
   const StereoRig found = models::load_stereo(out), is = test::known_head(320, 240);
-  // Drawn corners are found to 0.1 px, by which a board a third of the image wide tells lengths to 1 %.
+  // The search finds drawn corners to 0.1 px, so a board a third of the image wide determines lengths to 1 %.
   EXPECT_NEAR(found.left.focal_x, is.left.focal_x, 0.01 * is.left.focal_x);
   EXPECT_NEAR(found.X_CD.p().norm(), is.X_CD.p().norm(), 0.01 * is.X_CD.p().norm());
   Image image;
   images::read_image(picture, image);
   EXPECT_EQ(image.width, 640);
-  // And once more: nothing is written over, and the same images give the same file.
+  // A second call overwrites nothing, and the same images give the same file.
   EXPECT_THAT(line({"--out", out}), HasSubstr("is there already"));
   const std::string text = test::bytes_of(out);
   EXPECT_EQ(calibrate({"--out", out, "--force"}).code, 0);
@@ -130,7 +130,7 @@ TEST_F(CalibrateStereo, FilesThatAPersonCannotMeanAreRefused) {
   EXPECT_FALSE(fs::exists(out) || fs::exists(file("rows.png")));
 }
 
-// What would move the cursor of a terminal, or change its colours, is not printed.
+// The program does not print characters that would move a terminal's cursor or change its colours.
 TEST_F(CalibrateStereo, NamesArePrintedWithoutControlCharacters) {
   put_all();
   fs::rename(file("left2.png"), file("left2\033[31m.png"));
@@ -183,7 +183,7 @@ TEST_F(CalibrateStereo, BoardsThatAreNotThereAreNamed) {
   EXPECT_THAT(line({"--corners", "seven"}), HasSubstr("such as 9x6"));
 }
 
-// Whoever counts squares, or one corner too few, is told the number of corners.
+// The message gives the number of corners to a person who counts squares, or one corner too few.
 TEST_F(CalibrateStereo, ABoardOfAnotherSizeIsNamed) {
   put_all();
   for (const char* corners : {"10x7", "8x6", "7x7"})
@@ -214,7 +214,7 @@ TEST_F(CalibrateStereo, TwoPairsWithoutABoardDoNotEndTheSearch) {
   EXPECT_THAT(r.out, HasSubstr("6 pairs of 320 x 240 px"));
 }
 
-// Images of one camera, whose names say no side, would be cut through the board.
+// Images of one camera, whose names give no side, would be cut through the board.
 TEST_F(CalibrateStereo, OneCameraIsNotReadAsTwoHalves) {
   for (std::size_t i = 0; i < drawn_pairs().size(); ++i)
     put(std::to_string(i) + ".png", drawn_pairs()[i].left);
@@ -222,7 +222,7 @@ TEST_F(CalibrateStereo, OneCameraIsNotReadAsTwoHalves) {
                                  HasSubstr("expected images of two cameras")));
 }
 
-// Nothing is called good, and no file is written, where the lens is not of the model.
+// The command accepts no result and writes no file if the lens does not fit the model.
 TEST_F(CalibrateStereo, AFisheyeEndsWithExitCode1AndNoFile) {
   StereoRig head = test::known_head(480, 360);
   for (Lens* lens : {&head.left, &head.right}) lens->focal_x *= 0.6, lens->focal_y *= 0.6;
@@ -244,7 +244,7 @@ TEST_F(CalibrateStereo, AFisheyeEndsWithExitCode1AndNoFile) {
   EXPECT_FALSE(fs::exists(out));
 }
 
-// A pair that a longer baseline has taken keeps its rows: its squares alone say so.
+// A pair that a longer baseline has taken keeps its rows: only its squares reveal it.
 TEST_F(CalibrateStereo, SquaresThatErrAreNoted) {
   put_all();
   StereoRig longer = test::known_head(320, 240);
@@ -268,20 +268,20 @@ TEST_F(CalibrateStereo, OptionsOfAnotherSubjectAreRefused) {
   for (const char* option : {"--frames=3", "--masks=m", "--seed=1", "--rate-Hz=100", "--set=a=1", "--skin=m"})
     EXPECT_THAT(line({option}), HasSubstr("not expected: " + std::string(option)));
   EXPECT_THAT(run_program({"calibrate", "stereo", folder_}, {}).err,
-              HasSubstr("has no images"));  // before all else
+              HasSubstr("has no images"));  // before every other check
   put_all();
   const Result none = run_program({"calibrate", "stereo", folder_}, {});
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, HasSubstr("--square-mm 25"));
 }
 
-// ---- `encounter calibrate skin` as a person uses it: skin drawn with a known hue and spread in,
-// the lines of a rig out; and one line for every folder that is none.
+// ---- `encounter calibrate skin` as a person uses it: skin drawn with a known hue and spread in, the lines
+// of a rig out; and one line for every unusable folder.
 
 constexpr int kWidth = 240, kHeight = 160;
-constexpr std::uint32_t kSeed = 41'000;  // of no benchmark and of no other test
+constexpr std::uint32_t kSeed = 41'000;  // differs from those of all benchmarks and other tests
 
-// A bright colour of this hue, saturated by half as skin is.
+// A bright colour of this hue, half saturated like skin.
 void paint(std::uint8_t* rgb, double degrees) {
   for (int c = 0; c < 3; ++c) {
     const double away = std::abs(std::remainder(degrees - 120.0 * c, 360.0)) / 60.0;
@@ -334,7 +334,7 @@ class CalibrateSkin : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words, {});
   }
-  // What one line on stderr says, with exit code 2.
+  // The single line on stderr, with exit code 2.
   [[nodiscard]] std::string line(const std::vector<std::string>& more = {}) const {
     return one_line(calibrate(more));
   }
@@ -342,7 +342,7 @@ class CalibrateSkin : public testing::Test {
   std::string images_ = temporary_.file("images"), masks_ = temporary_.file("masks");
 };
 
-// The mean of 1 % where it is no 0; 88,000 pixels tell the spread to 0.24 %.
+// The mean deviates by 1 % where it is not 0; 88,000 pixels determine the spread to 0.24 %.
 TEST_F(CalibrateSkin, IsWhatItWasDrawnWith) {
   for (const auto& [hue, spread] : {std::pair{17.0, 4.0}, {1.0, 6.0}, {358.0, 3.0}, {28.0, 2.0}}) {
     put_all(hue, spread);
@@ -359,7 +359,7 @@ TEST_F(CalibrateSkin, IsWhatItWasDrawnWith) {
               pixels["learned"].get<int>() + pixels["grey"].get<int>() + pixels["dark"].get<int>());
     EXPECT_EQ(pixels["grey"], pixels["dark"]);  // a column each
     EXPECT_GT(pixels["grey"], 4 * 100);
-    // Of a Gaussian 98.76 % lie within 2.5 spreads; the wall is far away.
+    // 98.76 % of a Gaussian lie within 2.5 spreads; the wall is far away.
     const nlohmann::json& usual = found["roc"][2];
     EXPECT_EQ(usual["skin_sigmas"], 2.5);
     const double share = pixels["learned"].get<double>() / pixels["hand"].get<double>();
@@ -381,7 +381,7 @@ TEST_F(CalibrateSkin, WritesWhatARigReads) {
   EXPECT_THAT(test::bytes_of(out),
               testing::ContainsRegex("^# Encounter [0-9.]+: ./encounter calibrate skin " + images_ +
                                      " --masks " + masks_ + "\n"));
-  // In the place of the rig's own table.
+  // The lines replace the rig's own table.
   const std::string models = tests::source_dir() + "/models", table = test::bytes_of(out);
   std::string rig = test::bytes_of(models + "/rigs/vishap.toml");
   const std::size_t from = rig.find("[vision]"), to = rig.find("\n[", from);
