@@ -1,6 +1,5 @@
-// What tests know of where they run: what this build made, the project's folder, how thorough they are.
-// Functions and not macros, so that the tests are the same text in every preset and a compiler cache knows
-// them again.
+// Where the tests run: the parts of this build, the project's folder, how thorough to be. Functions instead
+// of macros keep the tests' text equal in every preset, so that a compiler cache recognises them.
 #pragma once
 
 #include <string>

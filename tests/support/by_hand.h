@@ -1,5 +1,4 @@
-// step() driven by hand: ways into each mode on a ball, an arm's loop under a finger, and nonsense in the
-// inputs.
+// step() driven by hand: ways into each mode on a ball, an arm's loop under a finger, and invalid inputs.
 #pragma once
 
 #include <array>
@@ -30,16 +29,16 @@ inline constexpr double kTipRadius = 0.005;  // m, RigSpec
 [[nodiscard]] Loop make(const SceneSpec& spec, const RigSpec& rig = exact_rig());
 [[nodiscard]] SceneSpec with_display();
 
-// Tool above the top with its surface `gap` over it, tared, and the tip waiting under it.
+// Puts the tool above the top with its surface `gap` over it, after the tare, with the tip waiting under it.
 void wait_under(Loop& loop, double gap = 0.010);
 // The tool presses with 4.05 N.
 void to_contact(Loop& loop);
-// A drawn surface, 20 ms old.
+// A drawn surface that is 20 ms old.
 void draw(Inputs& in, const Loop& loop);
 
 void expect_within_limits(const Loop& loop);
 
-// An arm's loop under a finger, as tests of its stages use it: the core alone, finger and arm are where a
+// An arm's loop under a finger, as tests of its stages use it: the core alone, with finger and arm where the
 // test puts them.
 inline Scene finger_scene(const std::string& name, const std::vector<std::string>& more = {}) {
   std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
@@ -48,8 +47,8 @@ inline Scene finger_scene(const std::string& name, const std::vector<std::string
       models::load(fmt::format("{}/models/scenes/{}.toml", tests::source_dir(), name), "", set));
 }
 
-// A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,
-// too, if it is pressed.
+// A finger of 8 mm radius; `depth` is the depth of its lowest point under z = 0, negative for a gap. The tip
+// follows it if it is pressed.
 struct FingerBench {
   explicit FingerBench(const std::string& name, const std::vector<std::string>& more = {})
       : loop(finger_scene(name, more)) {}
@@ -57,7 +56,7 @@ struct FingerBench {
     for (int i = 0; i < ticks; ++i) loop.tick(Point<'W'>(x, 0.0, 0.008 - depth));
     return loop.out;
   }
-  // The tip `depth` under the surface, where a finger has pressed it.
+  // Puts the tip `depth` under the surface, where a finger has pressed it.
   void press_tip(double depth) { put_tip({0, 0, -depth}); }
   void put_tip(const Point<'W'>& at) {
     const Impedance& law = *loop.scene.impedance();
@@ -65,14 +64,13 @@ struct FingerBench {
     ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * at, arm.joints));
     arm.tip = law.arm.tip(arm.joints);
   }
-  // What is pushed with beyond gravity, N along z of W.
+  // Pushing force beyond gravity, N along z of W.
   [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
   trial::FingerLoop loop;
 };
 
-// Puts nonsense in one number of the inputs. A visitor of fields(): spoils the `wanted`-th, -1: none, and
-// counts them. What is withheld or resumed is no
-// sample of a device.
+// Puts an invalid value into one number of the inputs. A visitor of fields(): spoils the `wanted`-th (-1: no
+// number), and counts them. `withheld` and `resumed` are skipped, because they come from no device.
 struct SpoilOne {
   std::mt19937_64& random;
   int wanted;

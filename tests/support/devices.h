@@ -1,5 +1,5 @@
-// For tests of drivers: an offer whose settings keep their defaults, a machine that follows at once, a fake
-// that a thread serves.
+// Tools for tests of drivers: an offer whose settings keep their defaults, a machine that follows at once, a
+// fake in a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace enc::test {
 
-// What a driver is offered where there is no rig file: every key of its table keeps its default.
+// The offer to a driver without a rig file: every key of its table keeps its default.
 struct DefaultOffer {
   struct Defaults : Settings {
     void value(const Setting&, double&) override {}
@@ -34,7 +34,7 @@ struct DefaultOffer {
   Silent log;
 };
 
-// The simplest machine that may stand behind a fake controller: it is at once where it is told to be.
+// The simplest machine behind a fake controller: it reaches each command at once.
 struct FollowingMachine final : Manipulator {
   [[nodiscard]] Reach reach() const override { return can; }
   Stamped<TipSample> read(Time now) noexcept override {
@@ -47,7 +47,7 @@ struct FollowingMachine final : Manipulator {
   Pose<'R', 'H'> pose = can.machine.zero();
 };
 
-// A fake that a thread serves on the wall clock, as `encounter fake` does.
+// Serves a fake in a thread in wall time, as `encounter fake` does.
 class Served {
  public:
   explicit Served(Fake& fake) : fake_(fake) {}

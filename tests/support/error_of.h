@@ -10,7 +10,7 @@
 
 namespace enc::test {
 
-// Empty: the call throws none. With `kind` it expects an Error of that kind.
+// Empty if the call throws no Error. With `kind` it expects an Error of that kind.
 template <class Call>
 std::string error_of(const Call& call, std::optional<ErrorKind> kind = {}) {
   try {

@@ -1,5 +1,4 @@
-// What a test reads and changes around itself: files and their text, a folder of its own, an environment
-// variable.
+// Files and environment of a test: files and their text, a folder of its own, an environment variable.
 #pragma once
 
 #include <cstdlib>
@@ -18,19 +17,19 @@ namespace enc::test {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// How a test breaks a file: the first `from` in the text becomes `to`; it must be there, or the test fails.
+// Breaks a file for a test: replaces the first `from` in the text by `to`; the test fails if it is missing.
 [[nodiscard]] inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("not in the text: " + from);
   return text.replace(at, from.size(), to);
 }
 
-// A folder of a test's own; the destructor removes it.
+// A folder for one test; the destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "encounter_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();  // no test can go on without
+    if (mkdtemp(name.data()) == nullptr) std::abort();  // no test can continue without it
     path_ = name;
   }
   ~TemporaryFolder() {

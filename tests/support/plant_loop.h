@@ -1,5 +1,5 @@
-// Loops and pushes of the plant formula alone, without a rig around it: what a press would read on an ideal
-// machine. For tests and benchmarks, and for balls that no rig has pressed yet.
+// Loops and pushes of the plant formula alone, without a rig: the readings of a press on an ideal machine.
+// For tests and benchmarks, and for balls that no rig has pressed yet.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,30 @@ namespace enc::test {
 [[nodiscard]] std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, double speed,
                                                         double limit);
 
-// The same five times over, with the force sensor's noise (0.0125 N rms) and steps (0.025 N), as a file for
-// `encounter fit`. Says in its first line that it is synthetic.
+// Five such presses, with the force sensor's noise (0.0125 N rms) and steps (0.025 N), as a file for
+// `encounter fit`. Its first line says that it is synthetic.
 [[nodiscard]] std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double limit);
 
-// A rig that presses an object of one law at constant speeds, as a file for `encounter fit`.
+// A rig that presses an object of one law at constant speeds; its loop is a file for `encounter fit`.
 struct LawLoop {
   double in_mm_s = 4.0, out_mm_s = 4.0;
   double hold_s = 0.0;
   double relaxes = 0.0;  // share of the force, within a few seconds of the hold
   double rate_Hz = 1000.0;
   double deflection_noise_mm = 0.003, force_noise_N = 0.02;  // rms
-  double zero_N = 0.0, zero_drift_N = 0.0;  // of the force: of all presses, and more from one to the next
-  double begin_mm = 0.0;                    // deflection_mm where contact begins
-  double clear_mm = 2.0;                    // starts and ends so far outside
-  double overshoot_mm = 0.0;                // deeper than the hold, for a tenth of a second
+  // Zero of the force: of all presses, and its drift between presses
+  double zero_N = 0.0, zero_drift_N = 0.0;
+  double begin_mm = 0.0;      // deflection_mm where contact begins
+  double clear_mm = 2.0;      // starts and ends this far outside
+  double overshoot_mm = 0.0;  // beyond the hold, for a tenth of a second
   int repeats = 5;
-  bool marks_all = false;  // `repeat` stands in rows outside of contact, too
+  bool marks_all = false;  // rows outside contact have a `repeat`, too
 };
 // N at a deflection in mm: 11.88 N pressing and 8.71 N releasing at 6 mm.
 [[nodiscard]] double law_force(double deflection_mm, bool pressing);
 [[nodiscard]] std::string law_loop_csv(const LawLoop& loop, std::uint64_t seed);
 
-// Pushes of the plant formula alone with times and a dwell, for tests of what is identified from them.
+// Pushes of the plant formula alone with times and a dwell, for tests of identification.
 struct PushProgramme {
   double speed = 20e-3;  // m/s
   double depth = 6e-3;   // m
@@ -46,13 +47,14 @@ struct PushProgramme {
   double rest = 2.0;     // s, clear of the ball
   int repeats = 2;
   double period = 1e-3;  // s
-  double nearer = 0.0;   // m: the ball stands so much nearer than the deflection says
+  double nearer = 0.0;   // m: the ball stands nearer than the deflection says
 };
 
-// Without noise.
+// Pushes without noise.
 [[nodiscard]] trial::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme);
 
-// A sensor as the simulated one: white noise, steps, a zero that wanders and is found anew before each push.
+// Adds the errors of the simulated sensor: white noise, steps, and a wandering zero that is tared before each
+// push.
 void add_noise(trial::Pushes& pushes, std::uint64_t seed);
 
 }  // namespace enc::test

@@ -11,7 +11,7 @@
 
 namespace enc::test {
 
-// The message of the Error that `act` throws, which is one line and of this kind; empty where it throws none.
+// The message of the Error that `act` throws, one line and of this kind; empty if it throws no Error.
 template <std::invocable Act>
 std::string refusal(std::optional<ErrorKind> kind, const Act& act) {
   try {

@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// "NAME=value" of ours and the given ones. Made before fork(), after which a threaded parent must not
-// allocate.
+// "NAME=value" from our environment and the given one. Made before fork(), after which a threaded parent must
+// not allocate.
 std::vector<std::string> whole_environment(const Environment& extra) {
   std::vector<std::string> all;
   for (char** line = environ; *line != nullptr; ++line) {
@@ -47,7 +47,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 struct Pipe {
   std::array<int, 2> end{-1, -1};
-  // Close-on-exec, or a child started by another test would keep ours open.
+  // Close-on-exec: otherwise a child of another test would keep our pipe open.
   Pipe() {
     if (pipe2(end.data(), O_CLOEXEC) != 0) end = {-1, -1};
   }
@@ -72,7 +72,8 @@ struct Pipe {
   _exit(127);
 }
 
-// Reads both pipes until they close; both at once, because a full one stops the child. False if time ran out.
+// Reads both pipes until they close; both together, because a full one stops the child. Returns false after
+// the timeout.
 bool read_all(Pipe& out, Pipe& err, Result& result, Clock::time_point start, double timeout) {
   std::array<pollfd, 2> polled{{{out.end[0], POLLIN, 0}, {err.end[0], POLLIN, 0}}};
   std::array<std::string*, 2> texts{&result.out, &result.err};
@@ -92,7 +93,7 @@ bool read_all(Pipe& out, Pipe& err, Result& result, Clock::time_point start, dou
   return true;
 }
 
-// A child may close its output and go on, so the wait has the same limit.
+// A child may close its output and continue, so the wait has the timeout, too.
 int wait_for(pid_t child, Clock::time_point start, double timeout, bool give_up) {
   int status = 0;
   while (!give_up && waitpid(child, &status, WNOHANG) == 0) {

@@ -1,4 +1,4 @@
-// Runs the program as a person would, for tests of what it prints and how it ends.
+// Runs the program as a person would, for tests of its output and its exit code.
 #pragma once
 
 #include <algorithm>
@@ -16,39 +16,40 @@
 namespace enc::tests {
 
 struct Result {
-  int code = -1;         // exit code; 128 + signal if one ended it; -1 if it could not be started
-  std::string out, err;  // all that it wrote
+  int code = -1;         // exit code; 128 + signal after a fatal signal; -1 if it did not start
+  std::string out, err;  // its whole output
   double seconds = 0.0;  // from start to end
 };
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-// Where the models are that the program is shipped with, wherever it is started.
+// The shipped models, wherever the program starts.
 inline const Environment kShipped{{"ENCOUNTER_MODELS", tests::source_dir() + "/models"}};
 inline std::string shipped_scene(const std::string& name) {
   return tests::source_dir() + "/models/scenes/" + name + ".toml";
 }
 
-// Another program, which is looked for in PATH. It is killed (code 137) after `timeout` seconds.
+// Runs another program from PATH. It is killed (code 137) after `timeout` seconds.
 Result run(const std::vector<std::string>& command, const Environment& environment = {},
            double timeout = 60.0);
 
-// program_file() with these arguments, with `environment` on top of ours.
+// Runs program_file() with these arguments, with `environment` on top of ours.
 Result run_program(const std::vector<std::string>& args, const Environment& environment = {},
                    double timeout = 60.0);
 
 // A program that writes to us and runs until we close its input.
 class PipedChild {
  public:
-  explicit PipedChild(std::vector<std::string> words);  // the program and what it is told; it must be there
-  ~PipedChild();                                        // killed, where it still runs
+  // Starts the program with its arguments; the program must exist.
+  explicit PipedChild(std::vector<std::string> words);
+  ~PipedChild();  // kills the program if it still runs
   PipedChild(const PipedChild&) = delete;
   PipedChild& operator=(const PipedChild&) = delete;
 
-  // What came, after at most so many ms; 0: nothing, or closed().
+  // Reads after at most so many ms; 0: no bytes, or closed().
   std::size_t read(std::span<char> into, int milliseconds);
   [[nodiscard]] bool closed() const { return closed_; }
-  // Closes its input and waits for its end; the exit code.
+  // Closes the program's input and waits for its end; returns the exit code.
   int end();
 
  private:

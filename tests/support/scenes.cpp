@@ -154,7 +154,7 @@ const Outputs& Loop::tick(int n) {
 
 void Loop::judge() {
   if (!state.started) {
-    out.tip = scene.reach.machine.zero();  // nothing was commanded: the machine stays where it is
+    out.tip = scene.reach.machine.zero();  // without a command the machine stays in place
     return;
   }
   const Vec3 at = out.tip.p();

@@ -21,7 +21,7 @@ inline std::string scene_file(const std::string& name) {
   return file;
 }
 
-// A trial without an end, whose parts a test may use by themselves. Not to be moved.
+// A trial without an end whose parts a test may use one by one. It must not be moved.
 struct Twin {
   explicit Twin(const std::vector<std::string>& set = {}, std::uint64_t seed = 1,
                 const std::string& name = "tennis_ball")
@@ -39,7 +39,7 @@ struct Twin {
     };
     return options;
   }
-  // One tick of the loop with the haptic core in it.
+  // Runs one tick of the loop with the haptic core in it.
   const Tick& tick() {
     trial.tick();
     return k;
@@ -61,7 +61,7 @@ struct Twin {
   const Tick& k = trial.now();
 };
 
-// Of all that the core knows over the next ticks.
+// Hash of the core's whole state over the next ticks.
 inline std::uint64_t hashed(Twin& twin, int ticks) {
   StateHash hash;
   for (int i = 0; i < ticks; ++i) {
@@ -71,13 +71,13 @@ inline std::uint64_t hashed(Twin& twin, int ticks) {
   return hash.value;
 }
 
-// Nothing but the true force: no noise, no zero error, no drift, no steps.
+// Settings for the true force only: no noise, no zero error, no drift, no steps.
 inline std::vector<std::string> exact_force() {
   return {"truth.force.noise_N=0", "truth.force.torque_noise_Nm=0", "truth.force.zero_N=0",
           "truth.force.drift_N_per_sqrt_s=0"};
 }
 
-// Settings of a scene that looks through the twin's camera: images of a quarter of the pixels.
+// Settings of a scene that uses the twin's camera: images with a quarter of the pixels.
 [[nodiscard]] inline std::vector<std::string> quarter_size() {
   return {"rig.camera.width_px=320",
           "rig.camera.height_px=240",

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kBackground = 90;
 
-// Of z = 1.
+// Applies the lens to a point of the plane z = 1.
 Eigen::Vector2d bent(const Lens& lens, const Eigen::Vector2d& p, Bend bend) {
   if (bend == Bend::fisheye) return p.norm() > 0.0 ? std::atan(p.norm()) / p.norm() * p : p;
   const auto& [k1, k2, p1, p2, k3] = lens.distortion;
@@ -38,7 +38,7 @@ Vec3 ray_of(const Lens& lens, double x, double y, Bend bend) {
   return {straight.x(), straight.y(), 1.0};
 }
 
-// A board has a square more than inner corners, and half a square of white around.
+// A board has one square more than inner corners, and half a square of white around it.
 int brightness(double column, double row, const Board& board) {
   const bool on_sheet = column > -1.5 && row > -1.5 && column < board.columns + 0.5 && row < board.rows + 0.5;
   if (!on_sheet) return kBackground;
@@ -47,7 +47,7 @@ int brightness(double column, double row, const Board& board) {
   return on_board && black ? 25 : 225;
 }
 
-// Whether both cameras see all of the sheet.
+// Whether both cameras see the whole sheet.
 bool both_see(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO, Bend bend) {
   const Pose<'D', 'C'> X_DC = rig.X_CD.inverse();
   for (const double c : {-1.5, 0.5 * (board.columns - 1), board.columns + 0.5})
@@ -86,7 +86,7 @@ std::vector<Pose<'C', 'O'>> tilted_boards(const Board& board, std::size_t count)
   const Vec3 middle = 0.5 * board.square * Vec3(board.columns - 1, board.rows - 1, 0);
   std::vector<Pose<'C', 'O'>> boards;
   for (std::size_t i = 0; i < count; ++i) {
-    const double k = static_cast<double>(i), turn = 2.4 * k;  // a sunflower: no two alike
+    const double k = static_cast<double>(i), turn = 2.4 * k;  // a sunflower pattern: no two are alike
     const Vec3 tilt(0.55 * std::cos(turn), 0.55 * std::sin(turn), 0.15 * std::sin(1.7 * k));
     const double z = 0.50 + 0.08 * std::cos(1.1 * k);
     const Vec3 place(0.035 + 0.05 * std::cos(1.9 * k), 0.04 * std::sin(1.3 * k), z);
@@ -98,7 +98,7 @@ std::vector<Pose<'C', 'O'>> tilted_boards(const Board& board, std::size_t count)
 
 std::vector<Pose<'C', 'O'>> boards_all_over(const StereoRig& rig, const Board& board, std::size_t count,
                                             Bend bend) {
-  constexpr double kShare = 0.42;  // of the image's width that the sheet takes
+  constexpr double kShare = 0.42;  // the sheet's share of the image's width
   constexpr std::array<std::array<int, 2>, 9> kTowards{
       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
   const Vec3 middle = 0.5 * board.square * Vec3(board.columns - 1, board.rows - 1, 0);
@@ -109,7 +109,7 @@ std::vector<Pose<'C', 'O'>> boards_all_over(const StereoRig& rig, const Board& b
     const double k = static_cast<double>(i), turn = 2.4 * k;
     const Quat q = rotation_xyz(Vec3(0.45 * std::cos(turn), 0.45 * std::sin(turn), 0.15 * std::sin(1.7 * k)));
     const auto& [right, down] = kTowards[i % kTowards.size()];
-    for (double out = 2.5;; out -= 0.02) {  // as far out as the sheet is seen
+    for (double out = 2.5;; out -= 0.02) {  // as far out as the whole sheet is visible
       const Vec3 place(0.045 + 0.5 * out * z * right * static_cast<double>(rig.width) / rig.left.focal_x,
                        0.5 * out * z * down * static_cast<double>(rig.height) / rig.left.focal_x,
                        z * (1.0 + 0.15 * std::cos(1.1 * k)));

@@ -1,5 +1,4 @@
-// Chessboards before a stereo head that is known: where their corners are seen, and how the whole board
-// looks.
+// Chessboards before a known stereo head: the image places of their corners, and pictures of the whole board.
 #pragma once
 
 #include "core/spec/optics_rig.h"
@@ -10,18 +9,18 @@ namespace enc::test {
 // A head with distortion, its right camera turned by a degree or two.
 [[nodiscard]] StereoRig known_head(int width, int height);
 
-// How a lens bends: by its distortion, or as a fisheye, whose distance from the axis is focal length times
-// angle and whose distortion is not asked.
+// Model of a lens: with its distortion, or a fisheye. A fisheye's distance from the axis is focal length
+// times angle, without distortion.
 enum class Bend : std::uint8_t { distortion, fisheye };
 
-// px. `p` in the camera, m.
+// Image place in px. `p` in the camera, m.
 [[nodiscard]] Eigen::Vector2d seen(const Lens& lens, const Vec3& p, Bend bend = Bend::distortion);
 
 // Boards at half a metre or so in all parts of the image, tilted to all sides; the first corner is the
 // origin.
 [[nodiscard]] std::vector<Pose<'C', 'O'>> tilted_boards(const Board& board, std::size_t count);
 
-// Boards that both cameras see whole, with the sheet around them, from the middle into the corners of their
+// Boards that both cameras see whole, with the sheet around them, from the centre into the corners of their
 // images.
 [[nodiscard]] std::vector<Pose<'C', 'O'>> boards_all_over(const StereoRig& rig, const Board& board,
                                                           std::size_t count, Bend bend = Bend::distortion);

@@ -8,13 +8,13 @@ namespace {
 
 constexpr double kCap = 7.6e-3;  // m
 
-// A finger where it leaves the palm, in the hand's own axes: x from the wrist to the fingertips, y to the
-// thumb, z out of the back of the hand. m, of a hand of size 1.
+// The base of a finger in the hand's own axes: x from the wrist to the fingertips, y to the thumb, z out of
+// the back of the hand. m, for a hand of size 1.
 struct Root {
   Vec3 knuckle, wrist;
-  std::array<double, 3> lengths;  // of the three bones, to the middle of the cap
+  std::array<double, 3> lengths;  // three bones, up to the centre of the cap
   double thick;                   // radius at the knuckle
-  double spread;                  // rad, to the thumb's side, of an open hand
+  double spread;                  // rad, to the thumb's side, for an open hand
 };
 constexpr double kWrist = -0.048;
 const std::array<Root, 4>& roots() {
@@ -31,7 +31,7 @@ Vec3 turned(double from_x_to_y, double down) {
   return {std::cos(down) * std::cos(from_x_to_y), std::cos(down) * std::sin(from_x_to_y), -std::sin(down)};
 }
 
-// Joints of a finger whose bones have these angles to the plane of the palm.
+// Joints of a finger whose bones have these angles to the palm's plane.
 std::array<Vec3, 4> joints(const Root& root, double aside, const std::array<double, 3>& down) {
   std::array<Vec3, 4> at{root.knuckle};
   for (std::size_t i = 0; i < 3; ++i) at[i + 1] = at[i] + root.lengths[i] * turned(aside, down[i]);
@@ -58,7 +58,7 @@ void add_finger(const Hand& hand, std::size_t finger, std::vector<Cone>& parts) 
     parts.push_back({at[i], at[i + 1], radius[i], radius[i + 1], Stuff::skin,
                      i == 2 && finger == 0 && hand.fingers != Fingers::fist});
   const Vec3 along = (at[3] - at[2]).normalized();
-  const Vec3 back = Vec3(0, 1, 0).cross(along) * -1.0;  // z where the finger is straight
+  const Vec3 back = Vec3(0, 1, 0).cross(along) * -1.0;  // z if the finger is straight
   parts.push_back({at[3] - 4.5e-3 * along + 3.6e-3 * back, at[3] + 1.5e-3 * along + 3.1e-3 * back, 0.60 * end,
                    0.56 * end, Stuff::nail, parts.back().tip});
 }
@@ -89,7 +89,7 @@ void add_arm(const Hand& hand, std::vector<Cone>& parts) {
     beside(y, kWrist - 0.025 - hand.bare / hand.size, 0.0300, 0.0420, Stuff::sleeve);
 }
 
-// The hand's axes in C as columns, and where its origin is.
+// The hand's axes in C as columns, and its origin.
 struct Placed {
   Mat3 axes;
   Vec3 origin;

@@ -10,8 +10,8 @@ namespace enc::painted {
 namespace {
 
 constexpr int kTile = 16;                                // px
-constexpr int kColumns = 48, kRows = 36;                 // of the wall's grid of shadows
-constexpr double kHalfWidth = 0.62, kHalfHeight = 0.46;  // m at 1 m, of the wall that is seen
+constexpr int kColumns = 48, kRows = 36;                 // cells of the wall's shadow grid
+constexpr double kHalfWidth = 0.62, kHalfHeight = 0.46;  // m at 1 m: half the visible wall
 
 constexpr double kSkinFrom = 5.0, kSkinTo = 28.0;  // degrees, hues of skin
 constexpr double kApart = 6.0;                     // times the noise
@@ -29,7 +29,7 @@ double chance(std::int64_t x, std::int64_t y, std::int64_t z) {
          0x1p-53;
 }
 
-// Smooth in space, 0 to 1, with detail of the size 1.
+// Noise that is smooth in space, 0 to 1, with detail of size 1.
 double mottled(double x, double y, double z) {
   const double fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
   const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy),
@@ -80,7 +80,7 @@ Colour office(double x, double y, std::uint64_t seed) {
   return kThings[static_cast<std::size_t>(6.0 * chance(column, row, s + 1))];
 }
 
-// Colour of the wall and how strong its detail is.
+// Colour of the wall and strength of its detail.
 struct Paint {
   Colour colour;
   double detail;
@@ -104,7 +104,7 @@ Paint paint_of(const Room& room, double x, double y) {
   return {times(linear_of(178, 132, 92), 0.75 + 0.3 * plank + 0.25 * grain), 0.15};
 }
 
-// Share of the wall's points whose way to a wide lamp is free.
+// Share of the wall's points with a free line to a wide lamp.
 double free_share(const std::vector<Cone>& cones, const Vec3& at, const Vec3& lamp) {
   constexpr int kWays = 6;
   int free = 0;
@@ -118,7 +118,7 @@ double free_share(const std::vector<Cone>& cones, const Vec3& at, const Vec3& la
   return static_cast<double>(free) / kWays;
 }
 
-// Degrees, of a pixel that has one; below 0: it has none.
+// Hue in degrees; below 0 for a pixel without one.
 double hue_of(const std::uint8_t* p) {
   const int most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
   if (most - least < 12 || most < 16) return -1.0;
@@ -129,7 +129,7 @@ double hue_of(const std::uint8_t* p) {
 
 constexpr std::array<const char*, kTones> kToneNames{"fair", "light", "olive", "brown", "deep"};
 
-// Evenly spread numbers that depend on the sequence alone.
+// Evenly spread numbers that depend only on the sequence.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ULL + 0x2545f4914f6cdd1dULL) {}
@@ -154,7 +154,7 @@ const std::array<Direction, 4>& sides() {
   return kAll;
 }
 
-// So that the tip is in view of both cameras, and most of the hand on that side where there is room.
+// Places the hand so that both cameras see the tip, and most of the hand on that side if there is room.
 Vec3 place(Dice& dice, const Vec3& along) {
   const double z = dice.between(0.38, 0.75);
   return {0.045 + z * (0.12 * along.x() + dice.between(-0.06, 0.06)),
@@ -214,7 +214,7 @@ void add_sides(Writer& to, WallKind wall, const char* where) {
       }
 }
 
-// The finger leans away from the camera by so much (rad), until the hand hides it; below 0 towards it.
+// The finger leans away from the camera by this angle (rad), until the hand hides it; below 0 towards it.
 void add_leaning(Writer& to) {
   for (std::size_t tone = 0; tone < kTones; ++tone)
     for (const double lean : {0.6, 0.9, 1.2, 1.5, -0.6, -0.9, -1.2})
@@ -232,7 +232,7 @@ void add_leaning(Writer& to) {
       }
 }
 
-// The second hand beside the first one: it points, too, is a fist, or has all fingers spread.
+// The second hand is beside the first one: it points, too, is a fist, or has all fingers spread.
 void add_second(Writer& to) {
   for (std::size_t tone = 0; tone < kTones; ++tone)
     for (const Fingers second : {Fingers::pointing, Fingers::fist, Fingers::open}) {
@@ -249,7 +249,7 @@ void add_second(Writer& to) {
     }
 }
 
-// The finger becomes one of a fist.
+// The pointing finger folds into a fist.
 void add_folding(Writer& to) {
   for (std::size_t tone = 0; tone < kTones; ++tone)
     for (const double thumb : {0.1, 0.9}) {
@@ -380,7 +380,7 @@ void Painter::paint_tile(const Eye& eye, const Region& tile, std::vector<Colour>
   const auto own = [&](int x, int y) -> const Cone*& {
     return owner[static_cast<std::size_t>(y - tile.y0) * (kTile + 1) + static_cast<std::size_t>(x - tile.x0)];
   };
-  // Who is in front at the pixels' corners: where all four are one and the same the middle tells all.
+  // The part in front at each pixel's corners: if all four agree, one ray through the middle suffices.
   for (int y = tile.y0; !near.empty() && y <= tile.y1; ++y)
     for (int x = tile.x0; x <= tile.x1; ++x) own(x, y) = first(near, from, ray(eye, x - 0.5, y - 0.5)).cone;
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -432,8 +432,8 @@ void Painter::paint(const std::vector<Hand>& hands, std::size_t tone, std::uint6
   last_ = picture.left;
 }
 
-// A ray to each pixel of the cap: it is shown where the first thing on it is a tip and no farther than the
-// cap.
+// Sends a ray to each pixel of the cap: the pixel shows the cap if the ray first meets a tip no farther than
+// the cap.
 Painter::Counts Painter::count_cap(std::size_t side, const Vec3& tip, double radius) const {
   const Cone cap{tip, tip + Vec3(1e-6, 0, 0), radius, radius};
   const Region image{0, 0, static_cast<int>(rig_.width), static_cast<int>(rig_.height)};
@@ -453,7 +453,7 @@ Painter::Counts Painter::count_cap(std::size_t side, const Vec3& tip, double rad
       ++counts.all;
       const Seen seen = first(near, from, way);
       if (!image.contains(column, row) || seen.cone == nullptr || !seen.cone->tip) continue;
-      if ((seen.hit.along * way + from - tip).norm() > 2.0 * radius) continue;  // another hand's
+      if ((seen.hit.along * way + from - tip).norm() > 2.0 * radius) continue;  // the tip of another hand
       ++counts.front;
       if (side != 0) continue;
       const std::uint8_t* p = last_.view().at(column, row);
@@ -503,7 +503,7 @@ std::vector<Sequence> sequences() {
   add_leaning(all);
   add_second(all);
   add_folding(all);
-  std::vector<Sequence> mixed;  // 97 has no divisor in common with their number
+  std::vector<Sequence> mixed;  // 97 is coprime to their number
   for (std::size_t i = 0; i < all.all.size(); ++i) mixed.push_back(all.all[i * 97 % all.all.size()]);
   return mixed;
 }
