@@ -1,5 +1,5 @@
-// A person at the terminal of an armed run: whatever is pressed, sent or closed, the machine is stopped and
-// the run has ended.
+// A person at the terminal of an armed run: whatever they press, send or close, the machine stops and the run
+// ends.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -39,26 +39,26 @@ namespace {
 using ::testing::HasSubstr;
 using tests::module_folder;
 
-// A person's terminal: an interactive shell on a pseudo-terminal, keys that are typed, and all that is shown.
+// A person's terminal: an interactive shell on a pseudo-terminal, its keys and its output.
 class Terminal {
  public:
-  // With bash as its shell, which has job control and sends SIGHUP to its jobs when the terminal is closed.
+  // Starts bash as the shell, which has job control and sends SIGHUP to its jobs when the terminal closes.
   Terminal();
-  ~Terminal();  // closes it, and kills what is left
+  ~Terminal();  // closes it, and kills the remaining processes
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  // Types a command line, each word quoted, with the rest as it is.
+  // Types a command line with each word quoted, and `rest` unquoted.
   void run(const std::vector<std::string>& words, const std::string& rest = {});
-  void type(const std::string& keys) const;  // as they are: "\x03" is Ctrl-C
+  void type(const std::string& keys) const;  // unchanged: "\x03" is Ctrl-C
   void close();
-  void hang(bool hangs) { reads_ = !hangs; }  // its link: nobody reads what is written to it
+  void hang(bool hangs) { reads_ = !hangs; }  // its link: the output is no longer read
 
-  // All that was shown so far.
+  // The whole output so far.
   [[nodiscard]] std::string shown() const;
-  // Waits until that has this text behind `from`; false after so many seconds.
+  // Waits until the output has this text behind `from`; returns false after the timeout.
   [[nodiscard]] bool shows(const std::string& text, double seconds, std::size_t from = 0) const;
-  // The program that the shell runs; -1: none within a second.
+  // The program in the shell; -1: no program within a second.
   [[nodiscard]] pid_t child() const;
 
  private:
@@ -70,7 +70,7 @@ class Terminal {
   std::thread reader_;
 };
 
-// Whether a process has ended within so many seconds.
+// Whether a process ends within so many seconds.
 bool ends(pid_t process, double seconds);
 
 using Clock = std::chrono::steady_clock;
@@ -90,7 +90,7 @@ Terminal::Terminal() {
   winsize size{};
   size.ws_col = 200;
   size.ws_row = 50;
-  // Made before the fork: several terminals may be opened from several threads.
+  // Made before the fork: several threads may open several terminals.
   std::vector<std::string> variables{"ENCOUNTER_MODULES=" + module_folder(), "PS1=$ ", "TERM=dumb",
                                      "HOME=/tmp", "PATH=/usr/local/bin:/usr/bin:/bin"};
   std::vector<std::string> words{"bash", "--norc", "--noprofile", "--noediting", "-i"};
@@ -104,7 +104,7 @@ Terminal::Terminal() {
   if (shell_ == 0) {
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGTTIN, SIGTTOU})
       std::signal(signal, SIG_DFL);
-    close_range(3, ~0U, 0);  // else this shell keeps the terminals of other tests open
+    close_range(3, ~0U, 0);  // otherwise this shell keeps the terminals of other tests open
     execve("/bin/bash", arguments.data(), environment.data());
     _exit(127);
   }
@@ -175,13 +175,12 @@ bool ends(pid_t process, double seconds) {
   });
 }
 
-// ---- A person at the terminal of an armed run: whatever is pressed, sent or closed, the machine is stopped
-// and the record is sealed. The fakes are in this process, the run is started by a shell on a
-// pseudo-terminal.
+// ---- A person at the terminal of an armed run: whatever they press, send or close, the machine stops and
+// the record is sealed. The fakes are in this process, and a shell on a pseudo-terminal starts the run.
 
 constexpr double kSetPoints = 0.030;  // s: three set-points of models/rigs/fakes.toml
 
-// A wall that is touched after some 1.5 s, again and again. The hand lets go faster than the tip follows, so
+// The tool touches a wall after some 1.5 s, again and again. The hand lets go faster than the tip follows, so
 // that restore lasts.
 constexpr const char* kScene = R"(format = 1
 title = "A wall for somebody at the terminal"
@@ -214,7 +213,7 @@ class Attended {
  public:
   explicit Attended(std::vector<std::string> more = {"--yes"}) {
     std::ofstream(scene_) << kScene;
-    static std::mutex one_at_a_time;  // they set variables of this process
+    static std::mutex one_at_a_time;  // several would set variables of this process
     {
       const std::lock_guard lock(one_at_a_time);
       const std::vector<std::string> none;
@@ -222,7 +221,7 @@ class Attended {
         try {
           there_ = std::make_unique<Laboratory>(false, none, none, scene_);
         } catch (const Error&) {
-          if (attempt == 5) throw;  // else another program has just taken a port
+          if (attempt == 5) throw;  // another program may just have taken a port
         }
       }
     }
@@ -241,7 +240,7 @@ class Attended {
     EXPECT_TRUE(terminal.shows("$ ", 10.0));
   }
   void begin(const std::string& rest = {}) { terminal.run(words_, rest); }
-  // With a terminal of its own at standard input, which no signal comes from.
+  // Begins with a terminal of its own as standard input, which sends no signal.
   void begin_with_own_input() {
     int slave = -1;
     std::array<char, 100> name{};
@@ -252,7 +251,7 @@ class Attended {
   }
   void close_input() { ::close(std::exchange(input_, -1)); }
   [[nodiscard]] std::string record() const { return folder_.file("r.encrec"); }
-  // Whether the run came to `mode`. A machine that is busy elsewhere may have put it in hold before.
+  // Whether the run came to `mode`. A busy machine may have put it in hold before.
   [[nodiscard]] bool comes_to(const std::string& mode) {
     if (!terminal.shows("s  follow", 20.0)) return false;
     if (mode == "hold") fault("igtl:stall");
@@ -277,9 +276,9 @@ class Attended {
     there_->serve();
   }
   [[nodiscard]] double now() const { return there_->now; }
-  // Whether a run that is over commanded the machine to stop, between two moments of the fakes' world.
+  // Whether a finished run commanded the machine to stop, between two moments of the fakes' world.
   [[nodiscard]] bool stopped_between(double from, double to) {
-    constexpr double kTick = 0.002;  // s: what arrives is stamped with the tick before
+    constexpr double kTick = 0.002;  // s: the log stamps a command with the tick before
     const std::vector<double> all = stops_in(there_->log());
     return std::any_of(all.begin(), all.end(), [&](double t) { return t >= from - kTick && t <= to; });
   }
@@ -308,13 +307,13 @@ class Attended {
 
 struct Way {
   const char* name;
-  int code;  // of the run; -1: nobody is left to ask
+  int code;  // exit code of the run; -1: no shell is left
   std::function<void(Attended& at, pid_t run)> act;
   bool own_input = false;
 };
 
 const std::vector<Way>& ways() {
-  // Not by a key: a busy kernel delivers one seconds late, and then nobody stops in time.
+  // The signal does not come from a key: a busy kernel delivers a key's signal seconds late.
   const auto sent = [](int signal, int times) {
     return [signal, times](Attended&, pid_t run) {
       for (int i = 0; i < times; ++i) kill(run, signal);
@@ -330,7 +329,7 @@ const std::vector<Way>& ways() {
   return kWays;
 }
 
-// One run that is ended in one way in one mode. Once more where a mode was over before the signal came.
+// Ends one run in one way in one mode. Repeats if the mode was over before the signal came.
 void end_in(const Way& way, const std::string& mode) {
   std::string met, last;
   for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
@@ -359,7 +358,7 @@ void end_in(const Way& way, const std::string& mode) {
   EXPECT_EQ(met, mode) << way.name << last;
 }
 
-// SIGTSTP stops the machine before the process; after fg it stands until r, and the keys work.
+// SIGTSTP stops the machine before the process. After fg the machine stands until r, and the keys work.
 void suspend_in(const std::string& mode) {
   std::string met, last;
   for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
@@ -383,12 +382,12 @@ void suspend_in(const std::string& mode) {
     EXPECT_TRUE(at.terminal.shows("STOPPED BY HAND", 10.0)) << at.terminal.shown();
     EXPECT_TRUE(at.stands_for(0.3));
     if (mode == "hold") at.heal();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the tracker is heard again
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the tracker is connected again
     at.terminal.type("r");
     EXPECT_TRUE(at.terminal.shows("s  resumed", 10.0)) << at.terminal.shown();
     at.terminal.type("q");
     ASSERT_TRUE(ends(run, 10.0)) << at.terminal.shown();
-    // The mode of the tick in which the stop was sent; and when that was.
+    // The mode of the tick in which the stop was sent, and its time.
     double sent = kUnset;
     RecordReader reader(at.record());
     EXPECT_TRUE(reader.sealed());
@@ -424,7 +423,7 @@ INSTANTIATE_TEST_SUITE_P(Each, AtTheTerminal, testing::Range<std::size_t>(0, way
 
 TEST(AtTheTerminalToo, ASuspensionStopsTheMachineAndTheKeysWorkAfterFg) { for_each_mode(suspend_in); }
 
-// Space stops and r resumes; the status line has what a person needs to know.
+// Space stops and r resumes; the status line has the information that a person needs.
 TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
   Attended at;
   at.begin();
@@ -438,7 +437,7 @@ TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
   std::size_t from = at.terminal.shown().size();
   at.terminal.type("r");
   EXPECT_TRUE(at.terminal.shows("s  resumed", 5.0, from));
-  at.terminal.type("r");  // nothing was stopped: this one is no event
+  at.terminal.type("r");  // the machine was not stopped, so this is no event
   EXPECT_TRUE(at.terminal.shows("s  hold is over", 5.0, from)) << at.terminal.shown();
   from = at.terminal.shown().size();
   at.fault("netft:stall");
@@ -448,7 +447,7 @@ TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
   EXPECT_THAT(at.terminal.shown().substr(from), testing::Not(HasSubstr("resumed")));
 }
 
-// Ctrl-S: the terminal takes no words. The loop goes on in time, and a stop is a stop.
+// Ctrl-S: the terminal takes no output. The loop keeps its time, and a stop still stops.
 TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   Attended at;
   at.begin();
@@ -460,7 +459,7 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   kill(run, SIGTERM);
   const double acted = at.now();
   EXPECT_TRUE(at.is_sealed_within(5.0));
-  at.terminal.type("\x11");  // it has ended but for its report
+  at.terminal.type("\x11");  // only its report is outstanding
   ASSERT_TRUE(ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
   RecordReader reader(at.record());
@@ -471,28 +470,29 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   EXPECT_LT(missed, 50) << "cycles at once: the loop waited for the terminal";
 }
 
-// The link to the terminal hangs: it takes some kB, and then nothing, not even an end.
+// The link to the terminal hangs: it takes some kB, and then no more bytes, not even an end.
 TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
   Attended at;
   at.begin();
   ASSERT_TRUE(at.comes_to("follow")) << at.terminal.shown();
   const pid_t run = at.terminal.child();
   at.terminal.hang(true);
-  std::this_thread::sleep_for(std::chrono::seconds(7));  // status lines fill what it takes
+  std::this_thread::sleep_for(std::chrono::seconds(7));  // status lines fill its buffer
   const double before = at.now();
   kill(run, SIGTERM);
   const double acted = at.now();
   EXPECT_TRUE(at.is_sealed_within(5.0));
-  at.terminal.hang(false);  // it has ended but for its report
+  at.terminal.hang(false);  // only its report is outstanding
   ASSERT_TRUE(ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
 }
 
-// Before the first motion: what moves, how far, how fast. Enter begins; anything else does not.
+// Before the first motion the program states the machine, the distance and the speed. Enter begins; any other
+// key does not.
 TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
   Attended at(std::vector<std::string>{});
   at.begin();
-  at.terminal.type("\n");  // before the question: no answer
+  at.terminal.type("\n");  // before the question: not an answer
   ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0)) << at.terminal.shown();
   EXPECT_THAT(at.terminal.shown(),
               testing::AllOf(
@@ -527,7 +527,7 @@ TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
   at.terminal.type("echo code $?\n");
   EXPECT_TRUE(at.terminal.shows("code 130", 5.0, from));
   from = at.terminal.shown().size();
-  at.begin("2>/dev/null; echo code $?");  // where nobody could read the question
+  at.begin("2>/dev/null; echo code $?");  // the question is invisible
   EXPECT_TRUE(at.terminal.shows("code 2", 10.0, from)) << at.terminal.shown();
 }
 

@@ -1,4 +1,4 @@
-// A run that is over: when it stopped the machine, by the fake's log, and its last mode, by its record.
+// A finished run: when it stopped the machine, from the fake's log, and its last mode, from its record.
 #pragma once
 
 #include <regex>
@@ -12,7 +12,7 @@
 
 namespace enc::test {
 
-// s of the fakes' world: when the machine was commanded to stop, by a run that is over.
+// s of the fakes' world: the stop commands of a finished run.
 [[nodiscard]] inline std::vector<double> stops_in(const std::string& log) {
   static const std::regex kLine("stops, in s:((?: [0-9.]+)+)");
   std::vector<double> all;
@@ -23,7 +23,7 @@ namespace enc::test {
   return all;
 }
 
-// Throws where the record is damaged; expects it to be sealed.
+// Throws if the record is damaged; expects it to be sealed.
 [[nodiscard]] inline std::string last_mode(const std::string& record) {
   RecordReader reader(record);
   EXPECT_TRUE(reader.sealed());

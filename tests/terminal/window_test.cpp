@@ -54,7 +54,7 @@ class Window : public testing::Test {
 };
 
 // A click on the ball puts the tool above it, a drag presses it. The record replays, and `run --hand` plays
-// the same hand without a window: the same bits.
+// this hand without a window with equal bits.
 TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
   const tests::Result r =
       on_screen("\"" + ball_ + "\" --record r.encrec",
@@ -76,7 +76,8 @@ TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
 }
 
 // By keys: press to the ball's limit, drag along its surface, release, change the tool, press again; a fault
-// holds the machine and goes. All of it plays again without a window. The record opens in the window, too.
+// holds the machine and goes. The recorded hand plays again without a window. The record opens in the window,
+// too.
 TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
   const std::string scene = tests::source_dir() + "/models/scenes/session.toml";
   const std::string press =
@@ -101,7 +102,7 @@ TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
   EXPECT_EQ(seen.out + seen.err, "");
 }
 
-// A scene that is saved while it is shown begins anew; a mistake in it ends nothing.
+// A scene saved during the display starts anew; a mistake in it does not end the program.
 TEST_F(Window, ASavedSceneIsLoadedAgain) {
   const tests::Result r = on_screen(
       "own.toml",
@@ -118,7 +119,7 @@ TEST_F(Window, PausesGoesOnAndBeginsAnew) {
                 "xdotool key space; sleep 5; xdotool key period; sleep 0.5\n"
                 "xdotool key space; sleep 1; xdotool key BackSpace; sleep 2; xdotool key q");
   ASSERT_EQ(r.code, 0) << r.err << r.out;
-  // It ran for two spans of time, with a report each; the pause is in neither.
+  // The program ran for two spans of time, with a report each; the pause is in neither.
   EXPECT_THAT(r.out,
               ContainsRegex("time +[0-5]\\.[0-9]+ s simulated(.|\n)*time +[0-5]\\.[0-9]+ s simulated"));
 }
@@ -133,7 +134,7 @@ TEST_F(Window, ASignalAndALostDisplayAreCleanEnds) {
   EXPECT_EQ(tests::run_program({"replay", file("b.encrec")}).code, 0) << "the record is sealed";
 }
 
-// Over fakes on their real wires: space stops the machine, R resumes, Q ends. Looking back does neither.
+// Fakes on their real wires: space stops the machine, R resumes, Q ends. Looking back does neither.
 TEST_F(Window, SpaceStopsAnArmedMachineAndRResumes) {
   Laboratory there(false, {}, {}, ball_);
   std::string words = "\"" + ball_ + "\" --rig fakes --armed --yes --record m.encrec";
@@ -150,7 +151,7 @@ TEST_F(Window, SpaceStopsAnArmedMachineAndRResumes) {
   EXPECT_EQ(seen.code, 0) << seen.err;
 }
 
-// One line, exit code 3, and nothing was begun.
+// The program prints one line, returns exit code 3, and begins no run.
 TEST_F(Window, WithoutADisplayItSaysSo) {
   const tests::Result r =
       tests::run_program({"view", ball_, "--record", file("c.encrec")}, {{"DISPLAY", ""}});
