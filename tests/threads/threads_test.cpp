@@ -1,5 +1,5 @@
-// Two threads at work: one writes and one reads, one fills a record and one puts it into the file, and a
-// tracker of its own thread.
+// Two threads at work: one writes and one reads, one fills a record and one writes it into the file, and a
+// tracker in a thread of its own.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -19,9 +19,9 @@
 namespace enc::trial {
 namespace {
 
-// ---- One thread writes and one reads, as fast as they can.
+// ---- One thread writes and one reads, at full speed.
 
-// Too long to be copied at once: one that is torn has two numbers in it.
+// Too long for one copy instruction: a torn value has two numbers in it.
 struct Long {
   std::array<std::int64_t, 32> same{};
   [[nodiscard]] bool whole() const {
@@ -61,14 +61,14 @@ TEST(LatestOfTwoThreads, IsWholeAndNeverGoesBackAndEndsWithTheLast) {
   EXPECT_GT(read, 0);
 }
 
-// ---- One thread fills a record and another puts it into the file.
+// ---- One thread fills a record and another writes it into the file.
 
 TEST(RecordOfTwoThreads, IsWholeAndInOrder) {
   constexpr std::int64_t kTicks = 20'000;
   const std::string path =
       (std::filesystem::temp_directory_path() / ("threads_" + std::to_string(getpid()) + ".encrec")).string();
   {
-    RecordWriter record(path, {}, layout_hash(Scene()), 64);  // gone round five times
+    RecordWriter record(path, {}, layout_hash(Scene()), 64);  // wraps around five times
     std::atomic<bool> over = false;
     std::thread file([&] {
       while (!over) record.drain();
@@ -76,7 +76,7 @@ TEST(RecordOfTwoThreads, IsWholeAndInOrder) {
     for (std::int64_t i = 0; i < kTicks && !record.full(); ++i) {
       record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, 0);
       if (i % 100 == 0)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));  // as a loop of 50 kHz does
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the pace of a loop of 50 kHz
     }
     over = true;
     file.join();
@@ -91,12 +91,12 @@ TEST(RecordOfTwoThreads, IsWholeAndInOrder) {
   std::filesystem::remove(path);
 }
 
-// ---- A tracker in a thread of its own: the loop is never kept, every state gets through, and it ends at
-// once.
+// ---- A tracker in a thread of its own: the loop never waits, every state gets through, and the thread ends
+// at once.
 
 Time at_ms(std::int64_t ms) { return Time(Duration(1'000'000) * ms); }
 
-// What it says next, and for how long it works on it. A test changes the words only while the thread rests.
+// The tracker's next report and the duration of its work. A test changes them only while the thread rests.
 struct Script {
   std::atomic<bool> open = true;  // closed: it works until it is opened
   std::atomic<int> asked = 0;
@@ -122,7 +122,7 @@ class Scripted final : public PoseTracker {
 
  private:
   Script& script_;
-  std::vector<std::string> lines_;  // of whoever polls
+  std::vector<std::string> lines_;  // belongs to the polling thread
 };
 
 struct Set {
@@ -133,7 +133,7 @@ struct Set {
   ~Set() { script.open = true; }
 
   bool poll() { return tracker.poll(at_ms(++ms), newest); }
-  // Polls as the loop does until `is`; false where that takes more than ten seconds.
+  // Polls like the loop until `is` holds; returns false after ten seconds.
   template <class F>
   bool until(const F& is) {
     for (int i = 0; i < 10'000; ++i) {
@@ -179,7 +179,7 @@ TEST(ThreadedTracker, WithoutNewsTheSampleIsLeftAlone) {
   set.script.silent = true;
   const int asked = set.script.asked;
   ASSERT_TRUE(set.until([&] { return set.script.asked > asked + 3; }));
-  set.poll();  // fetches what was told last
+  set.poll();  // fetches the last report
   const Time last = set.newest.t;
   set.newest.value.tool = -77;
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(set.poll());
@@ -229,7 +229,7 @@ TEST(ThreadedTracker, StartsAndEndsFiftyTimesWhateverItIsAt) {
 }  // namespace
 }  // namespace enc::trial
 
-// What ThreadSanitizer is told of this program. By itself it takes whatever is received from any socket to
-// come after all that was sent on any other, and so would see no race between two threads that both talk to a
-// network. The sanitizer asks for it by this name; elsewhere nobody does.
+// Options for ThreadSanitizer. By default it orders every receive from any socket after all sends on any
+// other, and so would miss races between two threads that both use a network. Only the sanitizer calls this
+// function, by its name.
 extern "C" __attribute__((visibility("default"))) const char* __tsan_default_options() { return "io_sync=0"; }

@@ -1,5 +1,5 @@
-// The three devices of the laboratory's rig as they stand behind their fakes, each on a free port of this
-// machine. What each says is a number that says itself twice, and grows: what is torn or goes back shows.
+// The three devices of the laboratory's rig behind their fakes, each on a free port of this machine. Each
+// device sends numbers that repeat themselves and grow, so that torn or old values show.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace enc::test {
 
-// s: longer than any test, on any machine; and shorter.
+// s: longer than any test on any machine; and shorter.
 inline constexpr double kPatient = 100.0, kImpatient = 0.03;
 
 struct FaultyTable final : DefaultOffer::Defaults {
@@ -36,7 +36,7 @@ struct FaultyTable final : DefaultOffer::Defaults {
     if (key.name == "address") text = "127.0.0.1";
     if (key.name == "transport") text = transport;
   }
-  std::string transport = "udp";               // of tool data
+  std::string transport = "udp";               // for tool data
   std::map<std::string_view, double> numbers;  // SI
   std::map<std::string_view, std::int64_t> ports;
 };
@@ -52,7 +52,7 @@ struct FaultyPlace {
 };
 
 struct FaultyGcs : FaultyPlace {
-  // Without an answer for so long its link is lost, s.
+  // `patience`: time in s without an answer until the driver reports a lost link.
   explicit FaultyGcs(double patience, std::uint64_t seed = 1)
       : server(std::make_unique<gcs::Server>(machine, gcs::ControllerSettings{}, "127.0.0.1",
                                              std::uint16_t{0}, log_of_fake, std::function<void()>{}, seed)) {
@@ -65,7 +65,7 @@ struct FaultyGcs : FaultyPlace {
   std::unique_ptr<gcs::Server> server;
 };
 
-// Force and torque are the same along all axes.
+// Force and torque are equal along all axes.
 struct CountingSensor final : ForceSensor {
   Stamped<Wrench> read(Time now) noexcept override {
     const double x = kStep * static_cast<double>(++number);
@@ -88,7 +88,7 @@ struct FaultyNetft : FaultyPlace {
   std::unique_ptr<netft::Server> server;
 };
 
-// A pose each millisecond, as far along x as along y.
+// Sends a pose each millisecond, with equal x and y.
 struct CountingTracker final : PoseTracker {
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
     if (now - last < Duration(1'000'000)) return false;

@@ -1,5 +1,5 @@
-// The laboratory's drivers, each beside threads of fakes that suffer faults: the machine, the datagrams, and
-// the whole rig in one loop.
+// The laboratory's drivers, each beside threads of faulty fakes: the machine, the datagrams, and the whole
+// rig in one loop.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -32,15 +32,16 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Kind = Trouble::Kind;
 
-// ---- What a loop sees of each device, tick by tick: whether a number is torn, time goes back, or who has
-// lost its link is believed.
+// ---- The loop's view of each device, tick by tick: torn numbers, time that goes back, or samples accepted
+// without a link.
 
 class Watch {
  public:
-  // While the loop goes on:
+  // While the loop runs:
   [[nodiscard]] bool lost() const { return lost_.load(std::memory_order_relaxed); }
-  [[nodiscard]] std::int64_t news() const { return news_.load(std::memory_order_relaxed); }  // that are good
-  // When it is over:
+  // Number of good samples.
+  [[nodiscard]] std::int64_t news() const { return news_.load(std::memory_order_relaxed); }
+  // After the loop:
   void expect_whole() const {
     EXPECT_EQ(torn, 0);
     EXPECT_EQ(older, 0);
@@ -51,7 +52,7 @@ class Watch {
   int torn = 0, older = 0, ahead = 0, back = 0, believed = 0, smaller = 0;
 
  protected:
-  // Before it is read. A link may be lost between.
+  // Called before the read. The link may be lost in between.
   void before(const Device& device) {
     linked_ = device.linked();
     back += linked_ && lost() ? 1 : 0;
@@ -59,7 +60,7 @@ class Watch {
     constexpr int kSometimes = 16;
     if (++asked_ % kSometimes == 0) static_cast<void>(device.remarks());
   }
-  // number: of what counts, it only grows.
+  // number: from a counting device; it only grows.
   void after(Time now, Time t, Health health, bool whole, std::int64_t number) {
     ahead += t > now ? 1 : 0;
     older += t < last_ ? 1 : 0;
@@ -81,7 +82,7 @@ class Watch {
   std::atomic<std::int64_t> news_ = 0;
 };
 
-// It tells, too: to and fro along the diagonal of x and y.
+// Commands the machine, too: to and fro along the diagonal of x and y.
 struct MachineWatch : Watch {
   explicit MachineWatch(Manipulator& device, bool tells = true) : machine(device), told(tells) {}
   void tick(Time now) {
@@ -90,7 +91,7 @@ struct MachineWatch : Watch {
     const Vec3 p = sample.value.X_RH.p(), v = sample.value.velocity.e();
     after(now, sample.t, sample.health, p.x() == p.y() && v.x() == v.y(), 0);
     farthest = std::max(farthest, std::abs(p.x()));
-    constexpr double kFar = 2e-3, kTurn = 0.02;  // m, rad in a tick
+    constexpr double kFar = 2e-3, kTurn = 0.02;  // m, rad per tick
     const double x = kFar * std::sin(kTurn * static_cast<double>(++ticks));
     if (told) machine.command(Pose<'R', 'H'>(zero.q(), Vec3(zero.p() + Vec3(x, x, 0))));
   }
@@ -129,8 +130,8 @@ struct TrackerWatch : Watch {
   PoseTracker& tracker;
 };
 
-// ---- Fakes that a thread of their own serves on the wall clock. What they suffer is done to them on that
-// thread between two turns, as `encounter fake` does it: a fake is for one thread.
+// ---- Fakes that a thread of their own serves in wall time. This thread injects faults between two turns, as
+// `encounter fake` does: a fake may be used by one thread only.
 
 constexpr std::array<Trouble::Kind, 11> kAllTroubles{
     Trouble::Kind::loss,     Trouble::Kind::jitter,     Trouble::Kind::reorder,   Trouble::Kind::duplicate,
@@ -144,7 +145,7 @@ class FaultyFakes {
   FaultyFakes(const FaultyFakes&) = delete;
   FaultyFakes& operator=(const FaultyFakes&) = delete;
 
-  // These return when it is done, and are for one other thread.
+  // These functions return when the fault is injected; only one other thread may call them.
   void suffer(Fake& fake, const Trouble& trouble) {
     between_turns([&] { fake.suffer(trouble); });
   }
@@ -157,7 +158,7 @@ class FaultyFakes {
         if (fake.knows({kind})) fake.heal(kind);
     });
   }
-  // From then on nobody serves them, as where the program is stopped.
+  // From then on no thread serves the fakes, as if the program had stopped.
   void end() {
     over_ = true;
     if (thread_.joinable()) thread_.join();
@@ -194,10 +195,10 @@ class FaultyFakes {
   std::thread thread_{[this] { serve(); }};
 };
 
-// ---- A loop of 1 kHz in a thread of its own. What is seen of it from outside orders nothing between
-// threads: a test that waited for it otherwise would hide from ThreadSanitizer what it is there to find.
+// ---- A loop of 1 kHz in a thread of its own. Observing it from outside orders nothing between threads: a
+// stricter wait would hide data races from ThreadSanitizer.
 
-// Until something holds; false where it does not in a minute.
+// Waits until a condition holds; returns false after a minute.
 template <class What>
 bool comes_true(const What& what) {
   for (int i = 0; i < 60'000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -207,7 +208,7 @@ bool comes_true(const What& what) {
 template <class Ticks>
 class LoopThread {
  public:
-  // ticks.tick(now): of the loop's thread.
+  // The loop's thread calls ticks.tick(now).
   explicit LoopThread(Ticks& ticks) : ticks_(ticks), thread_([this] { run(); }) {}
   ~LoopThread() { end(); }
   LoopThread(const LoopThread&) = delete;
@@ -217,7 +218,7 @@ class LoopThread {
     over_.store(true, std::memory_order_relaxed);
     if (thread_.joinable()) thread_.join();
   }
-  // Returns when it has made so many more.
+  // Returns after so many more ticks.
   void pass(std::int64_t ticks) const {
     const std::int64_t until = made() + ticks;
     static_cast<void>(comes_true([&] { return made() >= until; }));
@@ -239,8 +240,7 @@ class LoopThread {
   std::thread thread_;
 };
 
-// ---- The driver of the C-887, whose link is a thread's, between the loop and a controller that suffers
-// faults.
+// ---- The driver of the C-887, whose link has a thread, between the loop and a faulty controller.
 
 TEST(ThreadedMachine, KeepsItsLinkThroughWhatHealsAndTearsNoNumber) {
   FaultyGcs there(kPatient);
@@ -269,7 +269,7 @@ TEST(ThreadedMachine, KeepsItsLinkThroughWhatHealsAndTearsNoNumber) {
 struct LastFault {
   Trouble trouble;
   double patience;    // s
-  const char* words;  // of why the link is lost
+  const char* words;  // reason of the lost link
 };
 void expect_end_by(const LastFault& fault) {
   FaultyGcs there(fault.patience);
@@ -286,11 +286,11 @@ void expect_end_by(const LastFault& fault) {
   watch.expect_whole();
   EXPECT_FALSE(driver->linked());
   EXPECT_NE(driver->read(Time{}).health, Health::ok);
-  driver.reset();  // what its thread had to tell it has told then
+  driver.reset();  // by then its thread has logged everything
   EXPECT_THAT(there.log.lines(), Contains(HasSubstr(fault.words)));
 }
 
-// What may leave an answer without its end is met by one that waits for it no longer than need be.
+// A fault that may leave an answer without its end has a short patience.
 TEST(ThreadedMachine, AFaultThatEndsTheLinkIsSeenByTheLoopAndIsForGood) {
   constexpr int kFailure = 504;
   for (const LastFault& fault :
@@ -304,7 +304,8 @@ TEST(ThreadedMachine, AFaultThatEndsTheLinkIsSeenByTheLoopAndIsForGood) {
   }
 }
 
-// Ends the driver while its controller is as `meets` leaves it, which the driver may not have seen yet.
+// Ends the driver while its controller is in the state that `meets` leaves, which the driver may not have
+// noticed yet.
 using Meets = std::function<void(FaultyGcs& there, FaultyFakes& fakes)>;
 void end_after(const Meets& meets, bool told) {
   FaultyGcs there(kPatient);
@@ -354,7 +355,7 @@ TEST(ThreadedMachine, EndsAsSoonAsItHasBegun) {
               ElementsAre(HasSubstr("the client is gone"), HasSubstr("the client is gone")));
 }
 
-// ---- The drivers that read datagrams within the loop, beside a thread that sends them and suffers faults.
+// ---- The drivers that read datagrams within the loop, beside a thread that sends them with faults.
 
 struct NetftKit {
   using Place = FaultyNetft;
@@ -370,7 +371,7 @@ struct ThreadedDatagrams : testing::Test {
   using Place = typename Kit::Place;
   using Watched = typename Kit::Watched;
 
-  // Suffers one after the other, each for some ticks, for half a second.
+  // Injects one fault after the other, each for some ticks, for half a second.
   static void suffer(Place& there, FaultyFakes& fakes, const LoopThread<Watched>& loop,
                      const std::vector<Trouble>& all) {
     for (std::size_t i = 0; i < 25; ++i) {
@@ -378,13 +379,13 @@ struct ThreadedDatagrams : testing::Test {
       if (!there.server->knows(trouble)) continue;
       fakes.suffer(*there.server, trouble);
       loop.pass(15);
-      if (i % 4 != 0) fakes.heal(*there.server, trouble.kind);  // else it lasts
+      if (i % 4 != 0) fakes.heal(*there.server, trouble.kind);  // otherwise it lasts
       loop.pass(5);
     }
     fakes.heal(*there.server);
   }
-  // News come again, what was seen is whole, and the link is there. Gives how often a number was smaller than
-  // the one before.
+  // Expects new samples afterwards, undamaged samples throughout, and a link. Returns how often a number was
+  // smaller than the one before.
   static int expect_to_go_on_after(const std::vector<Trouble>& all) {
     Place there(kPatient);
     FaultyFakes fakes({there.server.get()});
@@ -460,15 +461,14 @@ TYPED_TEST(ThreadedDatagrams, EndInEveryState) {
   }
 }
 
-// ---- The laboratory's whole rig in one loop, its three fakes on one thread, and what goes wrong is drawn by
-// lot.
+// ---- The laboratory's whole rig in one loop, its three fakes on one thread, with random faults.
 
 struct ThreadedRigs {
   ThreadedRigs(double patience, std::uint64_t seed)
       : there_gcs(patience, seed),
         there_netft(patience, seed + 1),
         there_igtl(patience, seed + 2, igtl::Transport{seed % 2 != 0}) {}
-  void tick(Time now) {  // in the loop's order: all are read, then one is told
+  void tick(Time now) {  // in the loop's order: read all devices, then command one
     sensor_watch.tick(now);
     tracker_watch.tick(now);
     machine_watch.tick(now);
@@ -499,8 +499,7 @@ double drawn_value(Kind kind, double share) {
   return kind == Kind::jitter || kind == Kind::slow_start ? kLongest * share : share;
 }
 
-// The machine is cut off by most of what it may meet, and then its thread is over: that is for once in a
-// while.
+// Most faults cut off the machine, and then its thread is over: so they are drawn only now and then.
 bool drawn_at_times(int role, Kind kind) { return role == 0 && kind != Kind::jitter && kind != Kind::stall; }
 
 void suffer_and_end(const std::array<int, 3>& order, std::uint64_t seed) {

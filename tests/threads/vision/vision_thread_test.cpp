@@ -1,4 +1,4 @@
-// Vision through a camera that lives in wall time, in a thread of its own beside a loop of 1 kHz.
+// Vision with a camera in wall time, in a thread of its own beside a loop of 1 kHz.
 #include <chrono>
 #include <thread>
 
@@ -38,13 +38,13 @@ const Pictures& pictures() {
   return kAll;
 }
 
-// What a test does to the camera while it works.
+// Controls of the camera while it works.
 struct Switches {
   std::atomic<bool> up = true, running = true;
-  std::atomic<int> works_ms = 0;  // what a poll with a frame takes more
+  std::atomic<int> works_ms = 0;  // extra duration of a poll with a frame
 };
 
-// Exposes at 50 Hz of the time that it is asked at; the first frames show no hand.
+// Exposes at 50 Hz of the polled time; the first frames show no hand.
 class Live final : public StereoCamera {
  public:
   explicit Live(Switches& switches) : switches_(switches) {}
@@ -77,7 +77,7 @@ std::unique_ptr<PoseTracker> vision(Switches& switches) {
                                          Release::when_done);
 }
 
-// A haptic loop of 1 kHz in wall time that does nothing but ask.
+// A haptic loop of 1 kHz in wall time that only polls.
 struct Loop {
   Switches switches;
   ThreadedTracker tracker{vision(switches)};
@@ -113,8 +113,8 @@ TEST(VisionThread, TheFingerIsSeenBesideTheLoop) {
   loop.times.reserve(1000);
   ASSERT_TRUE(loop.until([&] { return loop.times.frames >= 60 && loop.sees(); }));
   EXPECT_LT((loop.newest.value.X_CT.p() - pictures().hand.tip).norm(), 4e-3);
-  // Never more than were due since the start. (Their rate says less: a late first frame makes the others look
-  // fast.)
+  // Never more frames than were due since the start. (Their rate says less: a late first frame makes the
+  // others look fast.)
   EXPECT_LE(static_cast<double>(loop.times.frames), 1.0 + 50.0 * loop.seconds_to_last());
   for (const double age : loop.times.ages) EXPECT_GE(age, 0.0);
   EXPECT_THAT(loop.tracker.remarks().front(), testing::HasSubstr("frames"));
@@ -133,7 +133,7 @@ TEST(VisionThread, ACameraThatStallsAndComesBackAndLosesItsLink) {
   ASSERT_TRUE(loop.until([&] { return loop.tracker.linked(); }));
 }
 
-// Ten ticks for each frame, and more: the frames become fewer, the ticks do not.
+// A frame costs ten ticks and more: the frames become fewer, the ticks do not.
 TEST(VisionThread, ASlowCameraKeepsNobody) {
   Loop loop;
   loop.switches.works_ms = 60;
