@@ -16,15 +16,15 @@
 namespace enc::test {
 namespace {
 
-// ---- Every Manipulator: the simulated hexapod, the driver to copy and those of devices. A new
-// driver is one more entry of the table at the end.
+// ---- Every Manipulator: the simulated hexapod, the driver to copy and the drivers of devices. A new driver
+// is one more entry of the table at the end.
 
-// A device with what keeps it alive, and its clock.
+// A device with its support and its clock.
 struct Machine {
   virtual ~Machine() = default;
   virtual Manipulator& device() = 0;
   virtual void next() { now += Duration(1'000'000); }           // one cycle passes
-  [[nodiscard]] virtual Duration oldest() const { return {}; }  // what it says, behind its cycle
+  [[nodiscard]] virtual Duration oldest() const { return {}; }  // age of its measurements, behind its cycle
   Time now{-Duration(1'000'000)};
 };
 
@@ -42,8 +42,8 @@ struct SampleMachine final : Machine {
   Manipulator& device() override { return *made; }
 };
 
-// The driver of the C-887 and its fake over loopback, on the wall clock, which both live in: half a
-// millisecond of it is enough for what a cycle is asked for here.
+// The driver of the C-887 and its fake over loopback, in wall time: half a millisecond is enough for a cycle
+// of this test.
 struct GcsMachine final : Machine {
   GcsPort there;
   std::unique_ptr<Manipulator> made = app::load_module("gcs").driver->manipulator(there.offer());
@@ -117,11 +117,11 @@ TEST_P(ManipulatorTest, OutOfReachIsClampedAndSaid) {
   EXPECT_EQ(s.health, Health::out_of_range);
   EXPECT_LT(s.value.X_RH.p().z() - zero().p().z(), 0.05);
   EXPECT_GT(s.value.X_RH.p().z() - zero().p().z(),
-            0.015);  // it went as far as it can: the stroke is +/-24 mm
+            0.015);  // it went to its limit: the stroke is +/-24 mm
   // Steps of 3 um, rounded, may end 1.5 um beyond the limit.
   const Pose<'R', 'H'> inside(Quat(s.value.X_RH.q()), Vec3(s.value.X_RH.p() - Vec3(0, 0, 3e-6)));
   EXPECT_TRUE(machine_->device().reach().contains(inside));
-  EXPECT_EQ(after(zero(), 3000).health, Health::ok);  // and recovers
+  EXPECT_EQ(after(zero(), 3000).health, Health::ok);  // it recovers
 }
 
 TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
@@ -131,22 +131,22 @@ TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
   bad.xyz[1] = kUnset;
   auto s = after(bad, 200);
   EXPECT_EQ(s.health, Health::fault);
-  EXPECT_LT((s.value.X_RH.p() - there.p()).norm(), 3e-6);  // stands where it was
+  EXPECT_LT((s.value.X_RH.p() - there.p()).norm(), 3e-6);  // stands in place
   s = after(Pose<'R', 'H'>(Quat(2, 0, 0, 0), Vec3(there.p())), 2);
   EXPECT_EQ(s.health, Health::fault);  // no rotation either
   EXPECT_EQ(after(there, 2).health, Health::ok);
 }
 
-// However fast it was: it stands where it stopped, a second stop changes nothing, and a command starts anew.
+// At any speed: it stands where it stopped, a second stop changes nothing, and a command starts anew.
 TEST_P(ManipulatorTest, StopsStaysAndStartsAnew) {
-  const Vec3 there = after(at(0.01, 0, 0), 60).value.X_RH.p();  // on its way
+  const Vec3 there = after(at(0.01, 0, 0), 60).value.X_RH.p();  // under way
   machine_->device().stop();
   const auto rest = [&](int cycles) -> Vec3 {
     for (int i = 0; i < cycles; ++i) machine_->next();
     return machine_->device().read(machine_->now).value.X_RH.p();
   };
   const Vec3 stood = rest(1500);
-  EXPECT_LT((stood - there).norm(), 0.003);  // what braking takes
+  EXPECT_LT((stood - there).norm(), 0.003);  // the braking distance
   machine_->device().stop();
   EXPECT_LT((rest(300) - stood).norm(), 3e-6);
   EXPECT_LT((after(at(0.001, 0, 0), 1500).value.X_RH.p() - at(0.001, 0, 0).p()).norm(), 3e-6);
@@ -157,7 +157,7 @@ TEST_P(ManipulatorTest, ReadNeitherWaitsNorMovesAnything) {
   const auto first = machine_->device().read(machine_->now);
   for (int i = 0; i < 1000; ++i) {
     const auto once = machine_->device().read(machine_->now), again = machine_->device().read(machine_->now);
-    // A device that moves on the wall clock may have told of its next place in between.
+    // A device in wall time may have reported its next place in between.
     EXPECT_TRUE(again.t > once.t || again.value.X_RH.xyz == once.value.X_RH.xyz);
   }
   EXPECT_GE(machine_->device().read(machine_->now).t, first.t);
@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(
         Entry{"gcs", []() -> std::unique_ptr<Machine> { return std::make_unique<GcsMachine>(); }}),
     [](const auto& entry) { return std::string(entry.param.name); });
 
-// The plant alone: limits of the moving part, which a driver's machine keeps by itself.
+// The plant alone: limits of the moving part, which a driver's machine enforces by itself.
 TEST(SimulatedMachine, KeepsSpeedAndAccelerationUnderWildCommands) {
   Twin twin;
   std::mt19937_64 random(7);
@@ -201,13 +201,13 @@ TEST(SimulatedMachine, KeepsSpeedAndAccelerationUnderWildCommands) {
   }
   EXPECT_LE(fastest, reach.speed * (1 + 1e-6));
   EXPECT_LE(hardest, reach.acceleration * (1 + 1e-6));
-  EXPECT_GT(hardest, 0.9 * reach.acceleration);  // the test does push it to its limit
+  EXPECT_GT(hardest, 0.9 * reach.acceleration);  // the test does reach its limit
 }
 
 // ---- Every ForceSensor: the simulated one and the driver to copy.
 
 constexpr double kQuantum = 0.025;          // N
-constexpr double kWeight = 0.91 * 9.80665;  // N, of what is behind the sensor
+constexpr double kWeight = 0.91 * 9.80665;  // N, of the mass behind the sensor
 
 TEST(SimulatedForce, IsAbsentBeforeTheFirstTick) {
   Twin twin;
@@ -296,8 +296,7 @@ TEST(SampleForce, ReadsZeroAndStampsItWithTheCycle) {
   }
 }
 
-// ---- Every PoseTracker; so far the simulated one. Rates and delays must come out as the rig's truth has
-// them.
+// ---- Every PoseTracker; so far the simulated one. Rates and delays must match the rig's ground truth.
 
 struct Tally {
   int news = 0;
@@ -305,7 +304,8 @@ struct Tally {
   bool backwards = false;
 };
 
-// Runs the clock and watches what comes. The core is left out: it costs time and the tracker does not care.
+// Runs the clock and collects the samples. The core is left out: it costs time and does not affect the
+// tracker.
 Tally watch(Twin& twin, double duration) {
   Tally tally;
   Stamped<TrackedTool> sample;
@@ -343,8 +343,8 @@ TEST(SimulatedTracker, NewsIsToldOnceAndOtherwiseTheSampleIsLeftAlone) {
   EXPECT_EQ(sample.t, first);
 }
 
-// Server at 100 Hz polls exposures at 120 Hz: 100 packets a second. Age when one reaches the core, on
-// average: 3.5 ms to the host, half an exposure period (4.17 ms) in the server's wait, 9.2 ms of its
+// The server at 100 Hz polls exposures at 120 Hz: 100 packets a second. The mean age at the core has these
+// parts: 3.5 ms to the host, half an exposure period (4.17 ms) of wait in the server, 9.2 ms of its
 // application, 0.5 ms of network, half a tick. (docs/notes/tracking.md)
 TEST(SimulatedTracker, RateAndAgeAreThoseOfTheRig) {
   Twin twin;
@@ -355,14 +355,14 @@ TEST(SimulatedTracker, RateAndAgeAreThoseOfTheRig) {
   EXPECT_NEAR(tally.age / tally.news, expected, 0.05 * expected);
 }
 
-// Sent when ready: every exposure comes, and none waits for the server.
+// Packets that are sent when ready: every exposure arrives, without a wait for the server.
 TEST(SimulatedTracker, PacketsByEventComeAtTheExposuresRateWithoutTheServersWait) {
   Twin twin({"truth.tracker.packets=event", "truth.tracker.server_rate_hz=1"});
   const Tally tally = watch(twin, 60.0);
   const sim::TrackerTruth& truth = twin.setup.twin.tracker;
   EXPECT_FALSE(tally.backwards);
   EXPECT_GT(tally.news / 60.0,
-            110.0);  // of 120: a packet that is overtaken, or comes with the next, is not news
+            110.0);  // out of 120: a packet that arrives late, or with the next one, is not news
   EXPECT_LE(tally.news / 60.0, 120.1);
   const double expected = truth.latency + truth.process + truth.udp_delay + 0.5e-3;
   EXPECT_NEAR(tally.age / tally.news, expected, 0.1 * expected);
@@ -437,7 +437,7 @@ TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
     twin.rig.display->show(view);
     if (!twin.rig.display->poll({}, dent)) continue;
     EXPECT_GE(k.t - dent.t, from_seconds(0.025));
-    EXPECT_LT(k.t - dent.t, from_seconds(0.027));  // and no later than the tick after
+    EXPECT_LT(k.t - dent.t, from_seconds(0.027));  // at the latest in the tick after
     EXPECT_GT(dent.t, before);
     before = dent.t;
     ++news;

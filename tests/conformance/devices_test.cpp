@@ -1,5 +1,5 @@
-// Devices that cannot be reached or used: what `encounter devices` prints of each cause, and addresses that
-// are wrong.
+// Devices that cannot be reached or used: the output of `encounter devices` for each cause, and wrong
+// addresses.
 #include "tests/support/devices.h"
 
 #include <algorithm>
@@ -42,10 +42,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using tests::Result;
 
-// ---- `encounter devices` before servers that behave as real ones of public reports do: each cause is
-// printed, with the counts that the report of a run has, and the exit code is 3.
+// ---- `encounter devices` before servers that behave like real ones in public reports. It prints each cause
+// with the counts of a run's report, and returns exit code 3.
 
-// The devices of the rig `fakes` that are not named in `real` are simulated.
+// Simulates the devices of the rig `fakes` that `real` does not name.
 Result devices(const std::vector<std::string>& real, const char* seconds) {
   std::vector<std::string> words{"devices", "fakes", "--for-s",
                                  seconds,   "--set", "rig.manipulator.driver=sim"};
@@ -58,10 +58,10 @@ struct Sent {
   std::int64_t stamp_ns = 0;
   const char* device = "StylusToTracker";
   // CRC in the header of the pose and of the answer to GET_STATUS.
-  std::uint64_t pose_crc = 1, status_crc = 1;  // 1: the right one; else what the header has
+  std::uint64_t pose_crc = 1, status_crc = 1;  // 1: the right one; else the value in the header
 };
 
-// A tracker's own server, over TCP, which sends what `pose` says 100 times a second.
+// A tracker's own server, over TCP, which sends the result of `pose` 100 times a second.
 class TrackerServer {
  public:
   explicit TrackerServer(Sent (*pose)(int)) : pose_(pose) {}
@@ -203,7 +203,7 @@ struct ForceServer {
                                  "rig.driver.netft.port=" + std::to_string(server.port()),
                                  "rig.driver.netft.http_port=" + std::to_string(server.http_port()),
                                  "rig.driver.netft.command_port=" + std::to_string(server.command_port()),
-                                 "rig.driver.netft.silent_ms=500"};  // other tests take the processor, too
+                                 "rig.driver.netft.silent_ms=500"};  // other tests share the processor
     set.insert(set.end(), more.begin(), more.end());
     return devices(set, "0.6");
   }
@@ -242,7 +242,7 @@ TEST(Devices, AFaultInTheMiddleIsNoSuccess) {
 
 TEST(Devices, AForceBeyondTheRatingIsSaturated) {
   ForceServer there;
-  there.sensor.newtons = -450.0;  // of 400 along z
+  there.sensor.newtons = -450.0;  // beyond the 400 along z
   const Result result = there.asked();
   EXPECT_EQ(result.code, 3) << result.out;
   EXPECT_THAT(result.out, AllOf(HasSubstr("N m, in F, saturated"),
@@ -250,8 +250,8 @@ TEST(Devices, AForceBeyondTheRatingIsSaturated) {
                                 HasSubstr("NOT USABLE: its last sample is saturated")));
 }
 
-// ---- Addresses and ports that are right, and those that are not: for each driver with a wire, in front of
-// its fake or of somebody else's.
+// ---- Right and wrong addresses and ports: for each driver with a wire, in front of its fake or of another
+// program.
 
 struct SteadyForce final : ForceSensor {
   Stamped<Wrench> read(Time now) noexcept override {
@@ -265,7 +265,7 @@ struct SteadyTool final : PoseTracker {
   }
 };
 
-// Of any driver: where its device is. Times are longer than usual, as other tests take the processor, too.
+// Address of any driver's device. Times are longer than usual, because other tests share the processor.
 struct Whereabouts final : DefaultOffer::Defaults {
   using DefaultOffer::Defaults::value;
   void value(const Setting& key, double& number) override {
@@ -282,7 +282,7 @@ struct Whereabouts final : DefaultOffer::Defaults {
   std::map<std::string, std::int64_t, std::less<>> ports{};
 };
 
-// The three fakes of a laboratory at an address, and what leads there.
+// The three fakes of a laboratory at an address, and the tables that lead to them.
 struct ThreeWires {
   explicit ThreeWires(const std::string& at)
       : address(at),
@@ -317,7 +317,7 @@ struct Asker {
   Offer offer(Settings& table) {
     return {table, defaults.rig, machine.can, Duration(1'000'000), log, false, false, tools};
   }
-  // What a driver says where it finds nothing.
+  // The error message of a driver that finds no device.
   template <class Make>
   std::string refused(Make make, Whereabouts table) {
     try {
@@ -382,7 +382,7 @@ TEST(Addresses, ANameThatNobodyKnowsIsOneLineOfEveryDriver) {
                                HasSubstr("see the address in the rig file")));
 }
 
-// It takes the connection, as a program that hangs does, and never an answer comes.
+// The server accepts the connection, like a hung program, and never answers.
 TEST(Addresses, AServerThatSaysNothingIsNoController) {
   const net::Socket silent = net::listen_tcp("127.0.0.1", 0);
   Whereabouts table;
@@ -395,7 +395,7 @@ TEST(Addresses, AServerThatSaysNothingIsNoController) {
   EXPECT_LT(net::steady_now() - before, Duration(10'000'000'000));
 }
 
-// Each device at the port of another one.
+// Each driver connects to the port of another device.
 TEST(Addresses, APortOfAnotherDeviceIsSaid) {
   const ThreeWires there("127.0.0.1");
   Asker asker;

@@ -32,13 +32,13 @@ using tests::run_program;
 // ---- The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the
 // other.
 
-// The program, until it ends or this goes; what it prints goes into a file.
+// Runs the program until it ends or this object is destroyed; its output goes into a file.
 class Started {
  public:
   Started(const std::vector<std::string>& words, const std::string& output) {
     std::vector<std::string> all{tests::program_file()};
     all.insert(all.end(), words.begin(), words.end());
-    static_cast<void>(fflush(nullptr));  // the child has none of it
+    static_cast<void>(fflush(nullptr));  // the child must not inherit buffered output
     child_ = fork();
     if (child_ != 0) return;
     std::vector<char*> arguments;
@@ -66,7 +66,7 @@ class Started {
   pid_t child_ = -1;
 };
 
-// One press, whose deepest is at 13 s.
+// One press, with its maximum depth at 13 s.
 TEST(Fakes, InLockstepARunThroughSocketsIsTheSameEachTimeAndAsWithout) {
   const Laboratory there(true);
   const TemporaryFolder folder;
@@ -110,7 +110,7 @@ TEST(Fakes, WhatDoesNotFitIsSaid) {
   EXPECT_THAT(taken.err, HasSubstr("is taken"));
 }
 
-// Of no fake, of another wire, or with a value that is none.
+// A fault of a missing fake, of another wire, or with an invalid value.
 TEST(Fakes, AFaultThatCannotBeIsRefused) {
   for (const auto& [fault, why] :
        {std::pair{"netfd:loss", "there is no fake of 'netfd'; did you mean 'netft'?"},
@@ -128,7 +128,7 @@ TEST(Fakes, AFaultThatCannotBeIsRefused) {
   }
 }
 
-// Whenever the client comes: for it the fakes' time begins anew, and so do messages that are under way.
+// The arrival time of the client does not matter: the fakes' time begins anew, and so do messages under way.
 TEST(Fakes, AFaultOfTheirLineIsTheSameHoweverLongTheyWaited) {
   for (const char* fault : {"gcs:jitter=1ms", "gcs:slow-start=100ms"}) {
     Laboratory there(false, {}, {fault});
@@ -140,7 +140,7 @@ TEST(Fakes, AFaultOfTheirLineIsTheSameHoweverLongTheyWaited) {
   }
 }
 
-// When it began, by which program and on which machine: in the report, the record and the MCAP file.
+// The start time, the program and the machine are in the report, the record and the MCAP file.
 TEST(Fakes, ARunOnTheWallClockSaysWhenItBegan) {
   Laboratory there(false);
   const TemporaryFolder folder;
@@ -161,7 +161,7 @@ TEST(Fakes, ARunOnTheWallClockSaysWhenItBegan) {
     EXPECT_THAT(bytes, testing::AllOf(HasSubstr(name), HasSubstr(texts.at(name))));
 }
 
-// Dry: all is read and computed, and the machine is told nothing.
+// Dry: the run reads and computes everything, and sends no set-point.
 TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   Laboratory there(false);
   const nlohmann::json dry = json_of(run_program(there.words({"--for-s", "2", "--json"})));
@@ -174,8 +174,9 @@ TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   EXPECT_THAT(there.log(), testing::ContainsRegex("it commanded [1-9][0-9]+ moves and [1-9][0-9]* stops"));
 }
 
-// For 2 s the program is not there. The machine stands at its last point, the first tick afterwards holds,
-// and no point is farther than one cycle allows: the fake refuses those with error 8, and the run says so.
+// The program stops for 2 s. The machine stands at its last point and the first tick afterwards holds. No
+// point is farther than one cycle allows: the fake refuses a farther one with error 8, and the run reports
+// that.
 TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
   Laboratory there(false);
   const TemporaryFolder folder;
@@ -209,8 +210,8 @@ TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
   EXPECT_THAT(text, testing::Not(HasSubstr("error 8")));
 }
 
-// What was typed and is over does not come again with the next client, for whom the world begins anew; what
-// still lasts goes on.
+// A typed fault that is over does not return with the next client, although the world begins anew. A fault
+// that still lasts stays.
 TEST(Fakes, AFaultThatWasTypedBelongsToNoRun) {
   Laboratory there(false);
   const auto times = [&](const std::string& what) {
@@ -242,8 +243,8 @@ TEST(Fakes, AFaultThatWasTypedBelongsToNoRun) {
   EXPECT_EQ(times("igtl is healed of loss"), 1);
 }
 
-// However it is killed, the machine comes to rest within this, s of its own time (docs/reference/safety.md):
-// 44 ms of points and dead time, then 604 ms until its servo has settled, from 50 mm/s
+// The machine comes to rest within this time after any kill, s of its own time (docs/reference/safety.md). It
+// has 44 ms of points and dead time, then 604 ms until its servo has settled from 50 mm/s
 // (tests/benchmarks/wires/wired_trial.h).
 constexpr double kRunsDry = 0.65;
 
@@ -254,7 +255,7 @@ void kill_at_random_moments(int times) {
   int moving = 0;
   for (int i = 0; i < times; ++i) {
     Started run(there.words({"--armed", "--yes"}), "/dev/null");
-    // At any moment, its start included; most often while it goes fastest, when it has just begun.
+    // Kills at any moment, start-up included; most often at the highest speed, just after the motion begins.
     const bool any = i % 4 == 0;
     for (int wait = 0; !any && wait < 4000 && !there.moves; ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -262,7 +263,7 @@ void kill_at_random_moments(int times) {
     run.send(i % 2 == 0 ? SIGKILL : SIGTERM);
     run.wait();
     there.pause();
-    there.fakes->turn();  // what was on its way is there
+    there.fakes->turn();  // bytes under way arrive
     const double killed = there.time();
     moving += there.stands() ? 0 : 1;
     for (int wait = 0; wait < 100 && there.time() <= killed + 1.2 * kRunsDry; ++wait) {
@@ -302,8 +303,8 @@ TEST(Fakes, DevicesSaysWhatAnswersAndHowOften) {
   EXPECT_THAT(none.out, HasSubstr("manipulator  NOT THERE: 127.0.0.1:1: nobody listens there"));
 }
 
-// The rig of the fakes is the simulated one, but for its drivers, and that it waits ten times as long for
-// what is late: fakes share the processor with the run.
+// The rig of the fakes is the simulated one with two exceptions: its drivers, and ten times the tolerance for
+// late samples, because fakes share the processor with the run.
 TEST(Fakes, TheirRigIsTheSimulatedOne) {
   const auto text = [](models::Setup setup) {
     for (std::string* driver :
@@ -324,8 +325,7 @@ TEST(Fakes, TheirRigIsTheSimulatedOne) {
 
 // ---- Runs of the ball with poses from a tracker's own server, over TCP.
 
-// The first touch, with poses from a tracker's own server over TCP in each of the two forms that are asked
-// for.
+// The first touch, with poses from a tracker's own server over TCP in each of the two forms of request.
 TEST(TrackerRun, InLockstepATrackersOwnServerGivesTheSameCommands) {
   const TemporaryFolder folder;
   const std::string none = folder.file("none.encrec");
@@ -343,8 +343,8 @@ TEST(TrackerRun, InLockstepATrackersOwnServerGivesTheSameCommands) {
   }
 }
 
-// The tracker's server hangs up in the middle of a run: it holds and says why, and the record has each of its
-// ticks, to the last.
+// The tracker's server hangs up in the middle of a run: the run holds and gives the reason, and the record
+// has every tick to the last.
 TEST(TrackerRun, ARecordOfARunWithAFaultIsWhole) {
   const Laboratory there(false, {"rig.driver.igtl.transport=tcp"}, {"igtl:disconnect@1500ms"});
   const TemporaryFolder folder;
@@ -368,8 +368,8 @@ TEST(TrackerRun, ARecordOfARunWithAFaultIsWhole) {
   EXPECT_NE(last.out.why & kTrackerFault, 0U);
 }
 
-// ---- `encounter calibrate rig` over the wires of the laboratory: the machine that is sent from pose to pose
-// is behind its own, and so are force sensor and tracker.
+// ---- `encounter calibrate rig` over the wires of the laboratory: the machine that moves from pose to pose
+// has a wire of its own, and so have force sensor and tracker.
 
 const std::string kClamped = tests::source_dir() + "/models/scenes/clamped_tool.toml";
 const std::vector<std::string> kWrong{
@@ -403,7 +403,7 @@ TEST(CalibrateRig, FindsBehindItsWiresWhatTheRigDoesNotKnow) {
   EXPECT_TRUE(std::filesystem::exists(file));
 }
 
-// A force sensor that falls silent: it ends at once, and no file is made.
+// The force sensor falls silent: the command ends at once and writes no file.
 TEST(CalibrateRig, WhatFailsOnTheWayEndsItAndLeavesNoFile) {
   const Laboratory there(true, {}, {"netft:stall@4s"}, kClamped);
   const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Our fakes, drivers and files against programs that others wrote, each in a program of its own.
+// Our fakes, drivers and files against programs by other authors, each in a program of its own.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -81,7 +81,7 @@ TEST_F(GcsForeign, TheDriverSpeaksToPipythonsServer) {
 const std::string kPynetft = tests::source_dir() + "/.deps/pynetft";
 const std::string kPynetftScript = tests::source_dir() + "/tests/conformance/foreign/pynetft_client.py";
 
-// As in pynetft_client.py. No two axes are alike, so that their order, their signs and their bytes count.
+// As in pynetft_client.py. All axes differ, so that their order, their signs and their bytes count.
 struct PressedTwoWays final : ForceSensor {
   Stamped<Wrench> read(Time now) noexcept override {
     const Wrench one{Vec<'F'>(1.234567, -23.456789, -123.456789), Vec<'F'>(0.345678, -4.567891, 9.876543)};
@@ -92,14 +92,14 @@ struct PressedTwoWays final : ForceSensor {
   std::atomic<Health> health = Health::ok;
 };
 
-// More counts for a newton metre than for a newton, so that they cannot be mistaken for each other.
+// A newton metre has more counts than a newton, so that the test detects a mix-up.
 netft::Configuration gamma_of_two_scales() {
   netft::Configuration of = netft::gamma();
   of.per_newton_metre = 2e6;
   return of;
 }
 
-// A box with a clock of its own, a millisecond to a record: its numbers do not depend on this machine's load.
+// A box with its own clock of a millisecond per record: its numbers do not depend on this machine's load.
 class PacedBox {
  public:
   ~PacedBox() { end(); }
@@ -132,14 +132,14 @@ class PacedBox {
   }};
 };
 
-// Its scales over HTTP, one record, a stream and its numbers, a bias, another over it, which stays where
-// another client comes; then a warning, which ends nothing, and a saturated sensor, which does.
+// Reads its scales over HTTP, one record, a stream with its numbers, a bias, and a second bias, which stays
+// for the next client. Then a warning, which does not end the stream, and a saturated sensor, which does.
 TEST(NetftForeign, PynetftDrivesTheFake) {
   if (!std::filesystem::exists(kPynetft)) GTEST_SKIP() << "no " << kPynetft << ": ./check fetches it";
   PacedBox there;
   tests::PipedChild child({"/usr/bin/python3", "-B", kPynetftScript, kPynetft,
                            std::to_string(there.server.port()), std::to_string(there.server.http_port())});
-  const auto said = [&] {  // a line, in whatever pieces
+  const auto said = [&] {  // reads a line, in any pieces
     std::string line;
     std::array<char, 64> bytes{};
     while (!line.ends_with('\n')) {
@@ -159,12 +159,12 @@ TEST(NetftForeign, PynetftDrivesTheFake) {
   there.sensor.health = Health::saturated;
   EXPECT_EQ(child.end(), 0);
   there.end();
-  there.turn();  // what came last
+  there.turn();  // handles the last message
   EXPECT_FALSE(there.server.box().streams()) << "its stop is not heard";
 }
 
-// ---- What export writes as MCAP against the reader of those who made the format (mcap of PyPI), in a
-// program of its own: that readers we have not written find all of it.
+// ---- The MCAP files of export against the reader of the format's authors (mcap of PyPI), in a program of
+// its own: a foreign reader finds the whole content.
 
 const std::string kMcap = tests::source_dir() + "/.deps/mcap";
 const std::string kMcapScript = tests::source_dir() + "/tests/conformance/foreign/mcap_reader.py";
@@ -192,8 +192,8 @@ std::string of_each_tick(const std::string& topic, std::int64_t ticks, const std
   return topic + " " + std::to_string(ticks) + " " + schema + "\n";
 }
 
-// A machine that carries a tip: all of its ticks are there, and a viewer finds names of schemas that it
-// knows.
+// A machine that carries a tip: the file has all of its ticks, and a viewer finds names of schemas that it
+// supports.
 TEST_F(McapForeign, ItsReaderFindsEachTickOfAPress) {
   RecordReader record(kPress);
   const std::int64_t ticks = record.ticks();
@@ -213,7 +213,7 @@ TEST_F(McapForeign, ItsReaderFindsEachTickOfAPress) {
                                         std::to_string(record.texts().at("resolved").size()) + "\n")));
 }
 
-// An arm pushes and carries no pose: other channels, the joints by their own names.
+// An arm pushes and carries no pose: other channels, the joints with their own names.
 TEST_F(McapForeign, ItsReaderFindsEachTickOfAnArm) {
   const std::int64_t ticks = RecordReader(kArmPress).ticks();
   written(kArmPress);
@@ -242,7 +242,7 @@ TEST_F(McapForeign, ItsReaderFindsTheChunksOfALongRun) {
       << "its tracker has 100 Hz and its first packet comes late";
 }
 
-// The judge must be able to say no: a byte of a message that is another.
+// The judge must be able to fail: one byte of a message differs.
 TEST_F(McapForeign, ItsReaderRefusesAChangedByte) {
   written(kPress);
   std::string bytes = bytes_of(file());

@@ -1,6 +1,5 @@
-// The driver of the C-887 with the fake controller at the other end of its link, on the wall clock. The
-// driver's thread is also the fake's: what goes out is answered at once, and its time passes while that
-// waits.
+// The driver of the C-887 with the fake controller at the other end of its link, in wall time. The driver's
+// thread is also the fake's: the fake answers at once, and its time passes while the thread waits.
 #pragma once
 
 #include <atomic>
@@ -19,14 +18,14 @@
 
 namespace enc::test {
 
-// As the loop does: a set-point follows the reading of its tick.
+// Like the loop: a set-point follows the reading of its tick.
 inline void tell(Manipulator& machine, const Pose<'R', 'H'>& to) {
   static_cast<void>(machine.read(Time{}));
   machine.command(to);
 }
 
 struct GcsBench {
-  // What of the fake may be seen while the driver lives.
+  // Visible state of the fake while the driver lives.
   struct Seen {
     double x = 0.0;  // m
     bool at_rest = true;
@@ -53,13 +52,13 @@ struct GcsBench {
   };
 
   explicit GcsBench(const gcs::ControllerSettings& with = {}) : controller(machine, with) {
-    settings.watchdog = 0.05;  // s: other tests take the processor, too
+    settings.watchdog = 0.05;  // s: other tests share the processor
   }
   Offer offer() { return {defaults.table, defaults.rig, machine.can, Duration(1'000'000), log}; }
   std::unique_ptr<Manipulator> driver() {
     return std::make_unique<gcs::GcsManipulator>(offer(), settings, std::make_unique<FakeLink>(*this));
   }
-  // Of the driver's thread while there is one.
+  // Called by the driver's thread while there is one.
   void pass(Duration now) noexcept {
     time = now;
     if (const int error = failure.exchange(gcs::kNoError); error != gcs::kNoError) controller.fail(error);

@@ -1,5 +1,4 @@
-// What the driver of the C-887 does beyond what every manipulator does: links that are lost, and every end of
-// a run.
+// The driver of the C-887 beyond the contract of every manipulator: lost links, and every end of a run.
 #include <chrono>
 #include <thread>
 
@@ -25,7 +24,7 @@ std::string refused(GcsBench& bench) {
   return error_of([&] { bench.driver(); }, ErrorKind::device);
 }
 void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
-// Until something holds, at most 3 s.
+// Waits until a condition holds, at most 3 s.
 template <class What>
 bool comes(const What& what) {
   for (int i = 0; i < 3000 && !what(); ++i) wait(1);
@@ -60,8 +59,8 @@ TEST(GcsDriver, WhoDoesNotAnswerIsOneLine) {
             "127.0.0.1:50000: closed the connection; close other clients (PIMikroMove) and try again");
 }
 
-// However it ends while it moves, the machine comes to rest on its way: by stop(), by the end of the driver,
-// by a loop that says nothing any more.
+// Every end during a motion brings the machine to rest on its path: stop(), the end of the driver, a loop
+// that falls silent.
 TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
   for (const int end : {0, 1, 2}) {
     GcsBench bench;
@@ -69,7 +68,7 @@ TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
     const auto way = beside(*driver, 0.03);
     EXPECT_TRUE(comes([&] {
       tell(*driver, way);
-      const auto seen = bench.seen();  // on a busy machine it is stopped as soon as nobody looks
+      const auto seen = bench.seen();  // on a busy machine the watchdog stops it between two polls
       return seen.x > 0.005 && !seen.at_rest;
     })) << end;
     if (end == 0) driver->stop();
@@ -77,7 +76,7 @@ TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
       driver.reset();
       bench.pass(bench.time + Duration(80'000'000));  // braking at 1.64 m/s2 takes 31 ms
     }
-    wait(50);  // on a busy machine it rests between two commands, and the last is still to be read
+    wait(50);  // on a busy machine it rests between two commands, and the last is still unread
     EXPECT_TRUE(comes([&] { return bench.seen().at_rest; })) << end;
     const double stood = bench.seen().x;
     wait(50);
@@ -111,7 +110,7 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
       EXPECT_TRUE(comes([&] { return !driver->linked(); })) << silent;
       EXPECT_EQ(driver->read(Time{}).health, Health::fault);
       tell(*driver, beside(*driver, 0.002));
-      driver->stop();  // waits for nothing
+      driver->stop();  // does not wait
       bench.silent = bench.hung_up = false;
       wait(20);
       EXPECT_FALSE(driver->linked());
@@ -119,12 +118,13 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
     EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr(silent ? "lost: no answer in time"
                                                                 : "lost: closed by the controller")));
     if (silent) {
-      EXPECT_EQ(bench.controller.error(), 10);  // it was told to stand, in case that it hears
+      // The driver sent a stop, in case the controller still listens.
+      EXPECT_EQ(bench.controller.error(), 10);
     }
   }
 }
 
-// The first ERR? clears what was there: error 10 is the end of every run, and nothing is said of it.
+// The first ERR? clears earlier errors: error 10 is the end of every run, and the log omits it.
 TEST(GcsDriver, AnErrorOfBeforeIsSaidAsSuch) {
   for (const auto& [told, lines] : {std::pair{"", 0U}, {"\x18", 0U}, {"STP\n", 0U}, {"WHAT\n", 1U}}) {
     SCOPED_TRACE(told);
@@ -166,13 +166,12 @@ TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
     tell(*driver, beside(*driver, 0.001));
     wait(1);
   }
-  EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // and stays so in this run
+  EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // stays so in this run
   EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr("met error 504: a strut does not follow"),
                                              HasSubstr("lost: a fault of the machine")));
 }
 
 // ---- over loopback
-// ------------------------------------------------------------------------------------------
 
 TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
   GcsPort there;
@@ -183,14 +182,14 @@ TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
               HasSubstr("closed the connection; close other clients"));
   EXPECT_THAT(there.log.lines(), ElementsAre("fake C-887: a second client was refused"));
   EXPECT_TRUE(comes([&] {
-    tell(*first, beside(*first, 0.001));  // each time: one that grew old on a busy machine is not sent
+    tell(*first, beside(*first, 0.001));  // repeated: a busy machine may discard a late one
     return first->read(Time{}).value.X_RH.p().x() > 1e-6;
   }));
   EXPECT_TRUE(first->linked());
 }
 
-// What listens on this PC may pass everything on to a machine that is real: without a calibration only a fake
-// that says that it is one is commanded.
+// A server on this PC may relay everything to a real machine: without a calibration the driver commands only
+// a fake that identifies itself as one.
 TEST(GcsPort, ARelayOnThisPcIsARealMachine) {
   for (const bool fake : {true, false}) {
     gcs::ControllerSettings settings;
@@ -266,7 +265,7 @@ TEST(GcsPort, AnErrorOfTheFakeWithoutACodeIsThatOfAStrut) {
   }
 }
 
-// Its world begins anew with the client: what is late is so by that world's time.
+// The fake's world begins anew with the client: delays count in that world's time.
 TEST(GcsPort, AFaultOfTheLineIsTheSameHoweverLateTheClientCame) {
   for (const std::int64_t waited_s : {0, 10}) {
     FollowingMachine machine;
@@ -293,8 +292,8 @@ TEST(GcsPort, NobodyThereIsOneLine) {
               HasSubstr("127.0.0.1:1: nobody listens there"));
 }
 
-// What the driver believes of the machine under its set-points is what the twin's machine does, to the bit:
-// lag, delay, limits and steps.
+// The driver's model of the machine under its set-points equals the twin's machine, to the bit: lag, delay,
+// limits and steps.
 TEST(GcsDriver, TheBelievedServoIsTheTwins) {
   const RigSpec rig;
   const sim::HexapodTruth truth;

@@ -1,4 +1,4 @@
-// A driver of tool data before a server of ours on a port of this machine.
+// A driver of tool data in front of our server on a port of this machine.
 #pragma once
 
 #include <algorithm>
@@ -68,7 +68,7 @@ struct IgtlBench {
     return watched;
   }
 
-  // What a stream's server has sent before the run is passed over until three polls find next to nothing.
+  // Discards the stream from before the run, until three polls find next to nothing.
   void settle(PoseTracker& driver, Time& at) {
     for (int i = 0; i < 3; ++i) {
       at += Duration(1'000'000);
@@ -83,7 +83,7 @@ struct IgtlBench {
   Duration begun = net::steady_now();
 };
 
-// With the server.
+// The bench with our server.
 struct IgtlPort : IgtlBench {
   explicit IgtlPort(igtl::Transport transport = igtl::Transport::udp)
       : server(tracker, {"stylusToTracker"}, {.transport = transport}) {

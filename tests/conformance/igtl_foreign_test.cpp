@@ -1,5 +1,5 @@
-// A tracker's server and its driver against foreign ones: pyigtl, in a program of its own, and Debian's
-// libOpenIGTLink.
+// A tracker's server and its driver against foreign counterparts: pyigtl, in a program of its own, and
+// Debian's libOpenIGTLink.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -31,8 +31,8 @@ std::vector<std::string> script(const std::string& name) {
   return {"/usr/bin/python3", "-B", tests::source_dir() + "/tests/conformance/foreign/" + name, kPyigtl};
 }
 
-// As in the scripts: a quarter turn about z, then 10, 20, 30 mm. No two of its numbers are alike, so that
-// their order counts.
+// As in the scripts: a quarter turn about z, then 10, 20, 30 mm. All of its numbers differ, so that their
+// order counts.
 const Pose<'C', 'T'> kTurned(Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), Vec3(0.01, 0.02, 0.03));
 void expect_turned(const Pose<'C', 'T'>& X_CT) {
   EXPECT_LT((X_CT.p() - kTurned.p()).norm(), 1e-8);
@@ -96,7 +96,7 @@ void expect_turned(const library::Matrix4x4& matrix) {
       EXPECT_NEAR(matrix[row][column], expected[row][column], 1e-5) << row << ' ' << column;
 }
 
-// Their next message of that type, unpacked with its sum checked; other types are passed over.
+// Their next message of that type, unpacked with its checksum verified; other types are skipped.
 template <class Message>
 typename Message::Pointer next_of(library::ClientSocket& socket, const char* type) {
   constexpr int kMostMessages = 500;

@@ -18,9 +18,9 @@ namespace {
 using igtl::Written;
 using ::testing::HasSubstr;
 
-// ---- Tool data over loopback: the driver and the server that stands in for the laboratory's.
+// ---- Tool data over loopback: the driver, and the server in place of the laboratory's.
 
-// By datagrams, and by a stream in each form that is asked for.
+// Datagrams, and a stream in each form of request.
 TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
   using igtl::Transport;
   for (const auto& [transport, message, words] :
@@ -55,14 +55,14 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
   }
 }
 
-// The process is stopped within a tick: what it reads then came later than the tick began.
+// The process stops within a tick: the samples that it then reads arrived after the tick began.
 TEST(IgtlDriver, AfterATickThatWasHeldUpPosesAreAsFreshAsBefore) {
   IgtlPort there;
   const Served served(there.server);
   const auto driver = igtl::subscribed(there.offer());
   ASSERT_GT(there.watch(*driver, 300).news, 10);
   const Time began(net::steady_now() - there.begun);
-  constexpr double kHeldUp = 0.15;  // s: less than it may be silent
+  constexpr double kHeldUp = 0.15;  // s: shorter than the allowed silence
   std::this_thread::sleep_for(std::chrono::duration<double>(kHeldUp));
   EXPECT_TRUE(driver->poll(began, there.newest));
   EXPECT_LE(there.newest.t, began);
@@ -94,7 +94,7 @@ TEST(IgtlDriver, WhoDoesNotAnswerIsNamed) {
 // ---- The driver of a tracker's own server: OpenIGTLink over TCP, against our fake and against bytes that no
 // server should send.
 
-// A server that sends what it is told to, to one client.
+// A server that sends given bytes to one client.
 struct RawServer {
   explicit RawServer(IgtlTable& table) { table.port = listener.port(); }
   void accept() {
@@ -102,7 +102,7 @@ struct RawServer {
     client = listener.accept();
   }
   void send(std::span<const std::byte> bytes) { EXPECT_EQ(client.send(bytes), bytes.size()); }
-  // The types of all that the driver has said by now.
+  // The types of all messages from the driver so far.
   std::vector<std::string> heard() {
     std::vector<std::string> types;
     igtl::Message message;
@@ -123,7 +123,7 @@ Written pose(std::int64_t ms, double x = 0.1, const char* device = "stylusToTrac
   return {"TRANSFORM", device, ms * 1'000'000, igtl::transform(Pose<'C', 'T'>::shift(x, 0, 1))};
 }
 
-// What the driver makes of messages, each in a poll of its own.
+// Passes messages to the driver, each in a poll of its own.
 struct RawBench : IgtlBench {
   explicit RawBench(const std::string& message = "TRANSFORM") {
     table.transport = "tcp";
@@ -147,7 +147,7 @@ struct RawBench : IgtlBench {
   Time now{Duration(1'000'000'000)};
 };
 
-// What it asks for, in which words, and that it asks no more when it goes.
+// The request of the driver, its wording, and the end of the request when the driver closes.
 TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
   RawBench bench("TDATA");
   EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STT_TDATA", "GET_STATUS"));
@@ -162,8 +162,8 @@ TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
   EXPECT_THAT(plain.server.heard(), testing::IsEmpty());
 }
 
-// Between the driver's beginning and the run's the server has gone on: what it sent then is old, and no tick
-// takes it for the pose of now.
+// The server continues between the start of the driver and the run: its poses from that time are old, and no
+// tick accepts one as current.
 TEST(IgtlStreamDriver, WhatCameBeforeTheRunIsPassedOver) {
   IgtlBench bench;
   bench.table.transport = "tcp";
@@ -179,7 +179,7 @@ TEST(IgtlStreamDriver, WhatCameBeforeTheRunIsPassedOver) {
   Time now{Duration(1'000'000'000)};
   for (int tick = 0; tick < 20; ++tick) {
     for (int i = 0; tick < 5 && i < 100; ++i)
-      server.send(pose(++stamp).bytes());  // what it could not send before
+      server.send(pose(++stamp).bytes());  // poses that it could not send before
     now += Duration(1'000'000);
     EXPECT_FALSE(driver->poll(now, bench.newest)) << tick;
   }
@@ -189,7 +189,7 @@ TEST(IgtlStreamDriver, WhatCameBeforeTheRunIsPassedOver) {
   EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.7, 1e-6);
 }
 
-// A server that says nothing while no tool is in view is asked whether it is there, four times in silent_ms.
+// The driver asks a silent server for its status four times in silent_ms while no tool is in view.
 TEST(IgtlStreamDriver, AsksAServerThatSaysNothingWhetherItIsThere) {
   RawBench bench;
   EXPECT_THAT(bench.server.heard(), testing::ElementsAre("GET_STATUS"));
@@ -264,7 +264,7 @@ TEST(IgtlStreamDriver, VersionTwoWithMetadataIsReadAndWhatItCallsInvalidIsNot) {
   EXPECT_THAT(bench.remark(), HasSubstr("1 of tools out of view"));
 }
 
-// What each of them did wrong, in a line that says what to do.
+// The error of each server, in a line with a remedy.
 TEST(IgtlStreamDriver, WhoIsNoTrackerIsNamed) {
   IgtlBench bench;
   bench.table.transport = "tcp";

@@ -1,5 +1,5 @@
-// The laboratory in two programs: the fakes on one side of real sockets, in this process, where their machine
-// can be seen; `encounter run` on the other.
+// The laboratory in two programs: the fakes on one side of real sockets, in this process, where a test can
+// see their machine; `encounter run` on the other.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace enc::test {
 
 inline const std::string kBall = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
-// The fakes in this process, where their machine can be seen.
+// The fakes in this process, where a test can see their machine.
 struct Laboratory {
   // `set` is for both sides; `faults` as for --fault.
   explicit Laboratory(bool lockstep, const std::vector<std::string>& set = {},
@@ -67,21 +67,21 @@ struct Laboratory {
     for (const std::string& line : fakes->log()) all.append(line).push_back('\n');
     return all;
   }
-  // Of the machine, while nobody serves it.
+  // State of the machine; call these while no thread serves it.
   [[nodiscard]] bool stands() const { return fakes->world().machine->state().velocity.norm() < 1e-4; }
-  [[nodiscard]] double time() const {  // s, of the world
+  [[nodiscard]] double time() const {  // s, world time
     return seconds(fakes->world().truth().t.time_since_epoch());
   }
-  [[nodiscard]] double away() const {  // m, from its zero
+  [[nodiscard]] double away() const {  // m, distance from its zero
     const auto& machine = *fakes->world().machine;
     return (machine.state().pose.p() - machine.machine().zero().p()).norm();
   }
   std::vector<std::string> ports = wires::free_ports();
   std::unique_ptr<app::Fakes> fakes;
-  std::atomic<bool> end = false, moves = false;  // it did, since somebody last said that it does not
-  std::atomic<double> now = 0.0;                 // s, of the world
+  std::atomic<bool> end = false, moves = false;  // the machine moved since a test last reset this
+  std::atomic<double> now = 0.0;                 // s, world time
   std::thread thread;
-  double moved = 0.0;  // s of the world: when the machine last did
+  double moved = 0.0;  // s, world time of the last motion
 };
 
 inline nlohmann::json json_of(const tests::Result& result) {
@@ -89,7 +89,7 @@ inline nlohmann::json json_of(const tests::Result& result) {
   return nlohmann::json::parse(result.out, nullptr, false);
 }
 
-// Each command of one run beside that of the same tick of the other.
+// Compares each command of one run with that of the same tick in the other.
 inline void expect_same_commands(const std::string& one, const std::string& other) {
   RecordReader a(one), b(other);
   EXPECT_EQ(a.ticks(), b.ticks());

@@ -39,7 +39,7 @@ struct NetftPorts {
   struct Table final : DefaultOffer::Defaults {
     using DefaultOffer::Defaults::value;
     void value(const Setting& key, double& number) override {
-      if (key.name == "silent_ms") number = 0.05;  // s: other tests take the processor, too
+      if (key.name == "silent_ms") number = 0.05;  // s: other tests share the processor
       if (key.name == "timeout_ms") number = 0.3;
     }
     void value(const Setting& key, std::int64_t& whole) override {
@@ -68,7 +68,7 @@ struct NetftPorts {
   netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
 };
 
-// In a time that begins when it is first asked.
+// Time counts from the first call.
 struct Loop {
   Duration begun = net::steady_now();
   [[nodiscard]] Time now() const { return Time(net::steady_now() - begun); }
@@ -104,7 +104,7 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
   EXPECT_THAT(driver->remarks().at(0), HasSubstr("transducer saturated"));
 }
 
-// A run that had to wait for it would begin in hold. No other reading waits.
+// A run without a first record would begin in hold. Only the first reading waits for one.
 TEST(NetftDriver, TheFirstReadingHasARecordAndNoOtherOneWaits) {
   NetftPorts there;
   auto served = std::make_unique<Served>(there.server);
@@ -123,7 +123,7 @@ TEST(NetftDriver, TheFirstReadingHasARecordAndNoOtherOneWaits) {
   EXPECT_LT(net::steady_now() - before, kReadings * offer.period / 4);
 }
 
-// Its codes are status words: without one it is a word that the box may say.
+// The fake's codes are status words: without a code it uses a word that the box may send.
 TEST(NetftDriver, AnErrorOfTheFakeWithoutACodeIsAStatusOfTheBox) {
   NetftPorts there;
   EXPECT_TRUE(there.server.knows({Trouble::Kind::error_code, 4294967295.0}));
@@ -146,7 +146,7 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   served.reset();
   EXPECT_EQ(loop.read_for(*driver, 100).health, Health::fault);
   EXPECT_FALSE(driver->linked());
-  // Until it was lost, and no longer: then nobody listens.
+  // Silence counts until the link is lost: afterwards the driver no longer listens.
   const double silent = longest_silence_ms(*driver);
   EXPECT_GE(silent, 50.0);
   served = std::make_unique<Served>(there.server);
@@ -155,7 +155,7 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   EXPECT_EQ(longest_silence_ms(*driver), silent);
 }
 
-// The process is stopped within a tick: what it reads then came later than the tick began.
+// The process stops within a tick: the samples that it then reads arrived after the tick began.
 TEST(NetftDriver, AfterATickThatWasHeldUpForceIsAsFreshAsBefore) {
   NetftPorts there;
   const Served served(there.server);
@@ -163,7 +163,7 @@ TEST(NetftDriver, AfterATickThatWasHeldUpForceIsAsFreshAsBefore) {
   const Loop loop;
   ASSERT_EQ(loop.read_for(*driver, 100).health, Health::ok);
   const Time began = loop.now();
-  constexpr double kHeldUp = 0.25;  // s: all records of it are in the socket
+  constexpr double kHeldUp = 0.25;  // s: all its records are in the socket
   std::this_thread::sleep_for(std::chrono::duration<double>(kHeldUp));
   EXPECT_LE(driver->read(began).t, began);
   double freshest = kHeldUp;
