@@ -1,8 +1,9 @@
-// Every reader of files under bytes that nobody meant: spoiled files of models/ and small ones made here. A
-// reader takes them or refuses them with an Error of one line; it does not crash, hang, leak, or hold more
-// heap than its bound (docs/reference/fuzz.md).
+// Every reader of files with damaged bytes: mutated files of models/ and small ones made here. A reader
+// accepts them or refuses them with an Error of one line. It does not crash, hang, leak, or hold more heap
+// than its bound (docs/reference/fuzz.md).
 //
-// ENCOUNTER_FUZZ_INPUTS and ENCOUNTER_FUZZ_SEED make it longer and other: the full form is a million inputs.
+// ENCOUNTER_FUZZ_INPUTS and ENCOUNTER_FUZZ_SEED lengthen and vary the test: the full form is a million
+// inputs.
 #include <cstdlib>
 #include <string>
 
@@ -14,8 +15,8 @@
 namespace enc::fuzz {
 namespace {
 
-// s of CPU time, of one input: what reads a file has a limit on its work. Checked in the long form alone, as
-// the short one is run beside other programs.
+// s of CPU time for one input: readers of files limit their work. Only the long form checks this, because the
+// short one runs beside other programs.
 constexpr double kSlowest = 5.0;
 
 std::size_t number_of(const char* variable, std::size_t otherwise) {
@@ -23,7 +24,7 @@ std::size_t number_of(const char* variable, std::size_t otherwise) {
   return text != nullptr && *text != '\0' ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Heap that stays after each of three more readings of the same input.
+// Whether heap remains after each of three more readings of the input.
 bool leaks(const Target& target, const std::string& input) {
   for (int i = 0; i < 3; ++i) {
     const std::size_t before = live_bytes();
@@ -76,7 +77,7 @@ TEST_P(Parsers, TakeOrRefuseWhateverComes) {
       "1 kB); slowest {:.3f} s\n",
       target.name, inputs, 100.0 * static_cast<double>(accepted) / static_cast<double>(inputs),
       static_cast<double>(most_heap) * 1e-3, most_per_byte, slowest);
-  // A target whose every input is refused is one that looks at nothing but the first mistake.
+  // A target that refuses every input only tests the first mistake.
   EXPECT_GT(accepted, 0U) << words;
 }
 

@@ -1,5 +1,5 @@
-// The same targets, guided by what code they reach: libFuzzer's entry (preset `fuzz`). ENCOUNTER_FUZZ_TARGET
-// names the target; inputs grow out of its seeds, so that no corpus need be kept.
+// The fuzz targets, guided by coverage: libFuzzer's entry (preset `fuzz`). ENCOUNTER_FUZZ_TARGET names the
+// target; inputs grow out of its seeds, so that no corpus is needed.
 #include <algorithm>
 #include <csignal>
 #include <cstdint>

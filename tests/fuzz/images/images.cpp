@@ -1,4 +1,4 @@
-// Pictures of cameras: PNG and JPEG. What is accepted has the size that its header said.
+// Pictures of cameras: PNG and JPEG. An accepted picture has the size from its header.
 
 #include <turbojpeg.h>
 #include <zlib.h>
@@ -40,7 +40,7 @@ bool read(const std::string& input) {
   return true;
 }
 
-// The checksum of each chunk.
+// Corrects the checksum of each chunk.
 void mend_png(std::string& bytes) {
   const auto number = [&](std::size_t at) {
     std::size_t value = 0;

@@ -35,7 +35,7 @@ std::map<std::string, Target (*)()>& offers() {
   return all;
 }
 
-constexpr std::size_t kLongest = 1U << 16U;  // bytes; only long runs go beyond
+constexpr std::size_t kLongest = 1U << 16U;  // bytes; only long runs exceed it
 constexpr std::size_t kMostKept = 64;
 
 bool in_word(char c) {
@@ -60,7 +60,7 @@ Piece line_at(const std::string& bytes, std::size_t at) {
 
 std::atomic<std::size_t> live{0}, peak{0};
 
-// What the end of the program has to tell; a handler of signals may allocate nothing.
+// State for the report at the end of the program; a signal handler may not allocate.
 struct Now {
   std::array<char, 256> words{}, file{};
   const char* data = nullptr;
@@ -102,7 +102,7 @@ double cpu_time() {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-// One line that any terminal shows.
+// Limits the text to one line that any terminal shows.
 std::string wrong_with(const std::string& words) {
   if (words.empty()) return "an Error without words";
   if (models::printable(words) != words) return fmt::format("an Error of more than one line: {}", words);
@@ -207,13 +207,13 @@ void Mutator::spoil_bytes(std::string& bytes) {
     case 1:
       bytes[at] = static_cast<char>(engine_());
       return;
-    case 2: {  // a number of 1, 2, 4 or 8 bytes, mostly where such numbers stand
+    case 2: {  // a number of 1, 2, 4 or 8 bytes, mostly at the place of such a number
       const std::size_t size = std::size_t{1} << of(4), place = of(4) == 0 ? at : at / size * size;
       const std::uint64_t value = number();
       std::memcpy(bytes.data() + place, &value, std::min(size, bytes.size() - place));
       return;
     }
-    default: {  // one that stands there, a little more or less
+    default: {  // the number at that place, slightly more or less
       const std::size_t size = std::size_t{1} << of(4);
       if (bytes.size() < size) return;
       const std::size_t place = std::min(at / size * size, bytes.size() - size);
@@ -236,7 +236,7 @@ void Mutator::spoil_words(std::string& bytes) {
     case 2:
       bytes.replace(word.at, word.size, token());
       return;
-    case 3: {  // another word of the same input
+    case 3: {  // another word of the input
       const Piece other = word_at(bytes, of(bytes.size()));
       bytes.replace(word.at, word.size, bytes.substr(other.at, other.size));
       return;
@@ -292,7 +292,7 @@ void Mutator::spoil_whole(std::string& bytes) {
     case 2:
       bytes.insert(0, of(2) == 0 ? "\xEF\xBB\xBF" : std::string(1, '\0'));
       return;
-    case 3:  // ends of lines as elsewhere
+    case 3:  // foreign line ends
       if (bytes.size() > kLongest) return;
       for (std::size_t i = bytes.find('\n'); i != std::string::npos; i = bytes.find('\n', i + 2))
         bytes.insert(i, "\r");
@@ -339,7 +339,7 @@ void watch(const std::string& words) {
   __sanitizer_set_death_callback(&tell);
   std::signal(SIGPROF, &at_signal);
 #else
-  // On a stack of its own, as a deep recursion has used up the other.
+  // The handler needs a stack of its own, because a deep recursion has used up the first one.
   static std::array<char, 1U << 16U> stack;
   const stack_t own{stack.data(), 0, stack.size()};
   sigaltstack(&own, nullptr);
@@ -385,7 +385,7 @@ Verdict judge(const Target& target, const std::string& input) {
 }  // namespace enc::fuzz
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-// The array forms and those that do not throw call these.
+// The array forms and the non-throwing forms call these.
 void* operator new(std::size_t size) { return enc::fuzz::count_new(std::malloc(size == 0 ? 1 : size)); }
 void* operator new(std::size_t size, std::align_val_t align) {
   const auto to = static_cast<std::size_t>(align);

@@ -1,4 +1,4 @@
-// Fuzzing of parsers: what a target is, what spoils its inputs, and what judges how it took one.
+// Fuzzing of parsers: targets, mutations of inputs, and the judge of each result.
 #pragma once
 
 #include <cstddef>
@@ -18,23 +18,23 @@ inline std::string text_of(std::span<const std::byte> bytes) {
   return text;
 }
 
-// Heap that a parser may hold at once, in bytes: so many for each byte of its input, and so many besides.
+// Heap that a parser may hold at once, in bytes: per byte of its input, plus a constant.
 struct Bound {
   std::size_t per_byte = 0, besides = 0;
 };
 
-// A parser as a target of fuzzing: where it starts from, what its format is made of, how it is called.
+// A parser as a target of fuzzing: its seeds, the words of its format, and its call.
 struct Target {
   std::string name;
   std::vector<std::string> seeds;   // whole inputs, most of which are accepted
-  std::vector<std::string> tokens;  // words of the format, and what breaks readers of it
-  // Feeds the parser. Whether it was accepted; enc::Error where it was refused; Broken where what was
-  // accepted is not as it must be.
+  std::vector<std::string> tokens;  // words of the format, and words that break its readers
+  // Feeds the parser. Returns whether it accepted the input; throws enc::Error for a refusal, and Broken if
+  // an accepted input has a wrong result.
   std::function<bool(const std::string&)> run;
-  // Puts right what guards the rest (checksums, lengths), so that the rest is read, too. May be empty.
+  // Corrects checksums and lengths, so that the parser reads the rest, too. May be empty.
   std::function<void(std::string&)> mend{};
   Bound bound{256, 4U << 20U};
-  std::size_t inputs = 2000;  // of the short form
+  std::size_t inputs = 2000;  // in the short form
 };
 
 struct Broken : std::logic_error {
@@ -44,7 +44,7 @@ inline void expect(bool good, const std::string& what) {
   if (!good) throw Broken(what);
 }
 
-// A target is made when it is first asked for: `static const Offer kOffer("scene", &scene);` offers one.
+// Makes a target at its first use: `static const Offer kOffer("scene", &scene);` offers one.
 struct Offer {
   Offer(const std::string& name, Target (*make)());
 };
@@ -57,7 +57,7 @@ class Mutator {
   Mutator(std::uint64_t seed, std::vector<std::string> seeds, std::vector<std::string> tokens);
 
   [[nodiscard]] std::string next();
-  // An input that was accepted is worth spoiling further.
+  // Keeps an accepted input for further mutations.
   void keep(const std::string& input);
   [[nodiscard]] std::size_t of(std::size_t n) { return n == 0 ? 0 : engine_() % n; }  // 0 to n - 1
 
@@ -73,26 +73,26 @@ class Mutator {
   std::vector<std::string> seeds_, kept_, tokens_;
 };
 
-// Heap of this program through operator new, counted; of a build with a sanitizer nothing is counted, because
-// that one watches itself.
+// Counted heap of this program through operator new. Builds with a sanitizer do not count, because the
+// sanitizer checks the heap itself.
 [[nodiscard]] std::size_t live_bytes();  // now
-[[nodiscard]] std::size_t peak_bytes();  // most since forget_peak()
+[[nodiscard]] std::size_t peak_bytes();  // maximum since forget_peak()
 void forget_peak();
 
 struct Verdict {
   bool accepted = false;
-  std::string wrong;          // empty: nothing
+  std::string wrong;          // empty: no error
   std::size_t most_heap = 0;  // bytes
-  double seconds = 0.0;       // of CPU time
+  double seconds = 0.0;       // CPU time
 };
-// Runs one input through a target and says what is wrong with how it took it.
+// Runs one input through a target and reports errors of the result.
 [[nodiscard]] Verdict judge(const Target& target, const std::string& input);
 
-// Writes the input to a file of the temporary folder and gives its name.
+// Writes the input to a file of the temporary folder and returns its name.
 [[nodiscard]] std::string kept_input(const Target& target, const std::string& input);
 
-// From now on a signal, a sanitizer's report and an input that takes more than kMostCpu of CPU time end the
-// program with `words` and the file of the input that was being read.
+// From now on three events end the program with `words` and a file of the current input: a signal, a
+// sanitizer's report, or more than kMostCpu of CPU time for one input.
 inline constexpr int kMostCpu = 20;  // s
 void watch(const std::string& words);
 

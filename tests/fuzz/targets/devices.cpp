@@ -1,4 +1,4 @@
-// What drivers take from devices, and fakes from anybody: GCS, the Net F/T, tool data.
+// Input of drivers from devices, and of fakes from any client: GCS, the Net F/T, tool data.
 #include "tests/support/devices.h"
 
 #include <algorithm>
@@ -25,8 +25,7 @@
 namespace enc::fuzz {
 namespace {
 
-// ---- The two ends of GCS: what a controller takes from anybody, and what the driver takes from a
-// controller.
+// ---- The two ends of GCS: the controller's input from any client, and the driver's input from a controller.
 
 std::vector<std::string> words() {
   std::vector<std::string> all{" \n", "\n", "\x18", "\x05", " X 1", " X=1", "=", " R 1", "ALL", "e-3"};
@@ -34,7 +33,7 @@ std::vector<std::string> words() {
   return all;
 }
 
-// However it is commanded, the machine stays within its reach; answers end with their line.
+// The machine stays within its reach under any command; answers end with their line.
 Target controller() {
   Target target;
   target.seeds = {"*IDN?\nCSV?\nERR?\nFRF?\nSVO?\nSPI?\nTMN?\nTMX?\nVLS?\nPOS?\nERR?\n",
@@ -53,11 +52,11 @@ Target controller() {
     expect(machine.can.contains(machine.pose), "the machine is beyond its reach");
     return true;
   };
-  target.bound = {1024, 4U << 20U};  // two letters may ask for a page of help
+  target.bound = {1024, 4U << 20U};  // two letters can request a page of help
   return target;
 }
 
-// A conversation that lost nothing has said a pose; one that was garbled stays so and sends nothing more.
+// A conversation that keeps its link has a pose; a garbled one stays lost and sends no more.
 Target answers() {
   Target target;
   const std::string zero = "X=0 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n";
@@ -80,11 +79,11 @@ Target answers() {
 const Offer kController("gcs_controller", &controller);
 const Offer kAnswers("gcs_answers", &answers);
 
-// ---- The two ends of a Net F/T: what the driver takes from a box, and what the fake takes from anybody.
+// ---- The two ends of a Net F/T: the driver's input from a box, and the fake's input from any client.
 
 std::span<const std::byte> bytes_in(const std::string& input) { return std::as_bytes(std::span(input)); }
 
-// Records one behind the other, of 36 bytes each: times only grow, forces are numbers.
+// Consecutive records of 36 bytes each: times only grow, forces are numbers.
 Target records() {
   Target target;
   const netft::Record first{1, 7, 0, {1500000, -2000000, 12000000, 0, 0, 0}}, second{2, 14, 0x80020000, {}};
@@ -135,7 +134,7 @@ Target http() {
   target.seeds = {
       netft::http_answer(200, "text/xml", "<netft/>"), netft::http_request("[::1]:80", "/netftapi2.xml"),
       "HTTP/1.0 200 OK\r\n\r\n<netft/>", netft::http_answer(404, "text/plain", ""),
-      std::string(79'000, '\r')};  // a reader that looks through all of it at each piece is caught
+      std::string(79'000, '\r')};  // catches a reader that scans the whole text again for each piece
   target.tokens = {"\r\n",
                    "\r\n\r\n",
                    "HTTP/1.1 ",
@@ -211,9 +210,9 @@ const Offer kPage("netft_page", &page);
 const Offer kHttp("netft_http", &http);
 const Offer kBox("netft_box", &box);
 
-// ---- What the driver takes from a server of tool data.
+// ---- The driver's input from a server of tool data.
 
-// Length and checksum of the header, so that the body is read, too.
+// Corrects length and checksum of the header, so that the driver reads the body, too.
 void mend(std::string& input) {
   constexpr std::size_t kSize = 42, kCrc = 50;
   if (input.size() < igtl::kHeader) return;
@@ -249,7 +248,7 @@ Target datagram() {
   return target;
 }
 
-// Checksums of one message after the other, as far as their lengths lead.
+// Corrects the checksums of consecutive messages, as far as their lengths lead.
 void mend_stream(std::string& input) {
   constexpr std::size_t kSize = 42, kCrc = 50;
   for (std::size_t at = 1; at + igtl::kHeader <= input.size();) {
@@ -262,7 +261,7 @@ void mend_stream(std::string& input) {
   }
 }
 
-// A stream of messages in pieces, whose length the first byte tells.
+// A stream of messages in pieces; the first byte gives the length of the pieces.
 Target stream() {
   Target target;
   const Pose<'C', 'T'> X_CT = Pose<'C', 'T'>::shift(0.1, 0.2, 0.9);

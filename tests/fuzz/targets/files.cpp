@@ -1,5 +1,5 @@
-// Scenes and what they name, calibrations, records, tables and folders of frames: what is accepted is as it
-// must be.
+// Scenes and the files that they name, calibrations, records, tables and folders of frames: an accepted file
+// has a valid result.
 #include "tests/support/files.h"
 
 #include <algorithm>
@@ -34,15 +34,15 @@ namespace {
 namespace fs = std::filesystem;
 using models::Setup;
 
-// ---- Scene, rig, behaviours, response, directions, --set: read and checked as for a run, and what is
-// accepted is written and read again.
+// ---- Scene, rig, behaviours, response, directions, --set: read and checked as for a run; an accepted setup
+// is written and read again.
 
 const Folder& model_folder() {
   static const ModelsFolder kFolder;
   return kFolder;
 }
 
-// What step() needs can be made of it, and as a text it is itself again.
+// Checks that prepare() accepts the setup, and that its text reads back to itself.
 bool sane(const Setup& setup) {
   static_cast<void>(trial::prepare_setup(setup));
   const std::string text = models::resolved(setup);
@@ -161,9 +161,9 @@ Target set() {
 const Offer kScene("scene", &scene), kRig("rig", &rig), kBehaviours("behaviours", &behaviours),
     kResponse("response", &response), kDirections("directions", &directions), kSet("set", &set);
 
-// ---- The calibrations of a stereo head and of a rig, a record, and what a record holds.
+// ---- The calibrations of a stereo head and of a rig, a record, and its content.
 
-// A file that is written and read again is the same.
+// A file that is written and read again must be equal.
 template <class File>
 Target written(const File& file, std::string (*text_of)(const File&),
                File (*parsed)(const std::string&, const std::string&)) {
@@ -205,7 +205,6 @@ Target rig_calibration() {
 }
 
 // ---- records
-// ---------------------------------------------------------------------------------------------------------
 
 const Folder& folder() {
   static const Folder kFolder;
@@ -226,7 +225,7 @@ std::string small_record(const Scene& scene, int ticks, const RecordTexts& texts
   return test::bytes_of(path);
 }
 
-// Checksums as RecordReader wants them, part by part, as far as the sizes lead.
+// Corrects the checksums for RecordReader, part by part, as far as the sizes lead.
 void seal_again(std::string& bytes) {
   const auto word = [&](std::size_t at) {
     std::uint64_t value = 0;
@@ -247,7 +246,7 @@ void seal_again(std::string& bytes) {
   }
 }
 
-// Also on to where its numbers go; a record without a scene is only read.
+// Uses the record's numbers, too; a record without a scene is only read.
 void read_all(const std::string& path, Partial partial) {
   RecordReader reader(path, partial);
   for (int pass = 0; pass < 2; ++pass) {
@@ -266,11 +265,11 @@ Target record() {
   target.seeds = {small_record(ball, 3, {{"about", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
                                {{"ledger", "contact,hand_mJ\n1,2.5\n"}}),
                   small_record(ball, 1, {}, {})};
-  // Of another layout, by a version that wants two lines.
+  // A record of another layout, whose version has two lines.
   target.seeds.push_back(small_record(ball, 1, {{"version", "9\n8"}}, {}));
   target.seeds.back()[16] ^= 1;
   seal_again(target.seeds.back());
-  // With its scene; mostly ticks, so that most of what is spoiled is in them.
+  // A record with its scene; mostly ticks, so that most mutations hit them.
   const ModelsFolder models;
   for (const char* scene : {"plane", "tennis_ball"}) {
     const models::Setup setup = models::load(models.path(fmt::format("scenes/{}.toml", scene)), "");
@@ -299,7 +298,7 @@ Target record() {
   return target;
 }
 
-// The mesh that a record holds beside its scene. Its hash is left out, or no other mesh were taken.
+// The mesh in a record beside its scene. The hash is removed, because it would exclude every other mesh.
 Target recorded_mesh() {
   Target target;
   const models::Setup setup = mesh_setup();
@@ -325,7 +324,7 @@ Target recorded_mesh() {
 const Offer kStereo("stereo", &stereo), kRigCalibration("rig_calibration", &rig_calibration),
     kRecord("record", &record), kMesh("recorded_mesh", &recorded_mesh);
 
-// ---- Tables: loops of `fit`, points of `calibrate`, logs of a tracker. What is accepted holds finite
+// ---- Tables: loops of `fit`, points of `calibrate`, logs of a tracker. An accepted table holds finite
 // numbers.
 
 const std::vector<std::string>& csv_tokens() {
@@ -463,9 +462,10 @@ const Offer kPlaces("places", &places);
 const Offer kLoop("loop", &loop), kPoints("points", &points), kTrackerLog("tracker_log", &tracker_log);
 const Offer kPivotLog("pivot_log", &pivot_log);
 
-// ---- A folder of kept frames: each line of the input is the name of a file. What is accepted is in order.
+// ---- A folder of kept frames: each line of the input is the name of a file. An accepted folder is in order.
 
-// As a file may be called; what moves a cursor is the command line's, which shows paths without it.
+// A valid name of a file. The command line handles names that move a cursor: it shows paths without such
+// characters.
 std::string name_of(std::string line) {
   for (char& c : line)
     if (c == '/' || static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > 126) c = '_';

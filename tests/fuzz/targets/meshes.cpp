@@ -1,5 +1,5 @@
-// Meshes of every format: read, welded, checked as solids. What is accepted is a closed surface that a
-// nearest point can be asked of, and is the same when written and read again.
+// Meshes of every format: read, welded, checked as solids. An accepted mesh is a closed surface with a
+// nearest point, and equals itself when written and read again.
 #include <cmath>
 #include <cstring>
 
@@ -28,8 +28,8 @@ const Folder& mesh_folder() {
   return kFolder;
 }
 
-// In a scene, of a size that the machine can hold. Where the machine does not reach it, that is said in a
-// line.
+// Puts the mesh into a scene, at a size that the machine can hold. If the machine does not reach it, the
+// error is one line.
 void press(const Mesh& mesh, double radius) {
   static models::Setup setup = mesh_setup();
   ObjectSpec& object = setup.scene.objects.at(0);
@@ -111,7 +111,7 @@ Target stl() {
     static const std::string kPath = "fuzz.stl";
     return sane(models::read_stl({kPath, input}), kPath);
   };
-  // The count of a binary file.
+  // Corrects the count of a binary file.
   target.mend = [](std::string& bytes) {
     if (bytes.size() < 84 || bytes.starts_with("solid")) return;
     const auto count = static_cast<std::uint32_t>((bytes.size() - 84) / 50);
@@ -127,7 +127,7 @@ std::string json_of(const std::string& glb) {
   return glb.substr(20, size);
 }
 
-// Every way to hold a mesh that glTF has: nodes with transforms, a buffer in the text, in a file, strips.
+// Every form of a mesh in glTF: nodes with transforms, a buffer in the text, in a file, strips.
 std::string gltf_text(const std::string& buffer, int mode) {
   return fmt::format(
       R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"children":[1],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}},)"
@@ -199,7 +199,7 @@ Target glb() {
     static const std::string kPath = mesh_folder().path("fuzz.glb");
     return sane(models::read_gltf({kPath, input}, true), kPath);
   };
-  // The lengths: the JSON ends with its last brace, or where BIN begins.
+  // Corrects the lengths: the JSON ends with its last brace, or where BIN begins.
   target.mend = [](std::string& bytes) {
     if (bytes.size() < 20) return;
     const auto put = [&](std::size_t at, std::size_t value) {

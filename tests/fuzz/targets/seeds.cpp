@@ -121,7 +121,7 @@ Folder::Folder() {
   std::string name =
       ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) / "encounter_fuzz_XXXXXX")
           .string();
-  if (mkdtemp(name.data()) == nullptr) std::abort();  // no target can go on without
+  if (mkdtemp(name.data()) == nullptr) std::abort();  // no target can continue without it
   root_ = name;
 }
 
