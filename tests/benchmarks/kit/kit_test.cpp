@@ -430,7 +430,7 @@ TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
               HasSubstr("was in hold at 0.400 s: machine pose lost"));
 }
 
-// In lockstep the wires add only rounding. Table 1 equals the twin's; a stiffness differs by at most two
+// The wires add only rounding in lockstep. Table 1 equals the twin's; a stiffness differs by at most two
 // steps of the machine (3 um) in the 3 mm that 30 N press 10 N/mm in.
 TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   const test::TemporaryFolder folder;

@@ -116,7 +116,7 @@ TEST(Fig11Contour, TheCommittedFileStartsOnTheProbe) {
     for (const Contour& contour : {contours.probe[d], contours.stylus[d]}) {
       EXPECT_EQ(contour.front()[0], 0.0);
       EXPECT_NEAR(contour.front()[1], 0.033 - fig11_depths()[d], 1e-9);
-      EXPECT_NEAR(contour.back().norm(), 0.033, 3e-6);  // at the mount the normal is one-sided
+      EXPECT_NEAR(contour.back().norm(), 0.033, 3e-6);  // the normal is one-sided at the mount
     }
 }
 

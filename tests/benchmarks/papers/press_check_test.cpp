@@ -62,7 +62,7 @@ TEST(PressCheck, APressFromBelowIsRefusedEvenWithinReach) {
   }
 }
 
-// At the zero, up and down: all struts have equal lengths, so the travel is sqrt((L +- stroke)^2 - r^2) - h.
+// All struts have equal lengths at the zero, so the travel up and down is sqrt((L +- stroke)^2 - r^2) - h.
 TEST(ReachVolume, TheMiddleColumnByHand) {
   const Hexapod machine{HexapodGeometry{}};
   const bench::workspace::ReachVolume reach(machine);

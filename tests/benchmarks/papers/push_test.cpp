@@ -54,8 +54,8 @@ TEST(Pusher, SpringAndDamperWorkedByHand) {
   EXPECT_DOUBLE_EQ(pusher.reach(), 0.015 + 0.45 / 45.0);
   double t = 0.0;
   EXPECT_EQ(press(pusher, t, 0.9, -1.0), 0.0);  // waits clear of the tip, wherever the tip is
-  // At half of the ramp the pusher has gone half of the path from 2 mm above to 25 mm below, at 1.875 times
-  // the mean speed.
+  // The pusher is half-way through the ramp and the path from 2 mm above to 25 mm below, at 1.875 times the
+  // mean speed.
   const double at = 0.5 * 0.027 - 0.002, speed = 1.875 * 0.027 / 2.0;
   EXPECT_NEAR(press(pusher, t, 2.0, 0.005), 45.0 * (at - 0.005) + speed, 1e-9);
   EXPECT_NEAR(press(pusher, t, 4.0, 0.015), 0.45, 1e-12);                // held: the wall's own force

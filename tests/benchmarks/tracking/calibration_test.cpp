@@ -115,7 +115,7 @@ TEST(LatencyFit, NegativeAndLongLatencies) {
   }
 }
 
-// In half a second no packet is known to be 500 ms old, so an empty remainder explains nothing.
+// Half a second has no packet that is known to be 500 ms old, so an empty remainder explains nothing.
 TEST(LatencyFit, AShortLogHasNoAgeOfWhichItKnowsNoPacket) {
   TrackerLog log;
   log.period = kPeriod;
@@ -176,7 +176,7 @@ TEST(LatencyFit, StampsAreCompared) {
   EXPECT_NEAR(fit.latency.value, 0.015, 0.2e-3);
 }
 
-// From tables of Student's t: 12.7 for one degree of freedom.
+// Tables of Student's t give 12.7 for one degree of freedom.
 TEST(BlockError, StudentsQuantile) {
   EXPECT_NEAR(models::student(1e9), 1.95996, 1e-4);
   EXPECT_NEAR(models::student(30), 2.0423, 1e-3);

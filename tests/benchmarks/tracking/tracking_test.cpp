@@ -96,7 +96,7 @@ std::array<TipErrors, 3> errors_with(const std::vector<std::string>& more) {
   return predicted_run(prepare(setup.scene, setup.rig), pose_of<'W', 'C'>(setup.twin.frames.W_C), run);
 }
 
-// With a held pose the tool lags by its speed times the age of the pose: a longer latency shows in full.
+// A tool with a held pose lags by its speed times the age of the pose: a longer latency shows in full.
 TEST(PredictedRun, HoldingIsBehindByTheAge) {
   const TipErrors early = errors_with({"truth.tracker.latency_ms=0"})[0];
   const TipErrors late = errors_with({"truth.tracker.latency_ms=10"})[0];
@@ -106,7 +106,7 @@ TEST(PredictedRun, HoldingIsBehindByTheAge) {
               0.040 * 0.001);  // half a frame on average
 }
 
-// At constant speed prediction removes all of that lag, and adds the error of a wrong stamp.
+// Prediction at constant speed removes all of that lag, and adds the error of a wrong stamp.
 TEST(PredictedRun, PredictionLeavesWhatTheStampsGetWrong) {
   const std::array<TipErrors, 3> right = errors_with({});
   const std::array<TipErrors, 3> wrong = errors_with({"truth.tracker.stamp_error_ms=3"});
@@ -337,7 +337,7 @@ TEST(Forensics, FindsWhatWasPutInto100Logs) {
   add_forensics(context, result);
   EXPECT_GE(figure(result, "latency.percent"), 95.0) << "within 1 ms";
   EXPECT_GE(figure(result, "bias.percent"), 95.0) << "all axes within 0.01 mm";
-  // Of 95 % intervals for 100 and for 300 numbers, fewer than 88 and 91 % hold once in 1000 times.
+  // Once in 1000 times fewer than 88 and 91 % of the 95 % intervals hold, for 100 and for 300 numbers.
   EXPECT_GE(figure(result, "latency_interval.percent"), 88.0);
   EXPECT_GE(figure(result, "bias_interval.percent"), 91.0);
   for (const Figure& f : result.figures) EXPECT_TRUE(f.ok()) << f.id << " " << f.twin;

@@ -41,7 +41,7 @@ struct Fault {
   End end;
   double hold = 0.0;      // ms from the fault to the hold, at most
   std::uint32_t why = 0;  // one of the reasons
-  // For a fault that does no harm: the driver's counter that proves the fault occurred ("missing", "old").
+  // The driver's counter that proves a harmless fault occurred ("missing", "old").
   const char* counted = nullptr;
   // the fault is over when the loop returns: the machine stands by then, and the run goes on
   bool over = false;

@@ -128,7 +128,7 @@ TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {
   EXPECT_NEAR(longest, 0.49, 0.01) << "it swings back after it has braked (docs/reference/safety.md)";
 }
 
-// From 50 mm/s the machine needs 122 ms to brake, and five times as long with the oscillation that follows. A
+// The machine needs 122 ms to brake from 50 mm/s, and five times as long with the oscillation that follows. A
 // servo that brakes in time would not oscillate; a slow machine hardly does.
 TEST(WiredTrial, HowLongAMachineSettles) {
   const ServoLaw law;
