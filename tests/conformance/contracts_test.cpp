@@ -137,7 +137,8 @@ TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
   EXPECT_EQ(after(there, 2).health, Health::ok);
 }
 
-// At any speed: it stands where it stopped, a second stop changes nothing, and a command starts anew.
+// The machine stands where it stopped from any speed, a second stop changes nothing, and a command starts
+// anew.
 TEST_P(ManipulatorTest, StopsStaysAndStartsAnew) {
   const Vec3 there = after(at(0.01, 0, 0), 60).value.X_RH.p();  // under way
   machine_->device().stop();
@@ -437,7 +438,7 @@ TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
     twin.rig.display->show(view);
     if (!twin.rig.display->poll({}, dent)) continue;
     EXPECT_GE(k.t - dent.t, from_seconds(0.025));
-    EXPECT_LT(k.t - dent.t, from_seconds(0.027));  // at the latest in the tick after
+    EXPECT_LT(k.t - dent.t, from_seconds(0.027));  // no later than the tick after
     EXPECT_GT(dent.t, before);
     before = dent.t;
     ++news;
