@@ -24,7 +24,7 @@ std::size_t number_of(const char* variable, std::size_t otherwise) {
   return text != nullptr && *text != '\0' ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Whether heap remains after each of three more readings of the input.
+// True if heap remains after each of three more readings of the input.
 bool leaks(const Target& target, const std::string& input) {
   for (int i = 0; i < 3; ++i) {
     const std::size_t before = live_bytes();

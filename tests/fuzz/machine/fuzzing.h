@@ -91,7 +91,7 @@ struct Verdict {
 // Writes the input to a file of the temporary folder and returns its name.
 [[nodiscard]] std::string kept_input(const Target& target, const std::string& input);
 
-// From now on three events end the program with `words` and a file of the current input: a signal, a
+// After this call three events end the program with `words` and a file of the current input: a signal, a
 // sanitizer's report, or more than kMostCpu of CPU time for one input.
 inline constexpr int kMostCpu = 20;  // s
 void watch(const std::string& words);
