@@ -49,8 +49,8 @@ struct Tally {
   }
 };
 
-// From here to the end of the process each system call of this thread passes the filter, except those that
-// sleep or read the clock. Returns false if the kernel, or the process's container, has no filters.
+// Each system call of this thread passes the filter until the process ends, except those that sleep or read
+// the clock. Returns false if the kernel, or the process's container, has no filters.
 [[nodiscard]] bool filter_system_calls();
 
 void begin_tally();  // for the calling thread; resets all counts

@@ -183,7 +183,7 @@ class Yardstick {
 // As in `encounter run`, the loop fills the record and another thread writes it into the file.
 TEST(RecordCost, ATickPaysForACopyAlone) {
   constexpr std::int64_t kTicks = 5'000;
-  // In yardsticks. Measured: 0.14 on a busy machine; packing within the tick would be 0.33.
+  // Ratio to the yardstick. Measured: 0.14 on a busy machine; packing within the tick would be 0.33.
   constexpr double kMost = 0.25;
   const models::Setup setup = models::load(source_dir() + "/models/scenes/tennis_ball.toml", "sim", {});
   const test::TemporaryFolder folder;
