@@ -234,7 +234,7 @@ TEST_F(Program, ATitleOrNameIsPrintableOnOneLine) {
   EXPECT_THAT(refused({"run", plane(), "--set", "scene.tit\033[2Jle=x"}), HasSubstr("\\x1b[2J"));
 }
 
-// In a shared folder anybody may choose the name of a file.
+// Anybody may choose the name of a file in a shared folder.
 TEST_F(Program, ANameOfAFileForgesNoLine) {
   const std::string scene = path("a\nstate hash  122d7c00183e94e0.toml");
   fs::copy_file(plane(), scene);

@@ -386,7 +386,7 @@ TEST(Verdict, MoreContactsThanPressesAreNamed) {
 TEST(Verdict, NothingIsNamedWhereNothingIsWrong) {
   for (const char* name : {"reaching", "wall", "tiles", "hit_ball", "stiffness", "synchrony", "push_limit"})
     for (int seed = 1; seed <= tests::thorough(1, 5); ++seed) {
-      // In this run a finger presses the moving prop aside, and a motor reaches its peak for 30 ms.
+      // Here a finger presses the moving prop aside, and a motor reaches its peak for 30 ms.
       if (std::string(name) == "reaching" && seed == 4) continue;
       const Result run = run_scene(name, "", seed);
       EXPECT_EQ(run.code, 0) << name << " " << seed << "\n" << run.out;

@@ -157,7 +157,7 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   }
 }
 
-// With standard output closed, the next file that the program opens would get its number, and the report.
+// The next file that the program opens would get the number of a closed standard output, and the report.
 TEST_F(ProgramFiles, AClosedStandardOutputIsSaidAndTheRecordIsWhole) {
   const Words closed{"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 --record \"$3\" >&-"};
   Words command = closed;

@@ -19,7 +19,7 @@ using test::replaced;
 
 // "12:3" for the first `what` in a text; columns count from 1.
 [[nodiscard]] std::string line_and_column(const std::string& text, const std::string& what);
-// For `fit`: one press to 6 mm at 4 mm/s, 2 N/mm in, 1.5 N/mm out.
+// A loop for `fit`: one press to 6 mm at 4 mm/s, 2 N/mm in, 1.5 N/mm out.
 [[nodiscard]] std::string loop_text();
 
 class Program : public ::testing::Test {

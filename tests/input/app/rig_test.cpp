@@ -153,7 +153,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
   EXPECT_NEAR(pushed[2], 3000, 60);
 }
 
-// In an ordinary scene the columns hold the response of the rendered object, contact after contact.
+// The columns of an ordinary scene hold the response of the rendered object, contact after contact.
 TEST_F(RigProgram, ExportsAnOrdinaryPress) {
   ASSERT_EQ(run_program({"run", shipped_scene("plane"), "--record", path("p.encrec")}).code, 0);
   RecordReader record(path("p.encrec"));
@@ -199,7 +199,7 @@ TEST_F(RigProgram, MistakesInAProbe) {
   EXPECT_THAT(refused({"probe.speed_mm_s=51"}), HasSubstr("cannot push that fast"));
   EXPECT_THAT(refused({"probe.object=bal"}), HasSubstr("did you mean 'ball'?"));
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,70]"}), HasSubstr("outside the machine's reach"));
-  // At this distance the surface has a resolution of half a nanometre; the search once tried to reach 1e-12
+  // The surface at this distance has a resolution of half a nanometre; the search once tried to reach 1e-12
   // m.
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,2147483648]"}),
               HasSubstr("outside the machine's reach"));

@@ -273,7 +273,7 @@ TEST(ToolInput, MarkersThatAreAlmostOnALineAreRefused) {
             HasSubstr("move one of 'markers_mm'"), Not(HasSubstr("\n"))));
   EXPECT_THAT(said("[[0, 0, 0], [60, 7, 0], [130, 0, 0]]"), HasSubstr("are on a line, or almost: they are"));
   EXPECT_EQ(said("[[0, 0, 0], [60, 8, 0], [130, 0, 0]]"), "");
-  // With more markers each may be nearer to the line, and off it in any direction.
+  // Each of more markers may be nearer to the line, and off it in any direction.
   EXPECT_THAT(said("[[0, 0, 0], [20, 4, 0], [60, 0, 3], [130, 0, 0]]"), HasSubstr("at least 3.00 mm, or"));
   EXPECT_EQ(said("[[0, 0, 0], [20, 6, 0], [60, 0, 6], [130, 0, 0]]"), "");
   EXPECT_THAT(said("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]"), HasSubstr("they are 0.00 mm rms off"));
