@@ -255,7 +255,7 @@ TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
   }
 }
 
-// With a crank's motor on the axis, or on the forearm's side of it, the forearm has to weigh more, not less.
+// A crank's motor on the axis, or on the forearm's side of it, requires a heavier forearm, not a lighter one.
 TEST(ArmMujoco, TheTwinOfAHeavyForearm) {
   Draw draw;
   for (const double l6 : {0.0, -0.035}) {

@@ -77,7 +77,7 @@ TEST(ArmProperty, AChainFindsItsWayBack) {
     PerJoint q{};
     if (!arm.inverse(p, q)) continue;
     ASSERT_TRUE(arm.within_limits(q)) << i;
-    // With fewer than three joints the search may end in a local minimum.
+    // The search with fewer than three joints may end in a local minimum.
     const double apart = (arm.tip(q) - p).norm();
     if (arm.joints() == kMostJoints) {
       ASSERT_LT(apart, 1e-9) << i;

@@ -240,7 +240,7 @@ TEST(MeshProperty, HollowAndNested) {
                Parts().add(out, {0, 0, 0}).add(in, {0, 0, 0}, true).add(ball, {0.003, 0.002, 0}).mesh);
 }
 
-// Where parts touch, the nearest point is on both; one part may report outside where the other reports
+// The nearest point is on both parts where they touch; one part may report outside where the other reports
 // inside.
 TEST(MeshProperty, PartsThatTouchAreRefused) {
   const Mesh cube = models::cube(2, 0.02), ball = models::geodesic_ball(2, 0.01);

@@ -175,7 +175,7 @@ double storage(const Response& r, const ResponseSpec& spec, Reversal reversal, c
   return sum;
 }
 
-// In each step work done >= S gained; where the object recovers, S falls, so the work is no less there.
+// Each step has work done >= S gained; where the object recovers, S falls, so the work is no less there.
 TEST_P(ResponseProperty, StorageBalanceHoldsInEveryStep) {
   const Response r = ball();
   std::mt19937_64 random(2);

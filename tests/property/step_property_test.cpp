@@ -1,4 +1,4 @@
-// For any input of step(), its output is within the limits; the hexapod's limits; and drawn surfaces from any
+// The output of step() is within the limits for any input; the hexapod's limits; and drawn surfaces from any
 // pose.
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ namespace {
 
 using test::Loop;
 
-// ---- For any input the output is within the limits. Seeded random inputs, and a child process that may make
+// ---- The output is within the limits for any input. Seeded random inputs, and a child process that may make
 // no system call.
 
 // The tool wanders over the objects and leaps now and then; forces come and go; one input in `spoil_every` is
