@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// From the bottom up: a floor includes itself and the floors before it.
+// Floors from the bottom up: a floor includes itself and the floors before it.
 constexpr std::array<std::string_view, 9> kFloors{"math",    "base",    "shape",  "machine", "spec",
                                                   "devices", "control", "record", "vision"};
 

@@ -195,7 +195,7 @@ bool is_type(std::string_view head) {
                                   head.starts_with("union ") || head.starts_with("enum "));
 }
 
-// Whether a brace behind `head` belongs to a member, in a list such as "Run(int a) : a_".
+// True if a brace behind `head` belongs to a member, in a list such as "Run(int a) : a_".
 bool initialises_member(const std::string& head) {
   const std::size_t open = head.find('(');
   if (open == std::string::npos || (!in_word(head.back()) && head.back() != '>')) return false;
