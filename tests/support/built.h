@@ -1,5 +1,5 @@
-// Where the tests run: the parts of this build, the project's folder, how thorough to be. Functions instead
-// of macros keep the tests' text equal in every preset, so that a compiler cache recognises them.
+// The environment of the tests: the parts of this build, the project's folder, how thorough to be. Functions
+// instead of macros keep the tests' text equal in every preset, so that a compiler cache recognises them.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace enc::tests {
 [[nodiscard]] std::string program_file();
 [[nodiscard]] std::string module_folder();
 [[nodiscard]] bool is_built(const std::string& module);  // "vision"
-// How often a property is repeated with another seed: `few` times in ./check, `all` in ./check --full, which
-// sets ENCOUNTER_ALL_SEEDS.
+// Number of repetitions of a property with another seed: `few` times in ./check, `all` in ./check --full,
+// which sets ENCOUNTER_ALL_SEEDS.
 [[nodiscard]] int thorough(int few, int all);
 
 }  // namespace enc::tests

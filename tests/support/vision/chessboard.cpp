@@ -47,7 +47,7 @@ int brightness(double column, double row, const Board& board) {
   return on_board && black ? 25 : 225;
 }
 
-// Whether both cameras see the whole sheet.
+// True if both cameras see the whole sheet.
 bool both_see(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO, Bend bend) {
   const Pose<'D', 'C'> X_DC = rig.X_CD.inverse();
   for (const double c : {-1.5, 0.5 * (board.columns - 1), board.columns + 0.5})
