@@ -70,7 +70,7 @@ class Terminal {
   std::thread reader_;
 };
 
-// Whether a process ends within so many seconds.
+// True if a process ends within so many seconds.
 bool ends(pid_t process, double seconds);
 
 using Clock = std::chrono::steady_clock;
@@ -99,7 +99,7 @@ Terminal::Terminal() {
   for (std::string& one : words) arguments.push_back(one.data());
   environment.push_back(nullptr);
   arguments.push_back(nullptr);
-  static_cast<void>(fflush(nullptr));  // the child has none of it
+  static_cast<void>(fflush(nullptr));  // the child must not inherit buffered output
   shell_ = forkpty(&master_, nullptr, nullptr, &size);
   if (shell_ == 0) {
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGTTIN, SIGTTOU})
@@ -251,7 +251,7 @@ class Attended {
   }
   void close_input() { ::close(std::exchange(input_, -1)); }
   [[nodiscard]] std::string record() const { return folder_.file("r.encrec"); }
-  // Whether the run came to `mode`. A busy machine may have put it in hold before.
+  // True if the run came to `mode`. A busy machine may have put it in hold before.
   [[nodiscard]] bool comes_to(const std::string& mode) {
     if (!terminal.shows("s  follow", 20.0)) return false;
     if (mode == "hold") fault("igtl:stall");
@@ -276,7 +276,7 @@ class Attended {
     there_->serve();
   }
   [[nodiscard]] double now() const { return there_->now; }
-  // Whether a finished run commanded the machine to stop, between two moments of the fakes' world.
+  // True if a finished run commanded the machine to stop, between two moments of the fakes' world.
   [[nodiscard]] bool stopped_between(double from, double to) {
     constexpr double kTick = 0.002;  // s: the log stamps a command with the tick before
     const std::vector<double> all = stops_in(there_->log());

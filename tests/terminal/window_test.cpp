@@ -75,7 +75,7 @@ TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
   EXPECT_NE(hash_of(r.out), "");
 }
 
-// By keys: press to the ball's limit, drag along its surface, release, change the tool, press again; a fault
+// Keys press to the ball's limit, drag along its surface, release, change the tool and press again; a fault
 // holds the machine and goes. The recorded hand plays again without a window. The record opens in the window,
 // too.
 TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
