@@ -158,7 +158,7 @@ class FaultyFakes {
         if (fake.knows({kind})) fake.heal(kind);
     });
   }
-  // From then on no thread serves the fakes, as if the program had stopped.
+  // Ends the serving thread, as if the program had stopped.
   void end() {
     over_ = true;
     if (thread_.joinable()) thread_.join();
@@ -286,7 +286,7 @@ void expect_end_by(const LastFault& fault) {
   watch.expect_whole();
   EXPECT_FALSE(driver->linked());
   EXPECT_NE(driver->read(Time{}).health, Health::ok);
-  driver.reset();  // by then its thread has logged everything
+  driver.reset();  // its thread has logged everything by then
   EXPECT_THAT(there.log.lines(), Contains(HasSubstr(fault.words)));
 }
 
