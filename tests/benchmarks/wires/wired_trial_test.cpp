@@ -1,6 +1,6 @@
 // The scene of the tennis ball through the wires of the laboratory, in virtual time. EtherCAT commands the
 // real machine every millisecond; GCS sends a set-point every ten or so. A press of the ball, Table 1 and Fig
-// 3 are equal with a cycle of 1 ms and without wires, and so is a press with 10 ms
+// 3 are equal with a cycle of 1 ms and without wires. A press with 10 ms is equal, too
 // (docs/reference/devices.md).
 #include "tests/benchmarks/wires/wired_trial.h"
 
