@@ -147,7 +147,7 @@ struct RawBench : IgtlBench {
   Time now{Duration(1'000'000'000)};
 };
 
-// The request of the driver, its wording, and the end of the request when the driver closes.
+// The driver requests TDATA only if its table says so, and ends the request when it closes.
 TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
   RawBench bench("TDATA");
   EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STT_TDATA", "GET_STATUS"));
