@@ -57,8 +57,8 @@ void begin_tally();  // for the calling thread; resets all counts
 void end_tick();     // call it after each tick
 [[nodiscard]] Tally end_tally();
 
-// Maps all memory and code of the process. A child shares a page with its parent until it writes to it, and
-// the system loads a page of the program's file only when it is read.
+// Maps all memory and code of the process. A child shares a page with its parent until it writes to it. The
+// system loads a page of the program's file only when it is read.
 void touch_all_pages();
 
 }  // namespace enc::test

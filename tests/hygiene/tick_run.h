@@ -42,8 +42,8 @@ struct Case {
 // Counts from the end of the warm-up in a process of its own. `extra`: number of pictures, or bytes of the
 // record.
 [[nodiscard]] Told counted_run(const Case& asked);
-// Counts again if there were page faults: the machine may take a page from any process once; the program's
-// own faults repeat.
+// Counts up to three times while page faults are the only calls. The machine may take a page from any process
+// once; the program's own faults repeat.
 [[nodiscard]] Told without_chance(const Case& asked);
 // Repeats runs with consecutive seeds: the first to the end of its programme, all together at least kTicks.
 // Each is cold, so its first contact counts, too. Stops if `good` fails.
