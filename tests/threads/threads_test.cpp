@@ -230,6 +230,6 @@ TEST(ThreadedTracker, StartsAndEndsFiftyTimesWhateverItIsAt) {
 }  // namespace enc::trial
 
 // Options for ThreadSanitizer. By default it orders every receive from any socket after all sends on any
-// other, and so would miss races between two threads that both use a network. Only the sanitizer calls this
+// other. It would so miss races between two threads that both use a network. Only the sanitizer calls this
 // function, by its name.
 extern "C" __attribute__((visibility("default"))) const char* __tsan_default_options() { return "io_sync=0"; }
