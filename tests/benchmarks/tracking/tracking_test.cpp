@@ -91,7 +91,7 @@ std::array<TipErrors, 3> errors_with(const std::vector<std::string>& more) {
   spec.stops = {0.0, 0.080};
   spec.dwell = 0.5;
   spec.both_ways = false;
-  // at constant speed
+  // The window lies within the motion at constant speed.
   const PredictionRun run{moves_with_stops(spec), setup.twin.tracker, 1, true, 0.8, 2.4};
   return predicted_run(prepare(setup.scene, setup.rig), pose_of<'W', 'C'>(setup.twin.frames.W_C), run);
 }
@@ -174,7 +174,7 @@ TEST(TrackingTheory, AgesAreThoseThatAreCounted) {
     // The lag of the oscillation, to first order in the age; and its size.
     double square = 0.0;
     for (const double age : ages)
-      // over all phases of the oscillation
+      // Mean over all phases of the oscillation.
       square += std::pow(2.0 * std::sin(M_PI * age) * 0.010, 2) / 2.0 / 64.0;
     EXPECT_NEAR(std::sqrt(square), counted.rmse, 0.015 * counted.rmse);
   }

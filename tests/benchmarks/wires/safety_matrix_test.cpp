@@ -43,7 +43,7 @@ struct Fault {
   std::uint32_t why = 0;  // one of the reasons
   // The driver's counter that proves a harmless fault occurred ("missing", "old").
   const char* counted = nullptr;
-  // the fault is over when the loop returns: the machine stands by then, and the run goes on
+  // The fault is over when the loop returns: the machine stands by then, and the run goes on
   bool over = false;
   // Time and reason if no tool is in view and the machine waits; 0: as above.
   double hold_away = 0.0;
