@@ -1,5 +1,5 @@
-// What is left out, and what it would have cost: each scene as it ships, beside the same with everything in
-// it and with one part at a time. What the hand feels must be the same to the bit.
+// Measures the parts that a scene leaves out and their cost. Each scene runs as it ships, with all parts, and
+// with one part at a time. The hand must feel the same force to the bit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,29 +31,29 @@
 namespace enc::bench::ablation {
 namespace {
 
-// A scene with more in it than it needs. Nothing of it may change what the hand feels.
+// A scene with more parts than it needs. None of them may change what the hand feels.
 
-// What can be left out of a scene, each with a cost of its own.
+// The parts that a scene can leave out, each with its own cost.
 enum class Part : std::uint8_t {
   display,   // a device: the headset, and the surface that it draws
   camera,    // images and vision beside the tracker that the scene has: a device, buffers and libraries
   pictures,  // elements of the physics: the bodies, meshes and lights that are only looked at
-  features,  // of the physics: contacts and constraints, where nothing can touch
-  counts,    // what `run` counts: presses, touches, the energy ledger
+  features,  // physics: contacts and constraints where nothing can touch
+  counts,    // counters of `run`: presses, touches, the energy ledger
   record,    // each tick into a file
 };
 
 constexpr std::array kParts{Part::display,  Part::camera, Part::pictures,
                             Part::features, Part::counts, Part::record};
 
-// What a run has done, tick for tick, as hashes: what touches, where everything is and what is commanded; and
-// all that the core knows and says.
+// The behaviour of a run, tick by tick, as hashes: contacts, positions and commands, and the complete state
+// and output of the core.
 struct Bits {
   std::uint64_t felt = 0, core = 0;
   bool operator==(const Bits&) const = default;
 };
 
-// A run of a scene with some of them.
+// A run of a scene with some of these parts.
 class Form {
  public:
   Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with, double seconds);
@@ -64,7 +64,7 @@ class Form {
   void run(int ticks);
   [[nodiscard]] Bits bits() const { return {felt_.value, trial_->result().hash}; }
   [[nodiscard]] bool has(Part part) const;
-  // Which of its parts did nothing so far, or are off: they would have cost nothing.
+  // The parts that had no effect so far, or are off: they would have cost nothing.
   [[nodiscard]] std::vector<Part> idle(const Form& minimal) const;
   [[nodiscard]] std::int64_t touched() const { return touched_; }  // ticks
   [[nodiscard]] int elements() const { return trial_->world().physics().elements(); }
@@ -94,7 +94,7 @@ bool among(const std::vector<Part>& parts, Part part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
-// Islands are no part of it: an arm's contacts are solved in another order with them, which gives other bits.
+// Islands are left on: without them MuJoCo solves an arm's contacts in another order, which gives other bits.
 constexpr int kFeatures = mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
 
 // A camera's scene is run for some seconds only: its finger comes from nearby.
@@ -109,7 +109,7 @@ const char* name_of(Part part) {
   return kNames.at(static_cast<std::size_t>(part));
 }
 
-// What the scene leaves out.
+// The parts that the scene leaves out.
 std::vector<Part> left_out(const BenchContext& context, const std::string& scene) {
   Form form(context, scene, {}, 1.0);
   const SceneSpec& named = form.setup().scene;
@@ -155,7 +155,7 @@ void Form::run(int ticks) {
   }
 }
 
-// Nine tenths of what is due: the first picture comes late.
+// Nine tenths of the expected pictures: the first one comes late.
 bool Form::works(Part part, const Form& minimal) const {
   const double due = 0.9 * static_cast<double>(ticks_) / setup_.rig.loop.rate;
   switch (part) {
@@ -220,16 +220,16 @@ std::vector<std::string> scenes(const BenchContext& context) {
 struct Costs {
   std::string scene;
   std::vector<Part> parts{};
-  std::vector<double> each{};              // s for each tick, of a part
-  double minimal = 0.0, everything = 0.0;  // s for each tick
+  std::vector<double> each{};              // s per tick, of a part
+  double minimal = 0.0, everything = 0.0;  // s per tick
   double ratio = kUnset;                   // everything over minimal
   int elements = 0, all_elements = 0;      // of the physics
   std::size_t equal = 0, forms = 0;        // felt as by the minimal form
   std::string idle{};                      // parts that did nothing
   bool seen = false;                       // the scene has a camera: beside its pictures no part shows
   std::int64_t touched = 0;                // ticks, of the minimal form
-  // Of the parts but the camera: what they cost one at a time over what they cost together; its standard
-  // error.
+  // Sum of the costs of all parts but the camera, measured one at a time, over their cost together; its
+  // standard error.
   double explained = kUnset, doubt = kUnset;
 };
 
@@ -252,7 +252,7 @@ double raw_over(const BenchContext& context, const std::string& scene, double se
   return race.ratio(0, 1);
 }
 
-// A surface that comes back from a display is known to the core, and changes nothing: what is felt is equal.
+// The core receives a surface from the display, but the surface does not change the force: that is equal.
 bool equal(const Form& form, const Form& minimal) {
   if (form.has(Part::display)) return form.bits().felt == minimal.bits().felt;
   return form.bits() == minimal.bits();
@@ -274,14 +274,14 @@ class Rivals {
   [[nodiscard]] double more(std::size_t form) const { return race_->more(form, 0) / kChunk; }
   [[nodiscard]] double ratio(std::size_t form) const { return race_->ratio(form, 0); }
   [[nodiscard]] int elements(std::size_t form) const { return forms_[form]->elements(); }
-  // What the parts cost one at a time over what they cost together.
+  // Sum of the parts' costs measured one at a time, over their cost together.
   [[nodiscard]] double explained() const {
     double singly = 0.0;
     for (std::size_t form = 2; form < forms_.size(); ++form) singly += race_->more(form, 0);
     return singly / race_->more(1, 0);
   }
-  // Its standard error, or somewhat more where chunks were disturbed. In a round the same minimal form stands
-  // beside all others, so it is that of what is left of the round.
+  // The standard error of explained(), or a little more if chunks were disturbed. All forms of a round are
+  // compared with one minimal form, so it is computed from what is left of the round.
   [[nodiscard]] double doubt() const {
     const double ratio = explained();
     std::vector<double> left;
@@ -309,7 +309,7 @@ class Rivals {
   std::optional<Race> race_;
 };
 
-// The camera races apart: its pictures leave nothing of the others in the processor's caches.
+// The camera races apart: its pictures evict the other forms' data from the processor's caches.
 Costs costs_of(const BenchContext& context, const std::string& scene) {
   Costs costs{scene};
   costs.parts = left_out(context, scene);

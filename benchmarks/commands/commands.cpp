@@ -38,8 +38,8 @@
 namespace enc::bench {
 namespace {
 
-// `encounter questionnaire FORM`: asks a person what the paper asked, keeps the answers, says what they are
-// together. Nothing of it is simulated [VHMR 4.4, Fig 14].
+// `encounter questionnaire FORM`: asks a person the paper's questions, stores the answers and summarises
+// them. It simulates nothing [VHMR 4.4, Fig 14].
 
 namespace fs = std::filesystem;
 using questionnaire::Answer;
@@ -69,7 +69,7 @@ void check_participant(const std::string& code) {
                     models::quoted(code)));
 }
 
-// What write_pictures() will write, so that it is refused before anything is asked or stored.
+// Checks the output of write_pictures() before the first question, so that a bad path fails early.
 void check_pictures(const trial::QuestionnaireOptions& o, const questionnaire::Form& form,
                     const std::vector<questionnaire::ItemReference>& items) {
   if (o.out.empty()) return;
@@ -85,7 +85,7 @@ void check_pictures(const trial::QuestionnaireOptions& o, const questionnaire::F
   }
 }
 
-// What can be refused is refused before somebody has answered fourteen questions.
+// Refuses bad options before the person answers fourteen questions.
 Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form& form,
                 const std::vector<questionnaire::ItemReference>& items) {
   if (!o.answers.empty()) {
@@ -159,7 +159,7 @@ std::string proxies_text(const std::vector<questionnaire::ItemReference>& items,
   return text.empty() ? "" : "measured    by `encounter bench`: beside the items, no answers\n" + text;
 }
 
-// Where the study's own numbers do not agree about an item of this form.
+// The numbers of the study that contradict each other about an item of this form.
 std::vector<Contradiction> doubts(const questionnaire::Form& form, const std::string& models) {
   std::vector<Contradiction> list;
   if (form.reference.empty()) return list;
@@ -242,7 +242,7 @@ std::string value(const Figure& f) {
   return std::isnan(f.twin) ? std::string("absent") : fmt::format("{:.4g}", f.twin);
 }
 
-// The words that were given, for the report: whoever repeats them gets its figures.
+// The command line, for the report: repeating it gives the report's figures.
 std::string command_of(const trial::BenchOptions& options) {
   std::string text = "./encounter bench";
   for (const std::string& name : options.names) text += " " + name;
@@ -259,7 +259,7 @@ std::string command_of(const trial::BenchOptions& options) {
   return text;
 }
 
-// A run with other settings gives other figures: there is nothing to compare them with.
+// A run with other settings gives other figures, so there is nothing to compare them with.
 bool is_default(const trial::BenchOptions& options) {
   return !options.quick && !options.full && options.seed == 1 && options.repeats == 0 &&
          options.set.empty() && options.rig.empty();
@@ -280,8 +280,8 @@ void print_table(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-// Signals that end a process wait until somebody asks; threads and what they start inherit that. Over devices
-// a suspension ends it, too: what was measured before it is no measure.
+// Holds back signals that end a process until the program polls for them; threads and child processes inherit
+// that. Over devices a suspension (Ctrl-Z) ends the run too: a measurement across it is invalid.
 class Signals {
  public:
   explicit Signals(bool over_devices) {
@@ -296,14 +296,14 @@ class Signals {
   ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
-  // Number of one that came; 0 or less: none.
+  // Number of the signal that came; 0 or less: no signal.
   [[nodiscard]] int came() const {
     const timespec none{};
     return sigtimedwait(&set_, nullptr, &none);
   }
 
  private:
-  // One that is ignored, as by nohup, stays so.
+  // A signal that is ignored, as by nohup, stays ignored.
   void wait_for(int signal) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaddset(&set_, signal);
@@ -312,7 +312,7 @@ class Signals {
   sigset_t set_{}, before_{};
 };
 
-// How far a benchmark is: a line that renews itself in a terminal, one line in a file.
+// Progress of a benchmark: a line that renews itself in a terminal, one line in a file.
 class Teller {
  public:
   Teller(const char* name, std::size_t number, std::size_t of)
@@ -321,7 +321,7 @@ class Teller {
     if (error_.terminal())
       error_.write(
           fmt::format("\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_)));
-    else if (since(start_) > 2.0)  // what is refused at once has one line: why
+    else if (since(start_) > 2.0)  // a benchmark that is refused at once prints one line: why
       say();
   }
   void end() {
@@ -342,7 +342,7 @@ class Teller {
   bool said_ = false;
 };
 
-// New, empty, or with what an earlier `bench` has put there: then it may be used again.
+// The folder is new, empty, or written by an earlier `bench`: then `bench` may use it.
 void check_folder(const std::string& path, bool force) {
   namespace fs = std::filesystem;
   if (force || fs::is_empty(path)) return;
@@ -368,7 +368,7 @@ std::vector<Choice> choices_of(const trial::BenchOptions& options) {
   return all;
 }
 
-// The work is done in a thread of its own, so that this one can tell, and can stop whatever the other does.
+// A separate thread does the work, so that this one can report progress and stop the run at any time.
 class Session {
  public:
   Session(const trial::BenchOptions& options, const trial::ModuleFinder& modules)
@@ -443,14 +443,14 @@ class Session {
     return result;
   }
 
-  // A machine that moves is stopped by its run, and fakes are ended, however many signals come meanwhile.
+  // The run stops its moving machine and ends its fakes, however many signals come meanwhile.
   void let_go(const std::future<BenchResult>& work) {
     stopping_ = true;
     while (!options_.rig.empty() && work.wait_for(kTurn) != std::future_status::ready) {
     }
   }
 
-  // Once, before the first motion. The worker's thread asks, and this one still looks for signals.
+  // Asks once, before the first motion. The worker's thread asks, and this one still polls for signals.
   void confirm(const std::string& question) {
     if (confirmed_ || options_.yes) return;
     trial::refuse_unasked();
@@ -480,8 +480,7 @@ class Session {
     std::fflush(stdout);
   }
 
-  // An unwritable folder is refused before hours of work. A report that is there stays until there is more to
-  // say than that all is missing.
+  // Refuses an unwritable folder before hours of work. An earlier report stays until there is a first result.
   void begin() const {
     if (options_.out.empty()) return;
     const std::string results = (std::filesystem::path(options_.out) / "results.json").string();
@@ -492,7 +491,7 @@ class Session {
     if (!options_.out.empty()) write_report(options_.out, report_);
   }
 
-  // The files already say what is missing. The other thread may be anywhere, so nothing is torn down.
+  // The files already list the missing results. The worker may be anywhere, so nothing is torn down.
   [[noreturn]] void stop(int signal) const {
     std::string missing;
     for (const std::string& name : report_.missing) missing += " " + name;

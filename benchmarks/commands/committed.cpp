@@ -8,7 +8,7 @@ namespace enc::bench {
 namespace {
 
 constexpr const char* kFile = "figures.csv";
-constexpr double kDigits = 1e-3;  // of a value that is kept with four digits
+constexpr double kDigits = 1e-3;  // the rounding of a value kept with four digits
 
 // Within the span of the other run, which may be a single value.
 bool within(double value, double single, double least, double most) {

@@ -19,14 +19,14 @@ struct CommittedFigure {
 class Committed {
  public:
   Committed() = default;
-  // Of the folder beside `models`; empty where the file is not there, as in an installed program.
+  // Loads from the folder beside `models`; empty if the file does not exist, as in an installed program.
   static Committed load(const std::string& models);
   static Committed parse(std::string_view text, const std::string& name);
 
-  // Null: this file does not have it.
+  // Null if this file does not have the figure.
   [[nodiscard]] const CommittedFigure* find(const std::string& id) const;
-  // Whether a figure is there and is another one: beside the spread of either run over seeds or repeats, and
-  // by more than the four digits that are kept. A cost hangs on the machine, so it never differs.
+  // Reports whether the figure exists and differs: it lies outside the spread of either run over seeds or
+  // repeats, by more than the four stored digits. A cost depends on the machine, so it never differs.
   [[nodiscard]] bool differs(const Figure& figure) const;
 
  private:

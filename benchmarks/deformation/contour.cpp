@@ -48,8 +48,8 @@ Vec2 nearest(const Contour& contour, const Vec2& p) {
   return best;
 }
 
-// Height over each column of the undeformed ball; only what goes outwards counts, so that a contour that
-// comes back under itself is seen from above. Columns beyond it are not dented.
+// Height over each column of the undeformed ball. Only outward steps count, so that a contour that folds back
+// under itself is seen from above. Columns beyond the contour are not dented.
 std::vector<double> dent_depths(const Contour& contour, double ball_radius) {
   const auto columns = static_cast<std::size_t>(ball_radius / kColumn);
   std::vector<double> depths(columns, 0.0);
@@ -79,7 +79,7 @@ double probe_radius() { return sim::ball_set(sim::BallSet::nominal).probe_radius
   throw Error(fmt::format("{}: {}; take the file of the repository anew", name, what));
 }
 
-// The rows of one contour; from the axis outwards to below the ball's middle, anywhere near the ball.
+// The rows of one contour, from the axis outwards to below the ball's middle, near the ball.
 Contour contour_of(const Reference& table, const std::string& name, double tip_radius, double depth) {
   Contour contour;
   for (std::size_t row = 0; row < table.rows(); ++row) {

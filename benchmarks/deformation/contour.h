@@ -1,5 +1,5 @@
-// How far two contours of a dented ball are apart, and how much of their dents is common: sections through
-// the axis, r sideways, z upwards, origin in the ball's middle, from the pole outwards; m.
+// Distance between two contours of a dented ball, and the common share of their dents. Contours are sections
+// through the axis: r sideways, z upwards, origin in the ball's middle, from the pole outwards; m.
 #pragma once
 
 #include <string>
@@ -13,27 +13,28 @@ namespace enc::bench::deformation {
 using Vec2 = Eigen::Vector2d;
 using Contour = std::vector<Vec2>;
 
-// A point counts as dented that is this far off the undeformed ball.
+// A point counts as dented if it is this far off the undeformed ball.
 inline constexpr double kDented = 0.1e-3;  // m
 
-// Over the visible half, z >= 0. Distances are those of points spaced evenly along one contour to the nearest
-// point of the other, both ways.
+// Compares the visible half, z >= 0. Points spaced evenly along one contour are measured to the nearest point
+// of the second, in both directions.
 struct ContourGap {
   double rms = 0.0, largest = 0.0;  // m, where either is dented
   double half_rms = 0.0;            // m, of the whole half
 };
 [[nodiscard]] ContourGap contour_gap(const Contour& a, const Contour& b, double ball_radius);
 
-// How far b is outside of a (negative: inside), along a; x is the length along a from the pole; m.
+// Distance of b outside a (negative: inside), along a; x is the length along a from the pole; m.
 struct GapAlong {
   std::vector<double> length, outside;
 };
 [[nodiscard]] GapAlong gap_along(const Contour& a, const Contour& b);
 
-// The dent is what is inside the undeformed ball and over the contour. Its common part over what either has.
+// The dent is the region inside the undeformed ball and above the contour. Overlap: the common part over the
+// union.
 struct Overlap {
   double area = 0.0;    // of the section
-  double volume = 0.0;  // of the solid of revolution
+  double volume = 0.0;  // volumes of the solids of revolution
 };
 [[nodiscard]] Overlap overlap(const Contour& a, const Contour& b, double ball_radius);
 
@@ -46,7 +47,7 @@ inline constexpr double kStylus = 2e-3;                   // m, tip radius
 struct Fig11Contours {
   std::vector<Contour> probe, stylus;  // for each depth
 };
-// From benchmarks/reference/fig11_contour.csv. Throws enc::Error, one line, where that is not as written.
+// Reads benchmarks/reference/fig11_contour.csv. Throws enc::Error, one line, if the file is malformed.
 [[nodiscard]] Fig11Contours load_fig11(const std::string& models);
 [[nodiscard]] Fig11Contours parse_fig11(std::string_view text, const std::string& name);
 

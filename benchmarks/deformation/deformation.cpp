@@ -1,5 +1,5 @@
-// Fig 11 as a number: the contour of the seen ball against that of a ball that is pressed by the rig's probe,
-// at 2, 4 and 6 mm [VHMR 4.3].
+// Fig 11 as a number: the contour of the displayed ball against that of a ball pressed by the rig's probe, at
+// 2, 4 and 6 mm [VHMR 4.3].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,12 +20,12 @@
 namespace enc::bench::deformation {
 namespace {
 
-// In place of the core's constants: the depth at which half of it is the ball's own and the radius of the
-// dent, both over the ball's radius.
+// Replaces the core's constants: the depth at which half of it is the ball's own and the radius of the dent,
+// both over the ball's radius.
 struct Sinking {
   double stiff, wide;
 };
-// Contour of the seen ball under a spherical tip from above.
+// Contour of the displayed ball under a spherical tip from above.
 Contour seen_contour(const Surface& ball, double tip_radius, double depth,
                      const std::optional<Sinking>& sinking = {}) {
   constexpr int kPoints = 2000;
@@ -118,7 +118,8 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
   contours("deformation_stylus_6mm", "6 mm under a stylus of 2 mm", reference.stylus.back(), stylus.back());
 }
 
-// Of the two numbers of the seen ball: what 2 and 6 mm say, and what 4 mm, which was not asked, has.
+// Searches the two parameters of the displayed ball: fits them at 2 and 6 mm and tests them at 4 mm, which
+// the fit does not use.
 void add_search(BenchResult& result, const Surface& ball, const Fig11Contours& reference) {
   constexpr std::array<double, 5> kStiff{0.096, 0.106, 0.116, 0.126, 0.136};
   constexpr std::array<double, 5> kWide{0.70, 0.75, 0.80, 0.85, 0.90};

@@ -1,5 +1,5 @@
-// What the eye sees, measured: where the vertex under the tool goes, how much volume the dent takes, and how
-// long a mesh of 10,242 vertices takes, against a straight double loop with face-accumulated normals.
+// Measures the visible dent: position of the vertex under the tool, volume of the dent, and the time for a
+// mesh of 10,242 vertices, against a straight double loop with face-accumulated normals.
 #include "core/shape/deformation/dent.h"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ struct Cloud {
   }
 };
 
-// The reference: each vertex pushed in by a Gaussian of the same depth and width, in double, then the
-// triangles' area-weighted normals summed up at their corners and normalised. All buffers exist beforehand.
+// The reference: pushes each vertex in by a Gaussian of equal depth and width, in double, then sums the
+// triangles' area-weighted normals at their corners and normalises them. All buffers exist beforehand.
 struct Straight {
   const Mesh& mesh;
   std::vector<Vec3> points, normals;
@@ -99,7 +99,7 @@ void run(Bench& bench) {
   Cloud cloud(ball);
   DentSample last;
   for (const double depth : {0.002, 0.004, 0.006}) {
-    // The tool points at a vertex, so that there is one exactly under it.
+    // The tool points at a vertex, so that one lies exactly under it.
     const Vec3 n = Vec3(ball.vertices[0][0], ball.vertices[0][1], ball.vertices[0][2]).normalized();
     const double tip_radius = scene.tools.front().tip.radius;
     const Tip<'O'> tip{Point<'O'>(Vec3((radius - depth + tip_radius) * n)), tip_radius};

@@ -28,7 +28,7 @@ Meeting meet(models::Setup setup, double speed, std::uint64_t seed) {
   return meeting;
 }
 
-// A short press is enough: the figure is the meeting, not what follows.
+// A short press is enough: the figure is about the first touch, not what follows.
 models::Setup short_press(const Bench& bench) {
   models::Setup setup = bench.setup();
   UserSpec& user = *setup.scene.user;

@@ -1,6 +1,5 @@
-// A case of `bench extremes`: something that should not happen, done to a whole trial, with the criterion
-// that it has to meet. And what must hold on every tick of a run, whatever is done to it: a small judge of
-// both machines, which asks neither the core nor the devices whether they are well.
+// A case of `bench extremes`: a whole trial with an abnormal condition, and the criterion that it must meet.
+// A small judge of both machines checks every tick, independent of the status of core and devices.
 #pragma once
 
 #include <cmath>
@@ -18,17 +17,17 @@ class Judge {
  public:
   void see(const trial::Glance& glance);
 
-  // Ticks on which something was wrong, and what was first.
+  // Number of ticks with a violation, and the first violation.
   [[nodiscard]] std::int64_t broken() const { return broken_; }
   [[nodiscard]] const std::string& first() const { return first_; }
 
-  // What was measured, of commands.
-  double fastest = 0.0, hardest = 0.0;  // of a hexapod, m/s and m/s^2
-  double force = 0.0;                   // of an arm, beside its weight, N
-  double touch = 0.0;                   // of the tool on the tip, true, N
-  double condition = 0.0;               // of a hexapod's Jacobian
-  double dexterity = 1.0;               // of an arm where it is, least
-  std::int64_t over = 0;                // cycles in a row with more force than the device has, most
+  // The commands of the run, measured.
+  double fastest = 0.0, hardest = 0.0;  // hexapod only, m/s and m/s^2
+  double force = 0.0;                   // arm only, in addition to its weight, N
+  double touch = 0.0;                   // true contact force of tool and tip, N
+  double condition = 0.0;               // hexapod only: condition of its Jacobian
+  double dexterity = 1.0;               // arm only: its least dexterity in the run
+  std::int64_t over = 0;                // longest run of cycles with more force than the device has
   std::int64_t held = 0, ticks = 0;     // ticks
   std::uint32_t reasons = 0;            // of all holds
 
@@ -39,7 +38,7 @@ class Judge {
   void judge_arm(const trial::Glance& glance, const Impedance& law);
   void wrong(const trial::Glance& glance, const std::string& what);
 
-  bool told_ = false;  // a machine has been told something
+  bool told_ = false;  // a machine has received a command
   Vec3 at_{0, 0, 0}, velocity_{0, 0, 0};
   std::int64_t index_ = -1, over_now_ = 0, broken_ = 0;
   Time truth_{};
@@ -49,19 +48,19 @@ class Judge {
 
 inline constexpr double kInfinite = HUGE_VAL;
 
-// A number that was measured, with the bounds that are the criterion; without bounds it is only stated.
+// A measured number with the bounds that are the criterion; without bounds it is informative only.
 struct Number {
   std::string what;  // last tokens of its id, behind those of the case
   double value = kUnset;
   const char* unit = "";
   Bounds bounds{};
   std::string note{};
-  double wanted = kUnset;  // a criterion that is not met, and cannot be: by how much is said; no bound
+  double wanted = kUnset;  // a criterion that physics does not allow: the difference is reported; no bound
   bool cost = false;       // Figure::cost
 };
 
 struct Found {
-  std::string did, criterion;  // for the table: what was done, what has to be
+  std::string did, criterion;  // the table's text: the action and the criterion
   std::vector<Number> numbers{};
   double simulated = 0.0;  // s
   std::string words{};     // beside the verdict; such as what physics does not allow
@@ -84,8 +83,8 @@ struct Run {
 };
 [[nodiscard]] Run judged(const models::Setup& setup, trial::TrialOptions options,
                          const std::function<void(const trial::Glance&)>& also = {});
-// What every case shows of its runs: ticks on which the judge found something wrong, and warnings of the
-// engine.
+// Adds the numbers that every case reports of its runs: ticks on which the judge found a violation, and
+// warnings of the engine.
 void add_soundness(const Run& run, Found& found);
 
 // The tables of cases, one for each file.
@@ -96,8 +95,8 @@ void add_links(Cases& cases, bool quick);
 void add_places(Cases& cases, bool quick);
 void add_refusals(Cases& cases, bool quick);
 void add_soaks(Cases& cases, bool quick, bool full);
-// Hours of both machines, one after the other because memory is of the whole program: run at once, added to
-// both.
+// Hours of both machines, one after the other because memory is measured for the whole program.
+// Runs them immediately and adds them to `cases` and `found`.
 void add_long(Bench& bench, Cases& cases, std::vector<Found>& found);
 // Force over the stiffness of the arm's walls.
 void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<Found>& found);

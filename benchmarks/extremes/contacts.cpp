@@ -20,7 +20,7 @@ namespace {
 constexpr double kPush = 4.0;   // N, of the finger
 constexpr double kStill = 1.0;  // mm, peak to peak: what goes farther is not rendered
 
-// m, peak to peak along z: how far the tip goes to and fro while it is watched.
+// m, peak to peak along z: the tip's swing while it is watched.
 class Swing {
  public:
   void see(const trial::Glance& glance) {
@@ -37,7 +37,7 @@ std::string name_of(const char* machine, double stiffness) {
   return fmt::format("{}.wall.{:.0f}", machine, stiffness);
 }
 
-// The finger presses as the scene says it does; the last half of its hold is watched.
+// The finger presses as in the scene; the last half of its hold is watched.
 Found arm_wall(const BenchContext& context, double stiffness) {
   const models::Setup setup =
       load_scene(context, "wall",
@@ -87,11 +87,11 @@ Found machine_wall(const BenchContext& context, double stiffness) {
   return found;
 }
 
-// What begins deep inside, or arrives as fast as no hand does.
+// Starts deep inside the object, and approaches faster than any hand.
 
 constexpr double kDeep = 20e-3, kTop = 25e-3;  // m: of the finger; of the wall over the waiting prop
 
-// Vision sees the finger for the first time when it is 20 mm inside of the wall.
+// Vision detects the finger for the first time when it is 20 mm inside the wall.
 Found deep_finger(const BenchContext& context) {
   const models::Setup setup =
       load_scene(context, "wall",
@@ -151,13 +151,14 @@ Found deep_tip(const BenchContext& context) {
 }
 
 struct Hit {
-  double deepest = -kInfinite;  // m: tool into tip
-  double through = 0.0;  // times that the tool's centre went through the middle of the tip, or the front
+  double deepest = -kInfinite;  // m: tool inside the tip
+  double through = 0.0;  // crossings of the tool's centre through the middle of the tip, or through the front
   bool over = false;
   double arrives = 0.0;  // m/s, of the tool before it touches
 };
 
-// Along z, which is the normal in both scenes. Who passes beside it goes through nothing.
+// Measured along z, which is the normal in both scenes. A tool that passes beside the tip does not count as
+// through.
 void see_hit(const trial::Glance& g, bool arm, Hit& hit) {
   const Vec3 apart = (g.truth.tool_tip - g.truth.tip).e();
   const double aside = std::hypot(apart.x(), apart.y()), radii = g.truth.tool_radius + g.truth.tip_radius;
@@ -169,7 +170,7 @@ void see_hit(const trial::Glance& g, bool arm, Hit& hit) {
   hit.over = over;
 }
 
-// The hand needs its way to be that fast: it has 50 N.
+// The hand can reach that speed because it has 50 N.
 Found impact(const BenchContext& context, bool arm, double speed) {
   const models::Setup setup = load_scene(context, arm ? "wall" : "tennis_ball",
                                          {fmt::format("user.approach_mm_s=[{:g}]", speed * kMmPerM),
@@ -233,10 +234,10 @@ Found training(const BenchContext& context) {
   return found;
 }
 
-// Where no tool should be: out of reach, at a singular pose, on two objects at once; and more force than
-// there is.
+// Tools in unusual places: out of reach, at a singular pose, on two objects at once; and more force than the
+// device has.
 
-// The tool is seen to go 0.2 m aside and back, twice, and then to tremble about the pause distance.
+// Vision sees the tool move 0.2 m aside and back, twice, and then tremble about the pause distance.
 Found leaves(const BenchContext& context, bool arm) {
   constexpr double kFar = 0.2, kTurn = 3.0, kFrom = 1.0;  // m, s
   const models::Setup setup =
@@ -260,7 +261,7 @@ Found leaves(const BenchContext& context, bool arm) {
     farthest = std::max(farthest, std::hypot(g.truth.tip.xyz[0], g.truth.tip.xyz[1]));
     if (time_of(g) > kFrom + 2.0 * kTurn + 1.2) back = std::max(back, std::hypot(off.x(), off.y()));
   };
-  // Where a tool meets a tip that comes from the side is chance: one hand shows little.
+  // The place where a tool meets a tip that comes from the side is chance: one hand is not enough.
   constexpr std::uint64_t kHands = 4;
   double condition = 0.0, dexterity = 1.0;
   Run worst;
@@ -318,7 +319,7 @@ Found trembles(const BenchContext& context, bool arm) {
   return found;
 }
 
-// A sensor that ends at 12 N, of which 9 N are its load.
+// A sensor with a range of 12 N, of which its load takes 9 N.
 Found saturated(const BenchContext& context) {
   const models::Setup setup =
       load_scene(context, "tennis_ball",
@@ -346,7 +347,7 @@ Found saturated(const BenchContext& context) {
   return found;
 }
 
-// Pressed with 40 N by a tool, where the machine carries 30 N and 9 N of them are its load.
+// A tool presses with 40 N on a machine that carries 30 N, of which its load takes 9 N.
 Found overloaded(const BenchContext& context) {
   constexpr double kStiffness = 10e3;  // N/m
   const models::Setup setup =
@@ -375,7 +376,7 @@ Found coincident(const BenchContext& context, bool arm) {
                                        : std::vector<std::string>{"user.approach_mm_s=[50]", "user.press_s=1",
                                                                   "user.release_s=1", "user.depth_mm=4"});
   std::vector<ObjectSpec>& objects = setup.scene.objects;
-  ObjectSpec again = objects[arm ? 4 : 0];  // the one that is pressed
+  ObjectSpec again = objects[arm ? 4 : 0];  // the object that is pressed
   again.name += "_again";
   objects.push_back(again);
   Found found{fmt::format("{}.toml, its object there twice", arm ? "keypad" : "tennis_ball"),

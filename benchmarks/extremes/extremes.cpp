@@ -15,28 +15,28 @@
 namespace enc::bench::extremes {
 namespace {
 
-// Error against run time at the edges: extreme cases over time step and integrator, each against a converged
-// run of its own. What fails is a point, too.
+// Error against run time at the edges: extreme cases over time step and integrator, each against its own
+// converged run. A failure is a point, too.
 
 constexpr double kRings = 0.05e-3;  // m rms: what goes farther rings
 
-// What is compared of a run.
+// The quantity that is compared.
 enum class Compared : std::uint8_t {
-  swing,  // how far the tip goes to and fro while the finger holds, rms
-  way     // the tool's way, from the first touch on
+  swing,  // rms swing of the tip while the finger holds
+  way     // the tool's path from the first touch on
 };
 
 struct Study {
   const char* id;
   const char* title;
   const char* scene;
-  const char* table;  // where step and integrator stand
+  const char* table;  // TOML table of step and integrator
   Compared compared;
   double seconds;  // s
   std::vector<std::string> set;
-  double within;                       // %: what the default has to keep
-  bool refused = false;                // at the default, which says so
-  std::vector<std::string> instead{};  // of what is refused: a run that costs as much
+  double within;                       // %: bound of the default
+  bool refused = false;                // the default is refused with this message
+  std::vector<std::string> instead{};  // settings of a run that costs as much as the refused one
 };
 
 const std::vector<Study>& studies() {
@@ -106,7 +106,7 @@ double rms_about_mean(std::vector<double> all) {
 Outcome run_once(const Study& study, const BenchContext& context, const Stepped& at,
                  const std::vector<std::string>& more = {}) {
   Outcome found;
-  // A hand that does not drift, so that each meets the same place.
+  // A hand without drift, so that each run touches at the same place.
   std::vector<std::string> held{"truth.hand.drift_mm=0",
                                 fmt::format("{}.timestep_us={:g}", study.table, at.step * 1e6),
                                 fmt::format("{}.integrator={}", study.table, at.integrator)};
@@ -135,7 +135,7 @@ Outcome run_once(const Study& study, const BenchContext& context, const Stepped&
   return found;
 }
 
-// % of the converged run's; NaN with the reason where it says another thing than that.
+// % of the converged run's; NaN with the reason if the run failed.
 double error_of(const Study& study, const Outcome& converged, Outcome& found) {
   if (!found.failure.empty()) return kUnset;
   if (study.compared == Compared::swing) {
@@ -202,7 +202,7 @@ void draw(Bench& bench, const std::vector<std::string>& integrators, const std::
     panel[&study] = plot.panels.size();
     plot.panels.emplace_back(study.title);
   }
-  // Failures follow those whose failures they are: so they have their colour.
+  // Draw failures after their curves, so that they take their curves' colour.
   const auto draw_all = [&](std::size_t in, const std::string& name, bool paper, const auto& wanted) {
     Series there{.name = name, .mark = paper ? Mark::points : Mark::both, .paper = paper, .panel = in};
     Series failed{.name = name + ", failed", .mark = Mark::crosses, .panel = in};
@@ -228,7 +228,7 @@ bool holds(const Number& n) {
   return figure.ok();
 }
 
-// What has bounds, but what must be nothing.
+// The numbers that have bounds, except those bounded by zero.
 std::string measured(const Found& found) {
   std::string text;
   for (const Number& n : found.numbers) {
@@ -241,7 +241,7 @@ std::string measured(const Found& found) {
   return text;
 }
 
-// "holds", or each number that misses its bounds; STATED where that cannot be otherwise.
+// "holds", or each number that misses its bounds; STATED for a criterion that cannot be met.
 std::string verdict_of(const Found& found) {
   std::string missed, stated;
   const auto add = [](std::string& text, const std::string& more) {

@@ -15,7 +15,7 @@
 namespace enc::bench::extremes {
 namespace {
 
-// Says at each poll what the device said last, whatever became of it.
+// Repeats at each poll the last sample of the device, whatever happened to it.
 template <class Role, class Sample>
 class Clean : public Role {
  public:
@@ -39,11 +39,11 @@ class CleanDisplay final : public Clean<Display, DentSample> {
   void show(const View& view) noexcept override { device_->show(view); }
 };
 
-// Nonsense in one number of what the devices say, each number and each kind once.
+// Invalid values in one number of the devices' samples, each number and each kind once.
 
 constexpr std::int64_t kEvery = 30;  // ticks between two
 
-// Whether each number was followed by a tick on which nothing is held.
+// Checks that each invalid number was followed by a tick that is not held.
 class Recovery {
  public:
   void see(const trial::Glance& g, bool spoiled) {
@@ -82,7 +82,7 @@ Found spoiled(const BenchContext& context, bool arm, bool quick) {
   trial::TrialOptions options{.seed = context.seed,
                               .seconds = 1e-3 * static_cast<double>(kFrom + 2 * kEvery * (number + 2)),
                               .fit_out = keep_clean};
-  // With a new packet of the tool: a repeated one says nothing, and its junk would not, either.
+  // Spoils only a new packet of the tool: a repeated packet has no effect, and neither would its junk.
   options.disturb = [&](Inputs& in) {
     const bool fresh = in.tool.t > packet;
     packet = in.tool.t;
@@ -102,11 +102,11 @@ Found spoiled(const BenchContext& context, bool arm, bool quick) {
   return found;
 }
 
-// Drop-outs of the tracker, packets that are lost, overtake and come twice, and a clock that stalls.
+// Drop-outs of the tracker; packets that are lost, overtake or come twice; and a clock that stalls.
 
 constexpr double kSpeed = 40.0;  // mm/s, of the tool
 
-// m: where the tool is believed to be, against where it is.
+// m: distance of the estimated from the true place of the tool.
 double belief_error(const trial::Glance& g) {
   return g.out.view.tip.finite() ? (g.out.view.tip - g.truth.tool_tip).norm() : 0.0;
 }
@@ -118,7 +118,7 @@ models::Setup approach(const BenchContext& context, bool arm, const std::vector<
   return load_scene(context, arm ? "wall" : "tennis_ball", set);
 }
 
-// While the tool comes: it is seen for the last time at 1.5 s.
+// The tool is approaching: it is seen for the last time at 1.5 s.
 Found dropout(const BenchContext& context, bool arm, double length) {
   constexpr double kAt = 1.5, kExtrapolated = 0.1, kStops = 0.2;  // s
   const models::Setup setup = approach(context, arm,
@@ -130,7 +130,7 @@ Found dropout(const BenchContext& context, bool arm, double length) {
       {}};
   const double lost = setup.rig.tracker.lost_age;
   const double again =
-      kAt + length + 1.0 / setup.twin.tracker.rate + 0.06;  // a frame, and its way: 55 ms of the arm's
+      kAt + length + 1.0 / setup.twin.tracker.rate + 0.06;  // a frame, and its latency: 55 ms of the arm's
   double error = 0.0, speed = 0.0, held_after = 0.0;
   Vec3 before = Vec3::Zero();
   trial::TrialOptions options{.seed = context.seed, .seconds = 4.0};
@@ -153,7 +153,7 @@ Found dropout(const BenchContext& context, bool arm, double length) {
 }
 
 struct Link {
-  double rms = kUnset;  // m, of the believed place, along the worst axis
+  double rms = kUnset;  // m, of the estimated place, along the worst axis
   std::uint64_t hash = 0;
   Run run;
 };
@@ -200,7 +200,7 @@ Found network(const BenchContext& context, const char* what, const Network::Faul
   return found;
 }
 
-// Ticks that pass without the loop, every 0.7 s: the world goes on.
+// Ticks that pass without the loop, every 0.7 s: the simulated world continues.
 class Stalling final : public Clock {
  public:
   Stalling(std::unique_ptr<Clock> clock, std::int64_t cycles) : clock_(std::move(clock)), cycles_(cycles) {}
@@ -274,7 +274,7 @@ void Network::operator()(Time now, Inputs& in) {
   in.tool = shown_;
 }
 
-// What it is, and for how many ticks.
+// Draws the fault and its number of ticks.
 void Storm::begin() {
   constexpr int kKinds = 10;
   kind_ = static_cast<int>(random_() % kKinds);
@@ -293,24 +293,24 @@ void Storm::begin() {
 void Storm::spoil(Inputs& in) {
   Spoil one{field_, junk_};
   switch (kind_) {
-    case 1:  // no news of the tool
+    case 1:  // the tool has no news
       if (!std::exchange(freezes_, true)) frozen_ = in.tool;
       in.tool = frozen_;
       return;
-    case 2:  // the tracker is at fault
+    case 2:  // the tracker reports a fault
       in.tool.health = Health::fault;
       return;
-    case 3:  // it has leapt, and is believed
+    case 3:  // the tool's pose has leapt, and is taken as valid
       in.tool.value.X_CT.xyz[0] += shift_.x();
       in.tool.value.X_CT.xyz[2] += shift_.z();
       return;
     case 4:  // cycles were missed
       in.missed = 1 + static_cast<std::int64_t>(100.0 * std::abs(shift_.x()));
       return;
-    case 5:  // the machine says nothing
+    case 5:  // the machine sends nothing
       in.tip.health = in.arm.health = Health::absent;
       return;
-    case 6:  // force is at the sensor's range
+    case 6:  // force at the sensor's range
       if (in.wrench.health == Health::ok) in.wrench.health = Health::saturated;
       return;
     case 7:  // a spike of force
@@ -319,7 +319,7 @@ void Storm::spoil(Inputs& in) {
     case 8:  // old packets
       in.tool.t -= from_seconds(std::abs(shift_.y()));
       return;
-    default:  // nonsense in one number
+    default:  // an invalid value in one number
       fields(one, in);
   }
 }

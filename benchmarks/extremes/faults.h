@@ -1,4 +1,4 @@
-// What goes wrong between devices and core, one thing at a time.
+// Injects faults between devices and core, one at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@
 
 namespace enc::bench::extremes {
 
-// What a number is replaced by.
+// The value that replaces a number.
 enum class Junk : std::uint8_t { nan, infinite, negative_infinite, huge };
 inline constexpr auto kJunk = {Junk::nan, Junk::infinite, Junk::negative_infinite, Junk::huge};
 [[nodiscard]] const char* name_of(Junk junk);
 
-// A visitor of fields(): puts junk in the `wanted`-th, -1: none, and counts them. What is withheld or resumed
-// is no sample of a device.
+// A visitor of fields(): counts the numbers and puts junk in the `wanted`-th (-1: in no number). Hold and
+// resume signals are no device samples.
 struct Spoil {
   int wanted = -1;
   Junk junk = Junk::nan;
@@ -35,7 +35,7 @@ struct Spoil {
     if constexpr (std::is_same_v<T, double>) {
       constexpr double kInf = std::numeric_limits<double>::infinity();
       x = kind == 0 ? kUnset : kind == 1 ? kInf : kind == 2 ? -kInf : 1e12;
-    } else if constexpr (std::is_same_v<T, Time>) {  // 1000 s ahead or ago, and as far as a number goes
+    } else if constexpr (std::is_same_v<T, Time>) {  // 1000 s ahead or ago, and the largest number
       using Limit = std::numeric_limits<std::int64_t>;
       constexpr std::int64_t kFar = 1'000'000'000'000;
       x = Time(Duration(kind == 0 ? -kFar : kind == 1 ? Limit::max() : kind == 2 ? Limit::min() : kFar));
@@ -54,16 +54,15 @@ struct Spoil {
   }
 };
 
-// Samples that stay until there is news are there anew on every tick: what was spoiled of one is gone on the
-// next.
+// Restores samples that persist until there is news on every tick: a spoiled sample is gone on the next tick.
 void keep_clean(Rig& rig);
 
-// Packets on their way: some are lost, some overtake others, some come twice. Between device and core.
+// Packets between device and core: some are lost, some overtake others, some come twice.
 class Network {
  public:
   struct Faults {
     double loss = 0.0, late = 0.0, twice = 0.0;  // shares
-    double least = 0.0, most = 0.030;            // s, of what is late
+    double least = 0.0, most = 0.030;            // s, delay of late packets
   };
   Network(const Faults& faults, std::uint64_t seed) : faults_(faults), random_(seed) {}
   void operator()(Time now, Inputs& in);
@@ -82,7 +81,7 @@ class Network {
   Stamped<TrackedTool> shown_;  // that came last
 };
 
-// All of them at random, one a second, until `quiet_from`.
+// All faults at random, one a second, until `quiet_from`.
 class Storm {
  public:
   Storm(std::uint64_t seed, double rate, double quiet_from)

@@ -10,7 +10,7 @@
 namespace enc::bench::extremes {
 namespace {
 
-// A visitor: an infinite number is never meant; NaN is what is not set.
+// A visitor: an infinite number is always wrong; NaN means unset.
 struct Infinite {
   std::string_view where;
   template <class T>
@@ -20,7 +20,7 @@ struct Infinite {
   }
 };
 
-// Of the Jacobian with rotations scaled by the platform's radius: a number without a unit.
+// Condition number of the Jacobian, rotations scaled by the platform's radius: without a unit.
 double condition_of(const Hexapod& machine, const Pose<'R', 'H'>& pose) {
   Hexapod::Jacobian scaled = machine.jacobian(pose);
   scaled.rightCols<3>() /= machine.geometry().platform_radius;
@@ -52,7 +52,8 @@ void Judge::see(const trial::Glance& glance) {
   broken_ += wrong_now_ ? 1 : 0;
 }
 
-// A tick after the other, each where its number says to the nanosecond; the twin's time goes with it.
+// Each tick follows the last one, at the time of its number to the nanosecond; the twin's time advances with
+// it.
 void Judge::judge_time(const trial::Glance& glance) {
   const Tick& tick = glance.tick;
   if (tick.index <= index_) wrong(glance, "the number of the tick fell");
@@ -97,18 +98,18 @@ void Judge::judge_machine(const trial::Glance& glance) {
   at_ = tip.p();
 }
 
-// Beside gravity the sheet's peak, and with it what the weight adds: both of the tip.
+// The bound is gravity plus the sheet's peak force, and what the weight adds to that: both at the tip.
 void Judge::judge_arm(const trial::Glance& glance, const Impedance& law) {
   const Vec<'R'>& told = glance.out.arm_force;
   const Mat3 jacobian = law.arm.jacobian(glance.truth.joints);
   dexterity = std::min(dexterity, law.arm.dexterity(jacobian));
-  if (!told.finite()) {  // all of it unset: nothing is told
+  if (!told.finite()) {  // all of it unset: no command
     for (const double x : told.xyz)
       if (!std::isnan(x)) wrong(glance, "a part of the command is not set");
     over_now_ = 0;
     return;
   }
-  constexpr double kRounding = 0.05;  // N: the weight, where the encoders have it
+  constexpr double kRounding = 0.05;  // N: the weight at the encoders' joints
   const double weight =
       law.arm.force(jacobian, law.arm.gravity(glance.truth.joints, law.prop_mass, Payload::exact)).norm();
   force = std::max(force, glance.out.felt.norm());

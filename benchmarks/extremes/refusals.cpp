@@ -1,4 +1,4 @@
-// What is refused before anything moves, by name: masses, steps, places, meshes.
+// Set-ups that are refused by name before any motion: masses, steps, places, meshes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,10 +15,10 @@
 namespace enc::bench::extremes {
 namespace {
 
-// What a whole trial of a second says to a set-up: the refusal, the divergence, or nothing.
+// The answer of a whole trial of a second to a set-up: refusal, divergence, or success.
 struct Said {
   std::string refusal;
-  bool sound = true;  // all finite and nothing warned, where it is not refused
+  bool sound = true;  // if not refused: all finite and no warning
 };
 Said said(const BenchContext& context, const std::string& scene, const std::vector<std::string>& set,
           const std::function<void(models::Setup&)>& change = {}) {
@@ -33,12 +33,12 @@ Said said(const BenchContext& context, const std::string& scene, const std::vect
   }
 }
 
-// Refused in one line that names the parameter.
+// The refusal is one line that names the parameter.
 bool names(const Said& said, const std::string& parameter) {
   return said.refusal.find(parameter) != std::string::npos && said.refusal.find('\n') == std::string::npos;
 }
 
-// 1 where a scene is refused so with that setting, 0 where it is not.
+// 1 if a scene with that setting is refused in this way, else 0.
 double refused_in(const BenchContext& context, const std::string& scene, const std::string& set,
                   const std::string& parameter) {
   return names(said(context, scene, {set}), parameter) ? 1.0 : 0.0;
@@ -93,7 +93,7 @@ Found steps(const BenchContext& context) {
   return found;
 }
 
-// Objects where no machine gets, or where the arm is at a singular pose; and a scene without any.
+// Objects out of the machine's reach or at a singular pose of the arm; and a scene without objects.
 Found unreachable(const BenchContext& context) {
   Found found{"objects out of reach, beside a singular pose; none at all", "refused, and named", {}};
   double refused = 0.0;
@@ -115,7 +115,7 @@ Found unreachable(const BenchContext& context) {
   return found;
 }
 
-// Faces of a tetrahedron as OBJ, what is wrong with each, and what shall be said of it; empty: it is taken.
+// Faces of a tetrahedron as OBJ, their defect, and the expected message; empty: the mesh is accepted.
 struct BadMesh {
   const char* name;
   const char* text;
@@ -153,7 +153,7 @@ std::int64_t not_finite(const Mesh& mesh) {
     const bool unit = near.normal.finite() && std::abs(near.normal.norm() - 1.0) < 1e-9;
     wrong += near.point.finite() && unit && std::isfinite(near.distance) ? 0 : 1;
   }
-  // Farther than 1e9 m there is no answer, and it says so.
+  // Beyond 1e9 m there is no answer, and the search reports that.
   const Nearest none = surface.nearest(Point<'O'>(1e12, -1e12, 1e12));
   wrong += none.feature == -1 && !none.point.finite() ? 0 : 1;
   return wrong;

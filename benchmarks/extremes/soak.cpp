@@ -20,14 +20,14 @@ models::Setup endless(const BenchContext& context, bool arm, double length) {
                     {fmt::format("user.session.duration_s={:g}", length), "user.session.other_tool=\"\""});
 }
 
-// Errors of the second and later seconds after the last fault, against those of the same run without one.
+// Errors from one second after the last fault on, against those of a run without faults.
 struct Nominal {
   double belief = 0.0, tip = 0.0;  // m: of the tool's place; of the machine against its command
   std::int64_t held = 0;
   void see(const trial::Glance& g) {
     if (g.out.view.tip.finite()) belief = std::max(belief, (g.out.view.tip - g.truth.tool_tip).norm());
     held += g.out.mode == Mode::hold ? 1 : 0;
-    if (!g.out.tip.valid()) return;  // an arm is told a force
+    if (!g.out.tip.valid()) return;  // an arm receives a force, not a pose
     const Point<'W'> told = (g.scene.X_WR * g.out.tip).origin();
     tip = std::max(tip, (told - g.truth.tip).norm());
   }
@@ -88,7 +88,7 @@ double resident() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
 }
 
-// Presses for hours, nothing wrong: what grows, and whether the end is as the beginning.
+// Presses for hours without faults: checks for growth, and that the end is like the beginning.
 Found hours(const BenchContext& context, bool arm, double length) {
   Found found{fmt::format("{}.toml for {:g} s", arm ? "keypad" : "session", length),
               "memory + less than 1 MiB from a tenth on; time exact to the nanosecond; work as before",

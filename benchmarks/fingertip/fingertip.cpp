@@ -1,6 +1,6 @@
-// Where is the fingertip in a single frame? Hands from all sides before many backgrounds, each frame searched
-// whole, without what came before it [VisHap 2.1.2, Fig 3]. Each background has a person of its own, with a
-// finger of 10 to 25 mm whose K is known, as [VisHap] finds it for a configuration; then K is made wrong.
+// Finds the fingertip in single frames: hands from all sides before many backgrounds. Each frame is searched
+// whole, without the frame before it [VisHap 2.1.2, Fig 3]. Each background has its own person, with a finger
+// of 10 to 25 mm whose K is known, as [VisHap] finds it for a configuration; then K is made wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,19 +25,19 @@ namespace {
 
 using namespace staged;
 
-// How large the finger's cap was drawn: the outline of its sphere in the left image, an ellipse, measured in
-// the true mask of skin.
+// Size of the finger's cap as drawn: the outline of its sphere in the left image, an ellipse, measured in the
+// true mask of skin.
 
 struct Outline {
-  // px, the ellipse's smaller half axis. It lies across the direction from the image's middle, and is
-  // f R / sqrt(z2 - R2) wherever the cap is: the r = K / z of [VisHap]. None where the rim is hidden.
+  // px, the ellipse's smaller half axis. It lies across the direction from the image's middle, and is f R /
+  // sqrt(z2 - R2) wherever the cap is: the r = K / z of [VisHap]. Unset if the rim is hidden.
   double across = kUnset;
   double area =
       kUnset;  // px, radius of the circle of the ellipse's area: larger, the farther from the middle
 };
 
-// What a pixel near the rim shows. Of the hand only the finger comes within two diameters of its tip. So skin
-// that is nearer or farther than cap and finger can be there, however large they are drawn, is another part.
+// The part of the hand near a pixel at the rim. Only the finger comes within two diameters of the tip. So
+// skin nearer or farther than cap and finger, however large they are drawn, is another part.
 enum class Seen : std::uint8_t { cap, behind, before };
 
 Seen seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTruth& truth, const Pixel& at) {
@@ -47,15 +47,15 @@ Seen seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTrut
       truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.skin.width) +
                   static_cast<std::size_t>(x)]);
   const double radius = 0.5 * shot.look.finger_width;
-  const double beyond =  // m, than the cap's middle
+  const double beyond =  // m, beyond the cap's middle
       z * tangent.ray({static_cast<double>(x), static_cast<double>(y)}).dot(tangent.view()) -
       shot.pose.tip.e().norm();
   if (beyond < -2.0 * radius) return Seen::before;
   return beyond > 0.5 * radius ? Seen::behind : Seen::cap;
 }
 
-// As seen straight on the outline is a circle, within 60 degrees of where the finger points: there rays go
-// from its middle to where it ends. Those on which another part of the hand is before the rim are left out.
+// Seen straight on, the outline is a circle within 60 degrees of the pointing direction: rays go from its
+// middle to its edge. Rays on which another part of the hand covers the rim are left out.
 Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::PixelTruth& truth) {
   constexpr double kStep = 0.05;  // px
   constexpr int kRays = 30;       // on either side, two degrees apart
@@ -64,7 +64,7 @@ Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::
   const double ahead = std::atan2(along.dot(tangent.down()), along.dot(tangent.right()));
   const double radius = 0.5 * shot.look.finger_width, z = shot.pose.tip.xyz[2];
   const double share = radius / shot.pose.tip.e().norm();
-  const double round = tangent.focal() * share / std::sqrt(1.0 - share * share);  // px, as it ought to be
+  const double round = tangent.focal() * share / std::sqrt(1.0 - share * share);  // px, the expected radius
   double sum = 0.0;
   int rays = 0;
   for (int i = -kRays; i <= kRays; ++i) {
@@ -85,14 +85,14 @@ Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::
 constexpr int kWidth = 640;           // px
 constexpr double kPeriod = 1 / 20.0;  // s
 
-// Null where it was not built.
+// Null if the module was not built.
 const OpenCv* opencv_of(const Bench& bench) {
   const ModuleInfo* module = bench.context.module("peers");
   const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
   return peers != nullptr ? peers->opencv : nullptr;
 }
 
-// A finger that goes to and fro before one background, as a camera's buffers have it.
+// A finger that moves to and fro before one background, as a camera's buffers hold it.
 struct Ring {
   std::vector<Pair> background, frames;
   [[nodiscard]] const Pair& at(std::size_t i) const {
@@ -120,9 +120,9 @@ Ring ring_of(const Bench& bench, const sim::CameraModule& camera) {
   return ring;
 }
 
-// How long a stereo frame takes from pixels to the fingertip, beside OpenCV.
+// Time for a stereo frame from pixels to the fingertip, beside OpenCV.
 
-// A finger that is followed at 300 mm/s. Without OpenCV there is no race.
+// A finger that moves at 300 mm/s. Without OpenCV there is no race.
 void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
   if (opencv_of(bench) == nullptr) return;
   const OpenCv& opencv = *opencv_of(bench);
@@ -164,7 +164,7 @@ void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) 
                at_least(90.0), "frames of the race in which ours saw the finger");
 }
 
-// K is wrong by this factor; the first is what is judged.
+// Factors on K; the first one is judged.
 constexpr std::array<double, 3> kScales{1.0, 0.75, 1.25};
 constexpr std::size_t kEnough = 1000;  // frames, for a share of 1 % and for the law of depth in six bins
 constexpr std::array<double, 7> kDepths{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};  // m, edges of the bins
@@ -172,17 +172,17 @@ constexpr std::array<double, 7> kDepths{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};  // 
 struct Found {
   double depth = 0.0, width = 0.0;  // m
   double across = kUnset;           // px, of the cap as drawn, its half width less K / z
-  double area = kUnset;             // px, likewise of the circle of its outline's area
+  double area = kUnset;             // px, minus K / z: radius of the circle of its outline's area
   std::array<double, kScales.size()> off{kUnset, kUnset,
-                                         kUnset};  // px, from the true middle; none: not found
+                                         kUnset};  // px, from the true middle; unset: not found
   double disparity = kUnset;                       // px, error
   double z = kUnset, place = kUnset;               // m, error in depth and in all
 };
 struct Cell {
   std::vector<Found> shots;
-  std::size_t empty = 0, mistaken = 0;  // frames of the background alone; those with a tip in them
+  std::size_t empty = 0, mistaken = 0;  // frames of the background alone; background frames with a false tip
   StepCounts steps;
-  std::vector<Image> picture;  // of the first shot: the frame and its skin
+  std::vector<Image> picture;  // first shot: the frame and its skin mask
 };
 
 void add(StepCounts& sum, const StepCounts& more) {
@@ -234,7 +234,7 @@ Found look(std::vector<FingerTracker>& trackers, const Asked& asked, const Shot&
   return found;
 }
 
-// One background, and hands before it.
+// One background, with many hands before it.
 Cell look_at(const Asked& asked) {
   sim::StageSpec spec;
   spec.camera = asked.rig;
@@ -383,7 +383,7 @@ void tell_steps(Bench& bench, const std::vector<Cell>& cells) {
   bench.table(std::move(table));
 }
 
-// So many backgrounds, each with hands of a width of its own.
+// A number of backgrounds, each with hands of its own finger width.
 std::vector<Asked> all_widths(const Asked& like, std::size_t stages) {
   std::vector<Asked> all(stages, like);
   for (std::size_t i = 0; i < stages; ++i) {
@@ -393,8 +393,8 @@ std::vector<Asked> all_widths(const Asked& like, std::size_t stages) {
   return all;
 }
 
-// The factors that the printed pseudo-code has lost, steps 5 and 7, and the size of the square of step 6:
-// what each value of them finds.
+// The factors that the printed pseudo-code lost, steps 5 and 7, and the size of the square of step 6: the
+// detections for each value.
 namespace factors {
 
 // A factor and its values; the others stay as shipped.
@@ -421,7 +421,7 @@ constexpr std::array<Factor, 4> kFactors{{
      &FingertipSpec::square_most,
      {2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 9.0}},
 }};
-// What is in a frame.
+// The content of a frame.
 enum Kind : std::uint8_t { finger, hidden, nothing, kKinds };
 
 struct Counts {
@@ -436,7 +436,7 @@ struct Place {
   std::uint64_t seed;
 };
 
-// The straight finger points away, so that the fist is before it: folded fingers and a thumb are left.
+// The straight finger points away and the fist covers it: folded fingers and a thumb stay visible.
 Shot fist(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream) {
   Draw farther = draw;
   farther.near = 0.35;  // the fist is a finger's length nearer
@@ -499,7 +499,7 @@ Cell look_at(const Place& place) {
 
 double percent(int of, int all) { return 100.0 * of / all; }
 
-// On training seeds, so that whoever chooses a value by them has not looked at those that are judged.
+// Uses training seeds, so that a value chosen by them is not tuned on the judged seeds.
 void tell(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
   const std::size_t places = bench.context.quick ? 2 : 16;
   std::vector<Place> asked;

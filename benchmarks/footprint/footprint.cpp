@@ -1,5 +1,5 @@
-// What each scene that ships costs before it does anything: libraries, threads, parts of the physics, memory,
-// and how long the program takes to its first tick. What a scene does not name is not there.
+// Costs of each scene that ships before it runs: libraries, threads, parts of the physics, memory, and the
+// time from the program's start to its first tick. The program loads only the parts that a scene names.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -27,7 +27,7 @@ struct Row {
   double start = kUnset;   // CPU time of the whole process over that of one that does nothing
 };
 
-// One tick of a scene, and an empty process right after it: whatever else the machine does, both feel it.
+// One tick of a scene, and an empty process right after it, so that other load on the machine affects both.
 Row measured(const std::string& program, const fs::path& scene, int repeats) {
   Row row{scene.stem(), 0, 0, 0, kUnset, kUnset};
   std::vector<double> ratios;

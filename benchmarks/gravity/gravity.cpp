@@ -1,5 +1,5 @@
-// Gravity compensation of the arm [VisHap 2.3.2, eq. 4 and 5]: what it leaves at the tip over the workspace,
-// what the published way to add a prop costs, the machine beside its catalogue, the race against KDL.
+// Gravity compensation of the arm [VisHap 2.3.2, eq. 4 and 5]: the force left at the tip over the workspace,
+// the cost of the published way to add a prop, the machine beside its catalogue, the race against KDL.
 #include "benchmarks/gravity/gravity.h"
 
 #include <algorithm>
@@ -21,15 +21,15 @@
 namespace enc::bench::gravity {
 namespace {
 
-// The 13 x 18 x 25 cm of [VisHap 1] in front of the arm: where in x and z most of it is within the limits,
-// and the joints at its grid points. Which side lies along which axis no source says; here x is the shortest,
-// y (sideways) the longest.
+// The 13 x 18 x 25 cm of [VisHap 1] in front of the arm, placed in x and z so that most of it is within the
+// limits, and the joints at its grid points. No source gives the axes of its sides; here x is the shortest, y
+// (sideways) the longest.
 struct ArmBox {
   static constexpr std::array<double, 3> kSize{0.13, 0.25, 0.18};  // m
   Vec3 centre{0, 0, 0};                                            // in R, m
-  double share = 0.0;                                              // of its points within the limits
+  double share = 0.0;                                              // share of points within the limits
   std::vector<PerJoint> poses;
-  std::vector<Vec3> points;  // of these poses, in R
+  std::vector<Vec3> points;  // tip positions of these poses, in R
 };
 
 struct Spread {
@@ -42,15 +42,15 @@ struct GravityCase {
   Spread spread;
 };
 
-// What gravity compensation leaves at the tip, over the workspace: with the true masses, with wrong ones,
-// with a prop that is added to m_a as the paper has it.
+// The force that gravity compensation leaves at the tip over the workspace: with the true masses, with wrong
+// ones, and with a prop that is added to m_a as in the paper.
 
-constexpr double kBound = 0.05;                 // N: what is asked of equal masses
+constexpr double kBound = 0.05;                 // N: bound for equal masses
 constexpr double kPlate = 0.020, kKey = 0.003;  // kg
 constexpr std::array<double PhantomGeometry::*, 4> kMasses{&PhantomGeometry::m_a, &PhantomGeometry::m_c,
                                                            &PhantomGeometry::m_be, &PhantomGeometry::m_df};
 
-// Every mass times 1 + off, or only some: bit i of `minus` makes the i-th lighter instead.
+// Every mass times 1 + off, except those with a bit in `minus`: bit i makes the i-th lighter instead.
 Laden heavier(const Laden& laden, double off, unsigned minus = 0) {
   ArmMachine machine = laden.arm.machine();
   for (std::size_t i = 0; i < kMasses.size(); ++i)
@@ -60,7 +60,7 @@ Laden heavier(const Laden& laden, double off, unsigned minus = 0) {
 }
 Laden with(const Laden& laden, double payload) { return {laden.arm, payload}; }
 
-// Force with which the tip pushes (or must be held) at a pose when the device answers the force that the core
+// Force with which the tip pushes (or must be held) at a pose when the device applies the force that the core
 // computes [eq. 4, 5]: J_real^-T (J_believed^T F_gc - gravity_real). Joints are read in the encoders' steps.
 // N.
 Vec3 residual(const Laden& believed, Compensation form, const Laden& real, const PerJoint& encoder_step,
@@ -92,7 +92,7 @@ Spread residuals(const Laden& believed, Compensation form, const Laden& real, co
   return spread;
 }
 
-// The residual is linear in each mass, so the worst of masses that are each off by so much is at a corner.
+// The residual is linear in each mass, so the worst case of masses with a bounded error is at a corner.
 Spread worst_corner(const GravityRig& rig, const ArmBox& box, double off) {
   Spread worst;
   for (unsigned minus = 0; minus < 1U << kMasses.size(); ++minus) {
@@ -103,7 +103,7 @@ Spread worst_corner(const GravityRig& rig, const ArmBox& box, double off) {
   return worst;
 }
 
-// Share of the workspace where no more than a force is left.
+// Share of the workspace where at most a given force is left.
 Plot distribution(const std::vector<GravityCase>& cases) {
   Plot plot{"gravity.residual", "What gravity compensation leaves at the tip", "force left at the tip, N",
             "share of the workspace where it is no more, %", true};
@@ -127,7 +127,7 @@ Plot distribution(const std::vector<GravityCase>& cases) {
   return plot;
 }
 
-// The middle plane of the workspace, in classes of the force that is left: a map.
+// The middle plane of the workspace, in classes of the residual force: a map.
 Plot map(const GravityRig& rig, const ArmBox& box, int n) {
   constexpr std::array<double, 5> kEdges{0.0, 0.02, 0.05, 0.10, 1e9};
   Plot plot{"gravity.map", "A 20 g plate, added to m_a as published", "x, forwards, mm", "z, upwards, mm"};
@@ -199,14 +199,14 @@ void add_cases(const std::vector<GravityCase>& cases, BenchResult& result) {
   result.tables.push_back(std::move(table));
 }
 
-// The machine beside its data sheet, and what was scaled to get it.
+// The machine beside its data sheet, and the scaling that was needed.
 
-// What the tip can push with along x, y, z of R at the zero pose, motors at these torques, one axis at a
-// time, N.
+// Largest push of the tip along x, y, z of R at the zero pose with these motor torques, one axis at a time,
+// N.
 Vec3 push(const Arm& arm, const PerJoint& motor_torque) {
   const Mat3 J = arm.jacobian(arm.zero());
   Vec3 most = Vec3::Constant(1e9);
-  // A force along one axis needs J^T of it; the motor that gives out first is the limit.
+  // A force along one axis needs J^T of it; the first motor at its limit sets the bound.
   for (int axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < arm.joints(); ++i) {
       const double lever = std::abs(J(axis, static_cast<int>(i)));
@@ -216,13 +216,13 @@ Vec3 push(const Arm& arm, const PerJoint& motor_torque) {
   return most;
 }
 
-// Mass that the bare tip opposes along x, y, z at the zero pose, kg.
+// Effective mass of the bare tip along x, y, z at the zero pose, kg.
 Vec3 tip_mass(const Arm& arm) {
   const Mat3 J = arm.jacobian(arm.zero());
   return (J * arm.mass(arm.zero(), 0.0).inverse() * J.transpose()).diagonal().cwiseInverse();
 }
 
-// Smallest step of the tip that the encoders see along x, y, z there, m.
+// Smallest step of the tip that the encoders resolve along x, y, z at the zero pose, m.
 Vec3 resolution(const GravityRig& rig) {
   const Eigen::Map<const Vec3> step(rig.encoder_step.data());
   return (rig.real.arm.jacobian(rig.real.arm.zero()).cwiseAbs() * step);
@@ -258,12 +258,12 @@ void add_scaling(const PhantomGeometry& g, BenchResult& result) {
   result.tables.push_back(std::move(table));
 }
 
-// Kinematics, Jacobian, gravity and J^T f of one pose: closed form and chain against Orocos KDL. Same poses,
-// one run, chunks interleaved; ours takes part twice.
+// Kinematics, Jacobian, gravity and J^T f of one pose: closed form and chain against Orocos KDL. All get
+// equal poses in one run with interleaved chunks; ours takes part twice.
 
 constexpr std::size_t kPoses = 10'000, kChunk = 250;
 
-// A PHANToM as KDL takes it: three hinges in a row, each with its angle against the one before. The links of
+// A PHANToM in KDL's form: three hinges in a row, each with its angle against the one before. The links of
 // the parallelogram are left out, to the peer's advantage.
 ArmMachine in_a_row(const ArmMachine& machine, double payload) {
   const PhantomGeometry& g = machine.phantom;
@@ -310,7 +310,7 @@ ArmAnswer answer(const Arm& arm, const PerJoint& q, const Vec<'R'>& force, doubl
 }
 
 using Answers = std::vector<ArmAnswer>;
-// Tips, m, and torques, N m: largest difference between the two.
+// Largest difference between the two: tips, m, and torques, N m.
 std::array<double, 2> apart(const Answers& a, const Answers& b) {
   std::array<double, 2> most{0.0, 0.0};
   for (std::size_t i = 0; i < kPoses; ++i) {
@@ -321,7 +321,7 @@ std::array<double, 2> apart(const Answers& a, const Answers& b) {
   return most;
 }
 
-// Of n places along each way, the i-th in the order x, y, z: from -0.5 to 0.5.
+// The i-th of n places along each axis, in the order x, y, z: from -0.5 to 0.5.
 Vec3 place_in_cube(int i, int n) {
   const int x = i % n, y = i / n % n, z = i / (n * n);
   return Vec3(x, y, z) / (n - 1) - Vec3::Constant(0.5);

@@ -1,4 +1,4 @@
-// Parts of the benchmark `gravity`: where the arm is asked, what compensation leaves at its tip.
+// Parts of the benchmark `gravity`: the poses of the arm and the force that compensation leaves at its tip.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace enc::bench::gravity {
 
-// What hangs where: a machine and its prop.
+// A machine and its prop: the masses that gravity acts on.
 struct Laden {
   Arm arm;
   double payload = 0.0;  // kg
 };
 enum class Compensation : std::uint8_t { none, published, exact };
 
-// The arm of the scene, as it is believed and as it is.
+// The arm of the scene, as assumed by the core and as simulated.
 struct GravityRig {
   Laden believed, real;
   PerJoint encoder_step{};  // rad

@@ -1,5 +1,5 @@
-// The arm's equations against the twin's: torque and mass at random poses, and a free swing at many time
-// steps and with all integrators against one that is solved without MuJoCo.
+// The arm's equations against the twin's: torque and mass at random poses; and a free swing at many time
+// steps and with all integrators, against a solution without MuJoCo.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ struct TwinArm {
     body.put(physics.data(), q, rate);
     mj_forward(physics.model(), physics.data());
   }
-  // Of a pose at rest, N m: what the motors have to do against it.
+  // N m, at a pose at rest: the torque that the motors need against gravity.
   [[nodiscard]] Vec3 weight() const {
     const PerJoint load = body.load(physics.data());
     return {load[0], load[1], load[2]};
@@ -63,7 +63,7 @@ PerJoint random_pose(const Arm& arm, std::mt19937_64& random) {
   return q;
 }
 
-// Of gravity, N m, and of the mass matrix, relative: ours against the twin's.
+// Largest differences of ours from the twin's: gravity, N m, and mass matrix, relative.
 std::array<double, 2> apart(const Laden& laden, TwinArm& twin, const PerJoint& q) {
   twin.set(q, {});
   const PerJoint ours = laden.arm.gravity(q, laden.payload, Payload::exact);
@@ -109,8 +109,8 @@ void add_equations(const Laden& laden, const BenchContext& context, BenchResult&
   result.plots.push_back(std::move(plot));
 }
 
-// The same arm without MuJoCo: M q'' = -(M' q' - grad(q' M q') / 2) - g, with M's slopes by central
-// differences. Runge and Kutta's fourth order at `h`.
+// The arm without MuJoCo: M q'' = -(M' q' - grad(q' M q') / 2) - g, with M's slopes by central differences.
+// Runge and Kutta's fourth order at `h`.
 struct Motion {
   Vec3 q, rate;
 };
@@ -147,14 +147,14 @@ const Motion kStart{{-0.2, 0.35, 0.30}, {4.0, -1.5, 2.0}};
 
 // The tip's path while the joints stay within their limits, sampled.
 std::vector<Vec3> reference(const Laden& laden, int samples) {
-  constexpr int kSteps = 100;  // of 40 us in a sample
+  constexpr int kSteps = 100;  // steps of 40 us in a sample
   std::vector<Vec3> path;
   Motion s = kStart;
   while (static_cast<int>(path.size()) < samples && laden.arm.within_limits(per_joint(s.q))) {
     path.push_back(laden.arm.tip(per_joint(s.q)).e());
     for (int i = 0; i < kSteps; ++i) s = runge_kutta(laden, s, kSample / kSteps);
   }
-  path.pop_back();  // the last one may be beside a limit
+  path.pop_back();  // the last sample may be beside a limit
   return path;
 }
 
@@ -244,8 +244,8 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
            "a step of it over a fixed piece of work of the same run (kit/cost.h)", kUnset, kMostStep);
 }
 
-// What the tip does in ten seconds where nothing but gravity compensation drives the motors, a thousand times
-// a second from what the encoders read; or nothing at all.
+// Motion of the tip in ten seconds when only gravity compensation drives the motors, at 1 kHz from the
+// encoders' readings; or when nothing drives them.
 struct Still {
   std::vector<double> time, way;  // s, mm
   double dexterity = 0.0;         // at the end

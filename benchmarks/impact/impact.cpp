@@ -1,5 +1,5 @@
-// What the first contact is like: force, bounces and what a hand feels of it, over the solver's settings, the
-// time step, speed and stiffness, against a contact law of its own (docs/reference/impact.md).
+// The first contact: force, bounces and grip force over the solver's settings, the time step, speed and
+// stiffness, against an independent contact law (docs/reference/impact.md).
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +13,10 @@
 namespace enc::bench::impact {
 namespace {
 
-constexpr const char* kStill = "truth.hand.drift_mm=0";  // the same touch in each
+constexpr const char* kStill = "truth.hand.drift_mm=0";  // makes the touch equal in each run
 constexpr double kFine = 5e-6;                           // s: half of it changes the force by 0.1 %
 
-// N/m and damping ratio of the tool's mass: what is converged does not hang on it.
+// N/m and damping ratio for the tool's mass: the converged result does not depend on them.
 Law law_of(const models::Setup& setup, double stiffness) {
   constexpr double kRatio = 0.3;
   const double mass = setup.scene.tools.front().mass;
@@ -52,9 +52,9 @@ struct Setting {
   std::vector<std::string> set;
 };
 
-constexpr const char* kCoarse = "truth.solver.tolerance=1e-8";  // of MuJoCo, unless told
+constexpr const char* kCoarse = "truth.solver.tolerance=1e-8";  // MuJoCo's default
 
-// What the rig does comes first.
+// The rig's own setting comes first.
 std::vector<Setting> settings() {
   std::vector<Setting> all{{"as the rig has it", "1 ms", {}}};
   const auto step = [](double us) { return fmt::format("truth.world.timestep_us={:g}", us); };
@@ -151,7 +151,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
   bench.table(std::move(table));
 }
 
-// The law of its own over its stiffness and step: what of a touch hangs on either.
+// The independent contact law over its stiffness and step: the dependence of a touch on each.
 void add_law(Bench& bench) {
   const models::Setup setup = load_scene(bench.context, "session", {kStill});
   const std::size_t hands = bench.context.count(8, 2);
@@ -197,7 +197,7 @@ struct Machine {
   const char* name;
   const char* scene;
   bool arm;
-  std::vector<std::string> prepared, late;  // it waits; it sets out when the tool is near
+  std::vector<std::string> prepared, late;  // the prop waits; the prop sets out when the tool is near
 };
 const std::vector<Machine>& machines() {
   static const std::vector<Machine> kMachines{
@@ -214,7 +214,8 @@ const std::vector<Machine>& machines() {
   return kMachines;
 }
 
-// Force and bounces over approach speed x stiffness of the stop, or of the wall; standing and setting out.
+// Force and bounces over approach speed x stiffness of the stop, or of the wall; for a waiting and a late
+// prop.
 void add_speeds(Bench& bench) {
   const std::vector<double> speeds =
       bench.context.quick ? std::vector<double>{50, 1000} : std::vector<double>{50, 100, 200, 400, 700, 1000};

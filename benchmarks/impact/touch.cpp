@@ -15,9 +15,10 @@
 namespace enc::bench::impact {
 namespace {
 
-constexpr double kBefore = 0.02;  // s, of the way before the touch
+constexpr double kBefore = 0.02;  // s, recorded before the touch
 
-// What MuJoCo's callback tells: there is one for the whole program, so each thread has its own listener.
+// Listener of MuJoCo's callback. There is one callback for the whole program, so each thread has its own
+// listener.
 struct Listener {
   int tip_geom = -1, tool_qpos = 0, tool_qvel = 0;
   std::vector<Step> steps;
@@ -25,12 +26,12 @@ struct Listener {
 };
 thread_local Listener* listening = nullptr;
 
-mjfGeneric before_us = nullptr;  // the legs of a structural machine have one, too
+mjfGeneric before_us = nullptr;  // the legs of a structural machine use this callback, too
 
 void listen(const mjModel* m, mjData* d) {
   if (before_us != nullptr) before_us(m, d);
   Listener* to = listening;
-  if (to == nullptr || d->time <= to->heard) return;  // later stages of a step
+  if (to == nullptr || d->time <= to->heard) return;  // later stages of an integrator step
   to->heard = d->time;
   const auto three = [](const double* from) { return Vec3(from[0], from[1], from[2]); };
   to->steps.push_back({d->time, three(d->geom_xpos + 3 * to->tip_geom), three(d->qpos + to->tool_qpos),
@@ -56,7 +57,7 @@ class Ear {
   Ear& operator=(const Ear&) = delete;
 };
 
-// What both sides are judged by.
+// Judges the twin and the reference law by equal criteria.
 class Judge {
  public:
   Judge(double at, double tick) : at_(at), tick_(tick) {}
@@ -90,7 +91,7 @@ void judge_steps(const models::Setup& setup, Watched& watched, double step) {
   const double grip = watched.touch.grip, tick = 1.0 / setup.rig.loop.rate;
   Judge judge(touched->t - step, tick);
   judge.touch.at = touched->t - step;
-  // A force is that of the step that ends here.
+  // A step's force is that of the step that ends at its time.
   for (const Step& s : watched.steps) judge.see(s.t - step, s.push.norm(), 0.0, step);
   const auto before = touched - watched.steps.begin() >= 3 ? touched - 2 : touched;
   judge.touch.speed = before->tool_v.norm();
@@ -134,7 +135,7 @@ Watched watch_touch(const models::Setup& setup, std::uint64_t seed) {
 
 namespace {
 
-// The machine's way between the steps at which it is known.
+// The machine's path between the steps at which it is known.
 class Way {
  public:
   explicit Way(const std::vector<Step>& steps) : steps_(steps) {}

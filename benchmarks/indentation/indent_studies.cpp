@@ -1,4 +1,4 @@
-// Studies beside Table 2: the time of a press, more exact devices, directions that nobody measured.
+// Studies beside Table 2: the time of a press, more exact devices, and directions without measured curves.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,11 +21,11 @@
 namespace enc::bench::indentation {
 namespace {
 
-// A set of devices that follows the reference curves more closely than the paper's, and what that costs: a
-// higher force filter lets noise through and makes soft objects unstable.
+// A set of devices that follows the reference curves more closely than the paper's, and its cost: a higher
+// force filter lets noise through and makes soft objects unstable.
 
 // Half of the filter's lag, and a threshold that the quieter of two sensors would allow. The ball's softest
-// slope is then below what a firm grip leaves stable: it is rendered all the same.
+// slope is then below the lowest stable stiffness of a firm grip; the scene renders it all the same.
 const Words kAccuracy{"rig.force.filter_hz=10", "rig.force.threshold_N=0.03",
                       "rig.contact.softest_N_per_mm=0"};
 
@@ -33,7 +33,7 @@ struct Rest {
   double tip = kUnset, force = kUnset;  // m, N: peak to peak, along the normal, of a tool held still
 };
 
-// What noise there is when a hand without tremor holds the ball at half of its depth.
+// Noise while a hand without tremor holds the ball at half of its depth.
 Rest rest_of(const IndentStudy& study, const Words& own) {
   Words set = own;
   set.insert(set.end(), still_hand().begin(), still_hand().end());
@@ -100,7 +100,7 @@ void add_price(const IndentStudy& study, const std::vector<Cell>& standard, cons
   result.tables.push_back(std::move(table));
 }
 
-// Where one set of devices cannot serve two figures: Table 2 wants a fast filter, Fig 3 a slow one.
+// The conflict between two figures over the devices: Table 2 needs a fast filter, Fig 3 a slow one.
 void add_trade_off(const IndentStudy& study, BenchResult& result) {
   const std::vector<double> corners =
       study.context.quick ? std::vector<double>{10} : std::vector<double>{2.5, 5, 10, 20, 40};
@@ -153,15 +153,15 @@ void add_pushed(const IndentStudy& study, BenchResult& result) {
   result.simulated += map.simulated();
 }
 
-// Table 2 over the press time, and what sets it: lag x speed x slope.
+// Table 2 over the press time, and the theory behind it: lag x speed x slope.
 
 models::Setup with_time(models::Setup setup, double time) {
   setup.scene.user->press_time = setup.scene.user->release_time = time;
   return setup;
 }
 
-// s: lag of the machine's position behind the filtered force. The servo's way lags by 2 zeta / omega. The
-// command limiter takes a cycle, and what a command does is read in the next one.
+// s: lag of the machine's position behind the filtered force. The servo lags by 2 zeta / omega. The command
+// limiter takes a cycle, and the position after a command is read in the next cycle.
 double recorded_lag(const models::Setup& setup) {
   const sim::TwinSpec& twin = setup.twin;
   return 2.0 * twin.hexapod.damping / (2.0 * std::numbers::pi * twin.hexapod.servo) +
@@ -176,7 +176,7 @@ void add_lag(const IndentStudy& study, BenchResult& result) {
   std::array<IndentRun, 2> runs;
   in_parallel(runs.size(), [&](std::size_t i) {
     models::Setup one = with_time(setup, i == 0 ? time : 0.5 * time);
-    one.scene.user->release_time = 1.0;  // is not looked at
+    one.scene.user->release_time = 1.0;  // the release is not evaluated
     runs[i] = indent_run(one, study.seed);
   });
   const BehaviourSpec& behaviour = setup.scene.behaviours.front();
@@ -254,14 +254,14 @@ void add_sweep(const IndentStudy& study, BenchResult& result) {
   result.tables.push_back(std::move(table));
 }
 
-// Where nothing was fitted: presses between and beside A, B and C, and turns at 2 and 4 mm, against what the
-// rig's ball does there.
+// Tests without fitted data: presses between and beside A, B and C, and turns at 2 and 4 mm, against the
+// rig's ball.
 
 struct Push {
   const char* name;
   Words set;
 };
-// Between the three, in another azimuth, and beyond them.
+// Presses between the three, in another azimuth, and beyond them.
 const std::vector<Push>& pushes() {
   static const std::vector<Push> kPushes{
       {"polar_175_offset_5", {"probe.polar_deg=175", "probe.offset_mm=5"}},
@@ -271,7 +271,7 @@ const std::vector<Push>& pushes() {
   return kPushes;
 }
 
-// What of the user's settings the test rig knows, too.
+// The user's settings that apply to the test rig, too.
 Words of_rig(const Words& set) {
   Words kept;
   std::copy_if(set.begin(), set.end(), std::back_inserter(kept), [](const std::string& word) {
@@ -293,7 +293,7 @@ models::PressWay way_of_probe(const SceneSpec& scene) {
 }
 
 struct Misfit {
-  double rule = kUnset, nearest = kUnset;  // N rms over the whole loop: mixed, and A alone
+  double rule = kUnset, nearest = kUnset;  // N rms over the whole loop: mixed curves, and A's curves alone
   std::vector<double> weights;
   double simulated = 0.0;  // s
 };

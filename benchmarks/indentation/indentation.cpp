@@ -1,6 +1,6 @@
-// A hand replicates the test rig's indentations A, B and C on the virtual ball [VHMR 4.2]. The error is the
+// A hand repeats the test rig's indentations A, B and C on the virtual ball [VHMR 4.2]. The error is the
 // force that the haptic loop works with less the reference curve at the deflection that the machine reports
-// (docs/notes/indentation.md says why this force).
+// (docs/notes/indentation.md gives the reason for this force).
 #include "benchmarks/indentation/indentation.h"
 
 #include <algorithm>
@@ -22,10 +22,10 @@
 namespace enc::bench::indentation {
 namespace {
 
-// Mean force of each kBin of deflection; NaN where there is none. `minus`: less that reference curve.
+// Mean force of each kBin of deflection; NaN for an empty bin. `minus`: reference curve to subtract.
 constexpr double kBin = 0.05e-3;  // m
 
-// Looks at one press: the recorded deflection needs the point that the core has buffered at the first touch.
+// Records one press. The recorded deflection needs the point that the core buffered at the first touch.
 class Recorder {
  public:
   void see(const trial::Glance& glance) {
@@ -49,7 +49,7 @@ class Recorder {
   double greatest = 0.0, force_at_limit = kUnset, limit = kUnset;
 };
 
-// The pictures of Figs 8 and 10 and of Table 2.
+// The plots of Figs 8 and 10 and of Table 2.
 
 double centre_of(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kBin; }
 
@@ -82,7 +82,7 @@ void add_curves(const Response& reference, double from, double to, bool press, b
 }
 
 struct RunSpread {
-  double most = 0.0, at = 0.0;  // N; m, where that is
+  double most = 0.0, at = 0.0;  // N; m, place of the maximum
 };
 const Recording& recording_of(const IndentRun& run, Reading reading) {
   return reading == Reading::sensor ? run.sensor : reading == Reading::truth ? run.truth : run.recorded;
@@ -162,8 +162,8 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
   const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
   const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
   const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
-  // Fig 10 is one group of five, and how far five runs lie apart is much of it chance (0.14 to 0.25 N): of
-  // ten such groups the paper's must be a usual one.
+  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N): it must be
+  // usual among ten such groups.
   const std::size_t count = study.context.quick ? runs.front().size() : 10 * paper_runs;
   const std::vector<IndentRun> a = indent_runs(
       indent_setup(study.context.models, indentations().front(), {}, study.context.set), study.seed, count);
@@ -211,7 +211,7 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
                exactly(1), "a press is one contact");
 }
 
-// The same, felt with another law between the two curves.
+// The set-up with another law between the two curves.
 models::Setup with_reversal(models::Setup setup, Reversal reversal) {
   for (BehaviourSpec& behaviour : setup.scene.behaviours) behaviour.reversal = reversal;
   return setup;
@@ -230,8 +230,8 @@ void add_energy_stop(const IndentStudy& study, Bench& bench) {
   }
 }
 
-// Is what is felt of the ball that of the time step, or of the ball? The same hands at the step that ships
-// and at a converged one.
+// Checks that the ball's force does not depend on the time step: equal hands at the shipped step and at a
+// converged one.
 
 // RMSE of the true force at the step that ships over that at a converged one.
 void add_converged(const IndentStudy& study, BenchResult& result) {
@@ -259,7 +259,7 @@ void add_converged(const IndentStudy& study, BenchResult& result) {
   }
 }
 
-// Fig 8 and what is left of it.
+// Fig 8, and the errors that remain of it.
 void add_loops(const IndentRuns& runs, BenchResult& result) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const char* name = indentations()[i].name;
@@ -297,7 +297,7 @@ void add_loops(const IndentRuns& runs, BenchResult& result) {
   result.plots.push_back(std::move(residual));
 }
 
-// With its zooms i to iv.
+// Fig 10 with its zooms i to iv.
 void add_fig10(const std::vector<IndentRun>& a, BenchResult& result) {
   struct Zoom {
     const char *suffix, *title;
@@ -375,7 +375,7 @@ void run(Bench& bench) {
           {fmt::format("indentation.{}", law),
            "indentation",
            {fmt::format("behaviour.tennis_ball_A.reversal={}", law), "user.press_s=2", "user.release_s=2",
-            "truth.hand.drift_mm=0"},  // the path of the machine alone is compared
+            "truth.hand.drift_mm=0"},  // compares the path of the machine alone
            kUnset,
            30e-6},
           context, result);
@@ -432,7 +432,7 @@ IndentRun indent_run(const models::Setup& setup, std::uint64_t seed, const trial
   trial::Trial trial(setup, options);
   const trial::TrialResult result = trial.run();
   IndentRun run;
-  // The polynomials, whichever law is felt between them.
+  // The polynomials, whatever law is rendered between them.
   run.reference = Response(setup.scene.behaviours.front().curves, 0.0);
   run.limit = trial.scene().objects.front().limit;
   run.sensor = split(recorder.sensor, run.limit);

@@ -11,7 +11,7 @@
 
 namespace enc::bench::indentation {
 
-// A cell of Table 2 for each indentation and way: index 2 i for pressing, 2 i + 1 for releasing.
+// A cell of Table 2 for each indentation and direction: index 2 i for pressing, 2 i + 1 for releasing.
 inline constexpr std::size_t kCells = 6;
 struct PaperCell {
   std::string indentation, way;
@@ -32,13 +32,13 @@ using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation 
 struct IndentStudy {
   const BenchContext& context;
   std::vector<PaperCell> paper;
-  std::uint64_t seed;  // of the first run
+  std::uint64_t seed;  // seed of the first run
   std::size_t runs;    // of each indentation
   [[nodiscard]] IndentRuns all(const Words& own, std::size_t count) const;
 };
 
-// The error of a press of minimum jerk, from the chain's own numbers: threshold, lag x speed x slope, and how
-// far the law that is felt lies from the reference.
+// The error of a press of minimum jerk, from the chain's own numbers: threshold, lag x speed x slope, and the
+// distance of the rendered law from the reference.
 struct LagTheory {
   Response felt, reference;
   double depth, threshold, lag;  // m, N, s
@@ -46,15 +46,15 @@ struct LagTheory {
 [[nodiscard]] double predicted_rmse(const LagTheory& theory, double time);  // N; time: s, of the press
 [[nodiscard]] double sensor_lag(const models::Setup& setup);
 
-// The press time is what the paper does not say: RMSE over it. And whether halving it does what lag x speed x
-// slope predicts.
+// The paper does not give the press time: RMSE over it. Also checks whether halving it has the effect that
+// lag x speed x slope predicts.
 void add_press_time(const IndentStudy& study, BenchResult& result);
-// A set of devices that follows the curves more closely, and what it costs. Gives its six cells.
+// A set of devices that follows the curves more closely, and its cost. Returns its six cells.
 [[nodiscard]] std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                              BenchResult& result);
-// Presses in directions that nobody measured, against the rig's own push there.
+// Presses in directions without measured curves, against the rig's own push there.
 void add_directions(const IndentStudy& study, BenchResult& result);
-// Turning at 2 and at 4 mm, against the rig's ball.
+// Turns at 2 and at 4 mm, against the rig's ball.
 void add_minor_loops(const IndentStudy& study, BenchResult& result);
 
 }  // namespace enc::bench::indentation
