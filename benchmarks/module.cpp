@@ -1,4 +1,4 @@
-// What the program finds in encounter_bench.so.
+// The entry that the program loads from encounter_bench.so.
 #include "benchmarks/commands/commands.h"
 
 namespace {

@@ -35,7 +35,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
   [[nodiscard]] int fd() const { return fd_; }
-  // So far: who writes has the same place in it, and that stays.
+  // Reads the file so far. The writer shares the file offset, and reading must not move it.
   [[nodiscard]] std::string text() const {
     std::string all;
     std::array<char, 65536> buffer;
@@ -48,8 +48,8 @@ class MemoryFile {
   int fd_;
 };
 
-// A Ctrl-C in the terminal is for us, not for a picture half drawn: the child has a group of its own. What we
-// block, it must not.
+// A Ctrl-C in the terminal must not end a half-drawn picture: the child has its own process group. It must
+// not inherit our blocked signals.
 struct Spawn {
   posix_spawnattr_t attributes{};
   posix_spawn_file_actions_t files{};
@@ -77,14 +77,14 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return list;
 }
 
-// Between fork() and the program: nothing that allocates or locks.
+// Runs between fork() and the program: it must not allocate or lock.
 [[noreturn]] void become(char* const* words, int in, int out, int err, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(127);  // who would have ended us has gone
+  if (getppid() != parent) _exit(127);  // the parent that would end this child is gone
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
@@ -98,7 +98,7 @@ std::string short_name(const std::vector<std::string>& words) {
   return file.substr(file.rfind('/') + 1) + (words.size() > 1 ? " " + words[1] : "");
 }
 
-// The first line of what it said, without its own name before it.
+// The first line of the child's error text, without its own name in front.
 std::string why_ended(const std::string& said) {
   constexpr std::string_view kName = "encounter: ";
   const std::string line = said.substr(0, said.find('\n'));

@@ -1,5 +1,5 @@
-// Another program, run to its end: gnuplot, which draws, or Encounter itself, whose size and start are
-// measured. Or beside us, as long as it is needed: the fakes of a rig.
+// Another program, run to its end: gnuplot for plots, or Encounter itself to measure size and start-up. Or a
+// program that runs beside this one while it is needed: the fakes of a rig.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace enc::bench {
 
 struct Child {
-  int code = -1;  // exit code; -1: could not be started, or a signal ended it
+  int code = -1;  // exit code; -1: start failed, or a signal ended it
   bool started = false;
   std::string out, err;
   double cpu = 0.0, wall = 0.0;  // s
@@ -18,15 +18,14 @@ struct Child {
 
 [[nodiscard]] std::string this_program();  // its file
 
-// The first word is looked for in PATH. What it reads and writes goes through memory files: nothing is left
-// behind.
+// PATH is searched for the first word. Input and output go through memory files, so no file is left behind.
 [[nodiscard]] Child run_child(std::vector<std::string> words, const std::string& input = {});
 
-// The first word is the program's file. It is ended by SIGTERM when this goes, and by the system where we are
-// killed, or the thread that made this ends.
+// The first word is the program's file. The destructor ends it by SIGTERM; the system ends it if this process
+// is killed or the creating thread ends.
 class Companion {
  public:
-  // Returns as soon as it has printed `ready`. Throws Error: it ended instead, with its own words, or was
+  // Returns as soon as it has printed `ready`. Throws Error if it ends instead, with its own words, or is
   // silent for `longest`, s.
   Companion(std::vector<std::string> words, const std::string& ready, double longest);
   ~Companion();

@@ -47,7 +47,7 @@ TrimmedMean trimmed_mean(std::vector<double> numbers) {
   const auto from = numbers.begin() + cut, to = numbers.end() - cut;
   const auto n = static_cast<double>(to - from);
   TrimmedMean of{std::accumulate(from, to, 0.0) / n};
-  // What was cut off counts as the outermost that is left (Tukey and McLaughlin 1963).
+  // Each trimmed value counts as the outermost value that is left (Tukey and McLaughlin 1963).
   double squares =
       static_cast<double>(cut) * (std::pow(*from - of.mean, 2) + std::pow(*(to - 1) - of.mean, 2));
   for (auto at = from; at != to; ++at) squares += std::pow(*at - of.mean, 2);
@@ -76,7 +76,7 @@ Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves) {
     Series there{.name = curve.name, .mark = Mark::both};
     Series failed{.name = "", .mark = Mark::crosses};
     for (std::size_t i = 0; i < curve.cost.size(); ++i)
-      if (std::isfinite(curve.cost[i]))  // not so where it was refused before it ran
+      if (std::isfinite(curve.cost[i]))  // no cost if it was refused before it ran
         (std::isnan(curve.error[i]) ? failed : there).add(curve.cost[i], curve.error[i]);
     plot.series.push_back(std::move(there));
     if (!failed.x.empty()) plot.series.push_back(std::move(failed));

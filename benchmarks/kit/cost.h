@@ -1,4 +1,4 @@
-// What something costs, and that beside how wrong it is.
+// The cost of work, and plots of cost against error.
 #pragma once
 
 #include <array>
@@ -12,18 +12,20 @@
 
 namespace enc::bench {
 
-// Several ways to do the same, timed in turn, in an order drawn anew each round, so that a slow moment of the
-// machine hits them all. Rounds before the first warm up. CPU time of this thread.
+// Several implementations of one task, timed in turn, in an order drawn anew each round, so that a slow
+// moment of the machine hits them all. The first rounds warm up and do not count. CPU time of this thread.
 class Race {
  public:
   Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up = 1,
        std::uint64_t seed = 1);
-  [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // below which that share lies
-  // Median of what each round took, over what it took the other; also one of another race of as many rounds.
+  [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // quantile: `share` of the rounds
+                                                                            // are below it
+  // Median over the rounds of `way`'s time over that of `over`; the second form takes `over` from another
+  // race with as many rounds.
   [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }
   [[nodiscard]] double ratio(std::size_t way, const Race& race, std::size_t over) const;
-  // How much longer all its rounds took than those of the other, without the tenth of the rounds in which the
-  // two were farthest apart either way: s for each round.
+  // Difference of the summed times, s per round. Leaves out the tenth of the rounds in which the two were
+  // farthest apart in either direction.
   [[nodiscard]] double more(std::size_t way, std::size_t over) const;
   [[nodiscard]] double spent(std::size_t way, std::size_t round) const { return seconds_.at(way).at(round); }
   [[nodiscard]] const std::vector<double>& all(std::size_t way) const { return seconds_.at(way); }
@@ -39,8 +41,8 @@ struct TrimmedMean {
 };
 [[nodiscard]] TrimmedMean trimmed_mean(std::vector<double> numbers);
 
-// A way of a race that does a chunk of a long work at each call: work(i) of the next indices below `count`,
-// then from 0 again. `count` is a multiple of `chunk`.
+// Work of a race in chunks: each call runs work(i) on the next indices below `count`, then starts from 0
+// again. `count` is a multiple of `chunk`.
 template <class Work>
 [[nodiscard]] std::function<void()> in_chunks(std::size_t count, std::size_t chunk, Work work) {
   return [count, chunk, work, next = std::size_t{0}]() mutable {
@@ -49,35 +51,35 @@ template <class Work>
   };
 }
 
-// The power of the step with which an error falls: least squares through the logarithms, over what stands
-// clear of the floor by three times. Unset where that is fewer than three points.
+// The power of the step with which an error falls: least squares through the logarithms of the errors above
+// three times the floor. Unset for fewer than three points.
 [[nodiscard]] double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors,
                                   double floor);
 
-// One way with its settings from coarse to fine. An error that is NaN is a failure: a cross at the upper
-// edge.
+// One implementation with its settings from coarse to fine. An error that is NaN is a failure: a cross at the
+// upper edge.
 struct CostCurve {
   std::string name;
   std::vector<double> cost{}, error{};
 };
-// Both axes logarithmic. `plot` has all but the series.
+// Both axes are logarithmic. `plot` has everything but the series.
 [[nodiscard]] Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves);
 
-// A fixed piece of work, timed in the same run as what is judged: a bound on time is a ratio to it, so that a
-// slow or busy machine turns no benchmark red.
+// A fixed piece of work, timed in the run that is judged. A bound on time is a ratio to it, so that a slow or
+// busy machine turns no benchmark red.
 
 class Yardstick {
  public:
-  // Times it once. To be called between the calls of what is judged, many times. CPU time of this thread.
+  // Times the work once. Call it many times between the calls that are judged. CPU time of this thread.
   void measure() {
     const double start = thread_seconds();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      sum_ = sum_ * 0.75 + cells_[i];  // each waits for the one before, and for its cell
+      sum_ = sum_ * 0.75 + cells_[i];  // each step waits for the one before, and for its cell
       cells_[(i * 7) % cells_.size()] = 1.0 / (1.0 + sum_ * sum_);
     }
     seconds_.push_back(thread_seconds() - start);
   }
-  // Looks on at a trial (TrialOptions::watch), and measures now and then.
+  // Observes a trial (TrialOptions::watch), and measures now and then.
   [[nodiscard]] auto watch() {
     return [this](const auto& glance) {
       if (glance.tick.index % 100 == 0) measure();
@@ -91,7 +93,7 @@ class Yardstick {
   std::vector<double> seconds_;
 };
 
-// Of 64 in a row, s: what a run between two of them is compared with.
+// s, median of 64 in a row: the reference for a run between two of them.
 [[nodiscard]] inline double yardstick_now() {
   Yardstick yardstick;
   for (int i = 0; i < 64; ++i) yardstick.measure();

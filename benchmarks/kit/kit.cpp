@@ -8,7 +8,7 @@
 namespace enc::bench {
 namespace {
 
-// Made when the first entry asks for it: nobody knows which of the files that is.
+// The first entry creates the table, because the order of initialisation between files is undefined.
 std::vector<Benchmark>& table() {
   static std::vector<Benchmark> all;
   return all;

@@ -1,5 +1,5 @@
-// What a benchmark is written with: its scene, runs over values and seeds, a line for each figure, plots.
-// docs/guide/benchmark.md explains it; benchmarks/encounter is one.
+// Tools for writing a benchmark: its scene, runs over values and seeds, a line for each figure, plots.
+// docs/reference/report.md describes how; benchmarks/encounter is an example.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace enc::bench {
 
-// What a figure must hold; one that is not given holds always.
+// The bounds of a figure; a bound that is not given always holds.
 struct Bounds {
   double low = kUnset, high = kUnset;
 };
@@ -31,8 +31,8 @@ struct Paper {
 [[nodiscard]] constexpr Paper calibrated(double value) { return {value, Role::calibrated}; }
 [[nodiscard]] constexpr Paper predicted(double value) { return {value, Role::predicted}; }
 
-// What a benchmark is handed: the user's wishes, and the place of its answers. Ids of figures, plots and
-// tables are given without the benchmark's name, which is put before them.
+// The context of a benchmark: the user's options and the place of its results. Ids of figures, plots and
+// tables are given without the benchmark's name, which Bench puts in front.
 class Bench {
  public:
   Bench(const Benchmark& benchmark, const BenchContext& given)
@@ -49,10 +49,10 @@ class Bench {
   void progress(double share) const {
     if (context.progress) context.progress(share);
   }
-  [[nodiscard]] std::vector<std::uint64_t> seeds(std::size_t count) const;  // from the user's on
+  [[nodiscard]] std::vector<std::uint64_t> seeds(std::size_t count) const;  // starts at the user's seed
 
-  // measure(x) of each, on all cores, in their order. Seconds in a member `simulated` are summed up. The
-  // first call tells how far it is: give it the longest part.
+  // Runs measure(x) for each value on all cores; results keep their order. Sums up seconds in a member
+  // `simulated`. The first call reports progress: give it the longest part.
   template <class X, class Measure>
   auto each(const std::vector<X>& all, const Measure& measure) {
     using Cell = std::invoke_result_t<Measure, const X&>;
@@ -66,7 +66,7 @@ class Bench {
     return cells;
   }
 
-  // measure(value, seed) of each value with so many seeds: [value][seed].
+  // Runs measure(value, seed) for each value with `seeds` seeds: [value][seed].
   template <class Values, class Measure>
   auto grid(const Values& values, std::size_t count, const Measure& measure) {
     std::vector<std::pair<typename Values::value_type, std::uint64_t>> all;
@@ -80,18 +80,18 @@ class Bench {
     return rows;
   }
 
-  // Of ours, without and with bounds; beside the paper's.
+  // Figures of ours, without and with bounds; and beside the paper's.
   void figure(const std::string& id, const Value& twin, const char* unit, std::string note = {});
   void figure(const std::string& id, const Value& twin, const char* unit, Bounds bounds,
               std::string note = {});
   void figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper, Bounds bounds,
               std::string note = {});
-  // A time, a ratio of times or memory. A busy machine decides such a figure, so it has no bounds; only a
-  // ratio of times of one run that holds on a busy machine with room to spare may have them
+  // A time, a ratio of times or memory. A busy machine decides such a figure, so it has no bounds. Only a
+  // ratio of times of one run that holds on a busy machine with room to spare may have bounds
   // (docs/reference/report.md).
   void cost(const std::string& id, const Value& twin, const char* unit, std::string note = {});
   void cost(const std::string& id, const Value& twin, const char* unit, Bounds bounds, std::string note = {});
-  // What only the simulator's truth says, where nobody knows that.
+  // Marks a figure as not measurable here, because it needs the simulator's ground truth.
   void absent(const std::string& id, const char* unit, std::string note);
   void plot(Plot plot);
   void table(Table table);
@@ -101,7 +101,7 @@ class Bench {
   bool tells_ = true;
 };
 
-// One member of all cells, without those that have none (NaN).
+// One member of all cells, without the cells that have none (NaN).
 template <class Cell>
 [[nodiscard]] std::vector<double> known(const std::vector<Cell>& cells, double Cell::*member) {
   std::vector<double> values;
@@ -109,6 +109,7 @@ template <class Cell>
     if (!std::isnan(cell.*member)) values.push_back(cell.*member);
   return values;
 }
-[[nodiscard]] Value median_of(const std::vector<double>& values);  // with least and most; of none: NaN
+[[nodiscard]] Value median_of(const std::vector<double>& values);  // includes least and most; NaN for no
+                                                                   // values
 
 }  // namespace enc::bench

@@ -1,5 +1,5 @@
-// The same work on every index, on all cores. Each index writes to its own place, so the result does not
-// depend on who was faster.
+// Runs a function on every index, on all cores. Each index writes to its own place, so the result does not
+// depend on which thread was faster.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace enc::bench {
 
-// work(index) for 0 to count - 1, in no order. Rethrows what the lowest index that failed has thrown.
-// `progress` is told the share done, by any of the threads (BenchContext::progress may be called so).
+// Runs work(index) for 0 to count - 1, in no order. Rethrows the exception of the lowest index that failed.
+// Any thread may call `progress` with the share done (BenchContext::progress may be called so).
 inline void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work,
                         const std::function<void(double)>& progress = {}) {
   std::atomic<std::size_t> next{0};

@@ -1,4 +1,4 @@
-// What a benchmark gives to be drawn.
+// The plots of a benchmark.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace enc::bench {
 
-// A number, or the middle of several with the least and the most of them.
+// A number, or the middle of several with their least and their most.
 struct Value {
   double middle = kUnset, least = kUnset, most = kUnset;
   Value(double only) : middle(only) {}  // NOLINT(google-explicit-constructor): a number is a value
@@ -21,9 +21,9 @@ struct Value {
   return {v.middle * by, v.least * by, v.most * by};
 }
 
-// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap;
-// of `crosses` (what failed, such as an unstable run) it is drawn at the upper edge. `cells` are fields of a
-// map, each as wide as half of the way to its neighbours.
+// The kind of a series. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap.
+// `crosses` mark failures, such as an unstable run, and draw a NaN at the upper edge. `cells` are fields of a
+// map, each as wide as half of the distance to its neighbours.
 enum class Mark : std::uint8_t { line, points, both, bars, band, crosses, cells };
 struct Series {
   std::string name;
@@ -31,7 +31,7 @@ struct Series {
   std::vector<double> low{}, high{};
   Mark mark = Mark::line;
   bool paper = false;                        // the paper's own values: drawn alike in every plot
-  std::size_t panel = 0;                     // of Plot::panels, in which it stands
+  std::size_t panel = 0;                     // index of its panel in Plot::panels
   void add(double at, const Value& value) {  // a point, with a bar where the value has one
     x.push_back(at);
     y.push_back(value.middle);
@@ -47,11 +47,12 @@ struct Plot {
   std::string title, x_label, y_label;  // labels with their unit
   bool log_x = false, log_y = false;
   std::vector<Series> series{};
-  std::string caption{};               // what to see in it
+  std::string caption{};               // tells the reader the point of the plot
   std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
   bool equal = false;                  // one unit of x is as long as one of y (maps)
   std::vector<std::string> y_names{};  // beside y = 0, 1, 2, ... from the top down, in place of numbers
-  // Small multiples: a title for each, row by row. All have the same axes, and a name the same look in each.
+  // Small multiples: a title for each, row by row. All share the axes, and a series name has one look in all
+  // panels.
   std::vector<std::string> panels{};
   std::size_t columns = 1;
 };

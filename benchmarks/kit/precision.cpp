@@ -17,7 +17,7 @@
 namespace enc::bench {
 namespace {
 
-// Orders as they are found: no bounds, as a contact is not smooth.
+// The observed orders: no bounds, as a contact is not smooth.
 std::string orders_text(const trial::Precision& all) {
   std::string text;
   std::vector<double> steps, errors;
@@ -36,7 +36,7 @@ std::string orders_text(const trial::Precision& all) {
 
 struct Form {
   const char* name;   // of truth.hexapod.form
-  const char* table;  // where its step and integrator stand
+  const char* table;  // TOML table of its step and integrator
   double reference;   // step of the converged run, s
   std::vector<double> steps;
 };
@@ -46,11 +46,11 @@ const std::array<Form, 2>& forms() {
       Form{"structural", "truth.structure", 31.25e-6, {1e-3, 0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3}}};
   return kForms;
 }
-// Scenes have it without being told.
+// The default form of a scene, without any setting.
 bool is_shipped(const Form& form) { return std::string_view(form.name) == "control"; }
 constexpr std::array<std::string_view, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
 
-// What is swept: all of it with --full, else what takes some seconds.
+// The sweep: all of it with --full, else a part that takes some seconds.
 struct Extent {
   std::vector<Form> forms;
   std::vector<std::string_view> integrators{kIntegrators.begin(), kIntegrators.end()};
@@ -70,10 +70,10 @@ Extent extent_of(const WorkSpec& spec, const BenchContext& context) {
 }
 
 struct Path {
-  std::vector<Vec3> tip;  // true, at each tick
+  std::vector<Vec3> tip;  // true tip position at each tick
   double cpu = kUnset;    // s of CPU for each second of experiment
   double yards = kUnset;  // yardsticks for each tick
-  std::string failure;    // why there is none
+  std::string failure;    // why the run failed
 };
 
 Path run_once(const WorkSpec& spec, const BenchContext& context, const Extent& extent, const Form& form,
@@ -121,10 +121,11 @@ struct Point {
 
 struct Measured {
   std::vector<Point> points;
-  std::map<const Form*, double> floor;  // m rms that two converged runs differ by, of elastic legs
+  std::map<const Form*, double> floor;  // m rms between two converged runs, of elastic legs
 };
 
-// Three runs in turn with all the others, so that a slow moment of the machine does not hit one point alone.
+// Three runs, interleaved with those of all other points, so that a slow moment of the machine does not hit
+// one point alone.
 Measured measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
   Measured all;
   std::vector<Point>& points = all.points;
@@ -163,7 +164,7 @@ Measured measured(const WorkSpec& spec, const BenchContext& context, const Exten
   return all;
 }
 
-// What the rig does without being told: from its own files.
+// The rig's own setting, from its own files.
 bool is_default(const Point& point, const models::Setup& setup) {
   const bool control = is_shipped(*point.form);
   const double step = control ? setup.twin.world.timestep : setup.twin.structure.timestep;
@@ -183,10 +184,11 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
       if (point.good(spec.accuracy) && (cheapest == nullptr || point.yards < cheapest->yards))
         cheapest = &point;
     }
-    if (chosen == nullptr) continue;  // --set has put another step in its place
+    if (chosen == nullptr) continue;  // --set has replaced its step
     const std::string id = fmt::format("{}.work_precision.{}.", spec.benchmark, form.name);
     const auto floor = all.floor.find(&form);
-    // Elastic legs can have a tip take one of some courses: no step is nearer than another converged run.
+    // With elastic legs the tip may take one of several courses: no step is nearer than another converged
+    // run.
     const double most = spec.accuracy + (floor == all.floor.end() ? 0.0 : floor->second);
     result.figures.push_back(
         {id + "error.rms", kUnset, chosen->error * 1e6, "um", Role::ours, kUnset, most * 1e6,

@@ -85,14 +85,14 @@ void check_ended(const trial::Trial& trial) {
 }
 
 std::string held_in(const trial::Trial& trial) {
-  // Before the first samples there is nothing to go by.
+  // Before the first samples there is no input to judge.
   constexpr Time kBegun{Duration(100'000'000)};
   const auto text = [](const char* when, Time t, std::uint32_t why) {
     return fmt::format("the run {} at {:.3f} s: {}", when, seconds(t.time_since_epoch()), why_text(why));
   };
   for (const auto& [t, why] : trial.result().holds)
     if (t > kBegun) return text("held", t, why);
-  // One that had begun before, or of which the list has no more.
+  // A hold that began earlier, or that is no longer in the list.
   const auto& [t, why] = trial.result().last_hold;
   return t > kBegun ? text("was in hold", t, why) : std::string();
 }

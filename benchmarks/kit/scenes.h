@@ -1,6 +1,5 @@
-// The scene of a benchmark with the settings of the user in it, the modules that it may need, and what it
-// needs to measure over the devices of a rig in place of the twin: the options of its runs, and fakes of the
-// devices.
+// The scene of a benchmark with the user's settings and the modules that it may need. Also the tools to
+// measure over the devices of a rig in place of the twin: the options of its runs, and fakes of the devices.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,8 @@
 
 namespace enc::bench {
 
-// models/scenes/<name>.toml on the simulated rig that it names. Of two settings the later one wins: `own` are
-// the benchmark's, then come the user's, then those that a comparison must hold.
+// Loads models/scenes/<name>.toml on the simulated rig that it names. A later setting overrides an earlier
+// one: first `own`, the benchmark's; then the user's; then those that a comparison must hold.
 [[nodiscard]] inline models::Setup load_scene(const BenchContext& context, const std::string& name,
                                               std::vector<std::string> own = {},
                                               const std::vector<std::string>& held = {}) {
@@ -27,7 +26,7 @@ namespace enc::bench {
   return models::load(context.models + "/scenes/" + name + ".toml", {}, own);
 }
 
-// The modules of the program, for TrialOptions::drivers; `context` outlives it.
+// The modules of the program, for TrialOptions::drivers; `context` must outlive it.
 [[nodiscard]] inline trial::DriverSource modules_of(const BenchContext& context) {
   return [&context](const std::string& name) -> const ModuleInfo& {
     const ModuleInfo* module = context.module(name);
@@ -36,29 +35,29 @@ namespace enc::bench {
   };
 }
 
-// A scene on the user's rig, and the settings that made it so: `encounter fake` is told the same.
+// A scene on the user's rig, and the settings that made it so: `encounter fake` gets these settings as well.
 struct OnRig {
   std::string scene;  // file
   std::vector<std::string> set;
   models::Setup setup;
 };
-// models/scenes/<name>.toml; settings in the order of load_scene(). Throws Error where the rig's machine
-// would be told nothing.
+// Loads models/scenes/<name>.toml; settings in the order of load_scene(). Throws Error if the rig's machine
+// would receive no command.
 [[nodiscard]] OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
                            const std::vector<std::string>& held = {});
 
-// Of runs over the devices, and of the same in the twin. `context` outlives them.
+// Options of runs over the devices, and of their twins. `context` must outlive them.
 [[nodiscard]] trial::TrialOptions rig_options(const BenchContext& context);
 [[nodiscard]] trial::TrialOptions twin_options(const BenchContext& context);
 
-// Somebody stands at the machine: its devices are no fakes of ours.
+// Reports whether a person may stand at the machine: its devices are not our fakes.
 [[nodiscard]] bool attended(const BenchContext& context, const models::Setup& setup);
-// A line for who does, on standard error, where the bar of progress is.
+// Prints a line for that person on standard error, where the bar of progress is.
 void tell(const std::string& line);
 
-// `encounter fake` with these words, until it goes.
+// `encounter fake` with these words; it runs until the object is destroyed.
 [[nodiscard]] std::unique_ptr<Companion> begun_fakes(std::vector<std::string> words);
-// The same in place of the devices; null where the user does not want it. `more`: settings of its own.
+// Fakes in place of the devices; null if the user does not want them. `more`: additional settings.
 [[nodiscard]] std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on,
                                                   std::uint64_t seed,
                                                   const std::vector<std::string>& more = {});
@@ -66,11 +65,11 @@ void tell(const std::string& line);
 // "rig models/rigs/fakes.toml, fakes of its devices in lockstep"
 [[nodiscard]] std::string rig_text(const BenchContext& context, const models::Setup& setup);
 
-// Of a run that is over. Throws Error (kind device) where that was not its own end: what it has measured is
-// no measure.
+// Checks a run that has ended. Throws Error (kind device) if it ended early, because its measurements are
+// then invalid.
 void check_ended(const trial::Trial& trial);
-// When a run held and why, after the first 0.1 s; empty: it did not. Over devices nothing is measured then:
-// refuse_held() throws Error (kind device).
+// Time and reason of a hold after the first 0.1 s; empty: the run did not hold. A hold over devices makes the
+// measurement invalid: refuse_held() throws Error (kind device).
 [[nodiscard]] std::string held_in(const trial::Trial& trial);
 void refuse_held(const std::string& held);
 

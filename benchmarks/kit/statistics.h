@@ -1,4 +1,4 @@
-// Order statistics and a clock of this thread: what benchmarks and reports share.
+// Order statistics and a clock of this thread, shared by benchmarks and reports.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace enc::bench {
 using models::median;
 using models::percentile;
 
-// What stands for a percentile in a figure, and the last token of its id: the percentile itself ("p95"), or
-// of too few values for it the largest ("max"; of a share below a half the smallest, "min").
+// The percentile of a figure, and the last token of its id: the percentile itself ("p95"). With too few
+// values for it: the largest ("max"; for a share below a half the smallest, "min").
 struct Tail {
   double value;
   std::string word;
@@ -28,7 +28,7 @@ struct Tail {
   return share < 0.5 ? Tail{percentile(values, 0.0), "min"} : Tail{percentile(values, 1.0), "max"};
 }
 
-// Root of the mean square, and the mean; NaN of none.
+// Root of the mean square, and the mean; NaN for no values.
 [[nodiscard]] inline double rms(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return std::sqrt(sum / static_cast<double>(values.size()));
@@ -37,7 +37,7 @@ struct Tail {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// s of CPU time of this thread: what other programs do on the machine does not count.
+// s of CPU time of this thread: other programs on the machine do not count.
 [[nodiscard]] inline double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);

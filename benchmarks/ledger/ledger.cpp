@@ -1,5 +1,5 @@
-// Does the energy of every contact add up, in every scene that ships? And how much more came out of a contact
-// than went in, with the passivity controller and without?
+// Closure of the energy balance of every contact in every scene that ships; and the surplus of energy out
+// over energy in, with the passivity controller and without.
 #include "trial/ledger/ledger.h"
 
 #include <algorithm>
@@ -16,8 +16,7 @@
 namespace enc::bench::ledger {
 namespace {
 
-// J: what a tenth of a newton does over half a millimetre. Contacts whose largest term is less are judged by
-// themselves.
+// J: the work of 0.1 N over 0.5 mm. Contacts whose largest term is smaller are judged by themselves.
 constexpr double kSmallest = 0.05e-3;
 
 using C = trial::ContactLedger;
@@ -27,7 +26,8 @@ using C = trial::ContactLedger;
 constexpr double C::*kTerms[] = {&C::hand,   &C::carried,      &C::kinetic, &C::spring,
                                  &C::weight, &C::joints,       &C::law,     &C::sampling,
                                  &C::delay,  &C::quantisation, &C::limits};
-constexpr double kAccuracy = 0.005;  // of the largest term, chosen: half of what a ledger may be open
+constexpr double kAccuracy = 0.005;  // share of the largest term, chosen: half of the bound on a ledger's
+                                     // closure
 
 // Adds the terms of a contact to those of others.
 void add_terms(const C& one, C& all) {
@@ -50,7 +50,7 @@ class Energies final : public trial::Quantities {
   trial::LedgerMeasure measure_;
 };
 
-// Error against run time: what time step and integrator do to the energies of a scene's contacts.
+// Error against run time: the effect of time step and integrator on the energies of a scene's contacts.
 void add_error_over_time(Bench& bench) {
   PrecisionNorm norm{"a contact's energies", "%", 100.0, kAccuracy, {}};
   norm.quantities = [](const models::Setup& setup, trial::TrialOptions& options) {
@@ -62,7 +62,7 @@ void add_error_over_time(Bench& bench) {
                       norm);
 }
 
-// Those in which something is rendered.
+// The scenes that render an object.
 constexpr std::array kScenes{"reaching",    "wall",       "session",     "training",     "stiffness",
                              "tennis_ball", "button",     "hit_ball",    "drum",         "keypad",
                              "room",        "tiles",      "indentation", "offset_press", "hare",
@@ -71,11 +71,11 @@ constexpr int kSeeds = 4;
 
 struct Sums {
   std::size_t contacts = 0, small = 0;
-  double closure = 0.0, small_closure = 0.0;  // shares: of those above kSmallest, and of the others
-  double surplus = 0.0;                       // J, of contacts on which something pushed
-  trial::ContactLedger all;                   // of the first seed
+  double closure = 0.0, small_closure = 0.0;  // shares: contacts above kSmallest, and the others
+  double surplus = 0.0;                       // J, of contacts with a push
+  trial::ContactLedger all;                   // the ledger of the first seed
 };
-// Without the passivity controller, and with it; none where it has nothing to control.
+// Runs without the passivity controller, and with it; unset if a scene has nothing to control.
 struct Pair {
   std::string scene;
   Sums without;
@@ -104,7 +104,7 @@ void add(const models::Setup& setup, std::uint64_t seed, bool first, Sums& sums,
   }
 }
 
-// A scene that has nothing to control is refused, by the key of the controller.
+// A scene with nothing to control is refused by the key of the controller.
 std::optional<models::Setup> with_controller(const BenchContext& context, const std::string& scene,
                                              bool arm) {
   const std::string key = arm ? "rig.arm.passivity" : "rig.admittance.passivity";

@@ -1,4 +1,4 @@
-// What a fine mesh costs: from its file to the first tick, and in each tick after that.
+// Costs of a fine mesh: from its file to the first tick, and in each tick after that.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -22,7 +22,7 @@
 namespace enc::bench::mesh {
 namespace {
 
-// A place for one file, in a folder of its own that goes with it.
+// A temporary file in its own folder; the destructor removes both.
 class ScratchFile {
  public:
   explicit ScratchFile(const char* name) {
@@ -58,7 +58,7 @@ models::Setup with_mesh(const Bench& bench, Mesh mesh) {
   return setup;
 }
 
-// Of each tick the median of several runs: a timer interrupt of the machine meets another tick each time.
+// The median of several runs for each tick: a timer interrupt of the machine hits another tick each time.
 std::vector<std::uint32_t> middle_of(const std::vector<trial::TrialResult>& runs) {
   std::vector<std::uint32_t> middle = runs.front().step_ns;
   for (std::size_t i = 0; i < middle.size(); ++i) {
@@ -77,7 +77,7 @@ void run(Bench& bench) {
   const double start = wall_seconds();
   models::CheckedMesh solid = models::load_solid(file->path());
   const double checked = wall_seconds();
-  file.reset();  // now, and not at the end: a run may be stopped
+  file.reset();  // removed now and not at the end: a run may be stopped
   const MeshTree tree(solid.mesh);
   const double ready = wall_seconds();
   const double cpu = thread_seconds() - cpu_start;

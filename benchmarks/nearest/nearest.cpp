@@ -1,5 +1,5 @@
-// How fast is the nearest point? Our tree against Embree's point query, on a hand that comes, hovers,
-// touches, presses and slides over the tennis ball as a mesh: same queries, one run, chunks interleaved.
+// Speed of the nearest point: our tree against Embree's point query. A hand comes, hovers, touches, presses
+// and slides over the tennis ball as a mesh: equal queries, one run, chunks interleaved.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,11 +24,12 @@ constexpr std::size_t kQueries = 20000;  // 20 s
 constexpr std::size_t kChunk = 500;
 constexpr double kBuild = 8e5;  // yardsticks: measured 2.8e5, on a busy machine
 
-// Around the ball at kStep a query: from 60 mm down, a hover up to 60 mm and back, touch, slide, press to
-// 3 mm, slide, off again.
+// A path around the ball with kStep per query: from 60 mm down, a hover up to 60 mm and back, touch, slide,
+// press to 3 mm, slide, off again.
 std::vector<Point<'O'>> hand_path() {
   struct Leg {
-    double to, rise;  // height at its end, m, and the share of the way that goes up; 0: `to` is a way along
+    double to, rise;  // height at its end, m, and the vertical share of the path; 0: `to` is a length along
+                      // the surface
   };
   constexpr std::array<Leg, 8> kLegs{{{0.020, -1.0},
                                       {0.060, 0.5},
@@ -51,7 +52,7 @@ std::vector<Point<'O'>> hand_path() {
       const double angle = std::sqrt(1.0 - rise * rise) * kStep / (models::kBallRadius + height);
       const Eigen::AngleAxisd turn(angle, outward.cross(heading));
       outward = turn * outward;
-      heading = Eigen::AngleAxisd(2e-4, outward) * (turn * heading);  // never the same way twice
+      heading = Eigen::AngleAxisd(2e-4, outward) * (turn * heading);  // never the same path twice
       heading = (heading - heading.dot(outward) * outward).normalized();
       outward.normalize();
     }
@@ -59,7 +60,7 @@ std::vector<Point<'O'>> hand_path() {
   return path;
 }
 
-// Warm: each query gets the answer of the one before.
+// Warm start: each query gets the answer of the one before.
 struct Ours {
   const MeshTree& tree;
   std::int32_t hint = -1;
@@ -69,7 +70,7 @@ struct Ours {
     return at.distance;
   }
 };
-// The radius hint: the last distance, and how far the query has moved since.
+// The radius hint: the last distance plus the motion of the query since.
 struct Theirs {
   NearestPeer& peer;
   double distance = 1.0;
@@ -85,7 +86,7 @@ struct Theirs {
   }
 };
 
-// A way of the race: the hand's next chunk at each call, lap after lap.
+// A contender of the race: each call runs the hand's next chunk, lap after lap.
 template <class Ask>
 std::function<void()> answering(const std::vector<Point<'O'>>& path, std::vector<double>& distances,
                                 Ask ask) {
@@ -95,7 +96,7 @@ Race race(std::size_t laps, const std::vector<std::function<void()>>& ways) {
   constexpr std::size_t kLap = kQueries / kChunk;
   return {laps * kLap, ways, kLap};
 }
-// Of a query, over chunks.
+// Time of one query, over chunks.
 double nanoseconds(const Race& race, std::size_t way, double share) {
   return race.seconds(way, share) / kChunk * 1e9;
 }
@@ -105,7 +106,7 @@ void tail_figure(Bench& bench, const std::string& id, const Race& race, std::siz
 }
 
 struct Jumps {
-  double point = 0.0, normal = 0.0;  // m beyond the way of the query; rad
+  double point = 0.0, normal = 0.0;  // m, relative to the path of the query; rad
 };
 Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
   Jumps most;
@@ -120,7 +121,7 @@ Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
   return most;
 }
 
-// A ball of 100,000 triangles; ours takes part twice, to know what a ratio of one looks like here.
+// A ball of 100,000 triangles. Ours takes part twice, to show how far a ratio of one scatters here.
 void against_peer(Bench& bench, const MeshTree& tree, NearestPeer* peer, const std::vector<Point<'O'>>& path,
                   std::size_t laps) {
   std::vector<double> ours(kQueries), again(kQueries), theirs(kQueries);

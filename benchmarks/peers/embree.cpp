@@ -1,4 +1,4 @@
-// Embree's point query as its manual says: one triangle geometry, a callback that shrinks the radius.
+// Embree's point query as in its manual: one triangle geometry, a callback that shrinks the radius.
 #include <cmath>
 #include <cstddef>
 #include <cstring>

@@ -1,4 +1,4 @@
-// Orocos KDL as its users write it: a chain of segments and one solver for each question.
+// Orocos KDL in its usual form: a chain of segments and one solver for each question.
 #include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 KDL::Vector vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// A segment's frame stands at its joint; that of the last one at the tip. Masses are given there.
+// A segment's frame stands at its joint; the last frame stands at the tip. Masses are given in that frame.
 KDL::Chain chain_of(const ArmMachine& machine) {
   KDL::Chain chain;
   for (const ChainLink& link : machine.links) {

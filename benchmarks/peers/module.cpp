@@ -1,4 +1,4 @@
-// The module's entry. Which peers it has was decided where it was built (CMakeLists.txt).
+// The module's entry. CMake chose its peers when it was built (CMakeLists.txt).
 #include "core/devices/module.h"
 
 #include "benchmarks/peers/peers.h"

@@ -1,5 +1,5 @@
-// OpenCV as its users write it: a background subtractor, inRange on hue, a median; histograms tile by tile;
-// block matching.
+// OpenCV in its usual form: a background subtractor, inRange on hue, a median; histograms tile by tile; block
+// matching.
 #include <array>
 
 #include <opencv2/calib3d.hpp>

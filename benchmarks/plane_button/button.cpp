@@ -1,4 +1,4 @@
-// A press on the button, and what is read off it: lines, curves and lags.
+// A press on the button, and its analysis: lines, curves and lags.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,12 +15,12 @@
 namespace enc::bench::plane_button {
 namespace {
 
-// Three straight lines; between two of them the force goes over smoothly (3 s^2 - 2 s^3) within `gradual`.
-// Where, how steep and how gradual: all nine are found from the curve alone.
+// Three straight lines; between two of them the force blends smoothly (3 s^2 - 2 s^3) within `gradual`. The
+// fit finds all nine places, slopes and widths from the curve alone.
 struct ThreeLines {
   double d1 = kUnset, d2 = kUnset, gradual = kUnset;  // m
   double slope[3] = {kUnset, kUnset, kUnset};         // N/m
-  double rms = kUnset;                                // N, of what is left
+  double rms = kUnset;                                // N, of the residual
 };
 
 double at_depth(const Curve& curve, double depth) {
@@ -41,7 +41,7 @@ double gone_over(double depth, double from, double width) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-// Least squares for given breaks: what is left, N^2.
+// Least squares for given breaks: residual, N^2.
 double rest_of(const Curve& curve, const Breaks& breaks, Coefficients& best) {
   constexpr double kNarrowest = 0.02e-3, kRefused = 1e12;
   const auto [d1, d2, gradual] = breaks;
@@ -52,7 +52,7 @@ double rest_of(const Curve& curve, const Breaks& breaks, Coefficients& best) {
   Coefficients right = Coefficients::Zero();
   double squares = 0.0;
   for (std::size_t i = 0; i < curve.depth.size(); ++i) {
-    const double x = 1e3 * curve.depth[i];  // mm: offsets and slopes of one size
+    const double x = 1e3 * curve.depth[i];  // mm: makes offsets and slopes similar in size
     const double past1 = gone_over(curve.depth[i], d1, gradual);
     const double past2 = gone_over(curve.depth[i], d2, gradual);
     const double share[3] = {1.0 - past1, past1 * (1.0 - past2), past1 * past2};
@@ -86,7 +86,7 @@ Breaks coarse(const Curve& curve) {
   return best;
 }
 
-// From there, each of the three in turn, by steps that become smaller.
+// Starts there and refines each of the three in turn, by steps that become smaller.
 Breaks refined(const Curve& curve, Breaks at) {
   Coefficients unused;
   double least = rest_of(curve, at, unused);
@@ -110,10 +110,10 @@ Breaks refined(const Curve& curve, Breaks at) {
 using sim::Phase;
 using Settings = std::vector<std::string>;
 
-// The button of Fig 5: pressed slowly by a stiff finger, live by a hand that vision sees, and without the
+// The button of Fig 5: pressed slowly by a stiff finger; live by a hand that vision tracks; and without the
 // gradual change that keeps the device stable.
 
-// A finger like a testing machine: it goes where it is told, so that the dip is passed slowly, too.
+// A finger like a testing machine: it follows its commanded path, so that it passes the dip slowly, too.
 const Settings kStiffFinger{"truth.hand.stiffness_N_per_mm=20", "truth.hand.grip_stiffness_N_per_mm=20",
                             "truth.hand.damping_Ns_per_m=200",  "truth.hand.grip_damping_Ns_per_m=20",
                             "truth.hand.tremor_mm=0",           "truth.hand.drift_mm=0"};
@@ -227,7 +227,7 @@ void vision_figures(const PressTrace& trace, const InteractionSpec& law, double 
                 "the same where the target goes over to the bottom board [V33]", 0.0, 0.2);
 }
 
-// How often the gain falls at the trigger: once is a click.
+// Number of falls of the gain at the trigger: one is a click.
 int triggers(const PressTrace& trace) {
   int n = 0;
   for (std::size_t i = 1; i < trace.size(); ++i)
@@ -240,7 +240,8 @@ int losses(const PressTrace& trace, double deeper) {
     if (trace.depth[i] > deeper && trace.force[i] < 1e-3 && trace.force[i - 1] >= 1e-3) ++n;
   return n;
 }
-// Energy that the prop gives the finger while it is pressed deeper and deeper, mJ: what it has no right to.
+// Energy that the prop gives the finger while it is pressed deeper and deeper, mJ: a passive button gives
+// none.
 double given_back(const PressTrace& trace) {
   double sum = 0.0;
   for (std::size_t i = 1; i < trace.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 
 // Error of the wall's curve over run time, integrators by time steps, against RK4 at 31.25 us.
 
-// A quick press by a hand that does not tremble, so that each depth has one force.
+// A quick press by a hand without tremor, so that each depth has one force.
 PressTrace pressed(const BenchContext& context, const std::string& integrator, double step_us) {
   return press_trace(
       context, "wall",
@@ -26,7 +26,7 @@ PressTrace pressed(const BenchContext& context, const std::string& integrator, d
       2.0);
 }
 
-// Root of the mean square of the force's difference at the same depth, N.
+// Root of the mean square of the force's difference at equal depths, N.
 double apart(const Curve& a, const Curve& b) {
   double sum = 0.0;
   const std::size_t n = std::min(a.force.size(), b.force.size());
@@ -50,7 +50,7 @@ Curve sampled(const PressTrace& trace) {
   return curve;
 }
 
-// In free space: what the tip does when its target goes 20 mm aside, and how stiff a wall may be that it
+// Free space: the step response of the tip when its target moves 20 mm aside, and the stiffest wall that it
 // holds alone, by two integrators.
 
 constexpr double kLeap = 20e-3;  // m
@@ -63,7 +63,7 @@ constexpr double kAbove = 40e-3;  // m: near enough to be followed
 constexpr double kWhen = 1.0;     // s
 constexpr double kEnd = 2.5;      // s
 
-// A finger that stands above the wall and leaps aside.
+// A finger that hovers above the wall and leaps aside.
 class LeapingFinger : public PoseTracker {
  public:
   LeapingFinger(std::unique_ptr<PoseTracker> clockwork, const Pose<'C', 'W'>& X_CW, const Way& way)
@@ -78,7 +78,7 @@ class LeapingFinger : public PoseTracker {
   }
 
  private:
-  std::unique_ptr<PoseTracker> clockwork_;  // of which the stamps are taken
+  std::unique_ptr<PoseTracker> clockwork_;  // source of the stamps
   Pose<'C', 'W'> X_CW_;
   Way way_;
 };
@@ -118,7 +118,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
   return leap;
 }
 
-// The stiffest wall, lambda K_p, that the free prop holds without ringing; K_v goes along, as lambda has it.
+// The stiffest wall, lambda K_p, that the free prop holds without ringing; lambda scales K_v with it.
 double stiffest(const BenchContext& context, const std::string& integrator) {
   constexpr double kRinging = 0.02;  // m/s
   const Law law = law_of(context, "wall");
@@ -135,7 +135,8 @@ double stiffest(const BenchContext& context, const std::string& integrator) {
   return std::sqrt(low * high) * law.free;
 }
 
-// The wall of Fig 5: force over depth, with a finger that is seen each tick and with one that vision sees.
+// The wall of Fig 5: force over depth, with a finger that is tracked each tick and with one that vision
+// tracks.
 
 constexpr double kFrom = 2e-3, kTo = 10e-3;  // m: the depth of the fit
 using sim::Phase;
@@ -144,13 +145,13 @@ struct WallRuns {
   PressTrace live, slide, late, seen;
 };
 
-// Slowly: the damping of the law adds to the spring while the finger moves.
+// Presses slowly: the damping of the law adds to the spring while the finger moves.
 WallRuns wall_runs(const BenchContext& context) {
   const std::vector<std::string> press{"user.approach_mm_s=[50]", "user.press_s=5", "user.release_s=5"};
   std::vector<std::string> sliding = press;
   sliding.insert(sliding.end(), {"user.press_s=2", "user.release_s=1", "user.depth_mm=8", "user.slide_mm=30",
                                  "user.slide_mm_s=60"});
-  // No slack: the depth is what vision says, whatever the prop says.
+  // No slack: the depth comes from vision alone, independent of the prop.
   std::vector<std::string> alone = press;
   alone.emplace_back("rig.contact.leave_gap_mm=0.001");
   WallRuns runs;
@@ -207,7 +208,7 @@ void live_figures(const WallRuns& runs, double law, const Report& report) {
                   "of the normal force, while the finger slides 30 mm at up to 60 mm/s", 0.0, 5.0);
 }
 
-// Nothing else runs meanwhile, and nobody looks on.
+// Runs alone and unobserved, because it measures time.
 void speed_figures(const BenchContext& context, const Report& report) {
   constexpr int kRepeats = 3;
   std::vector<double> times, ns;
@@ -229,9 +230,9 @@ void speed_figures(const BenchContext& context, const Report& report) {
               "step() over a fixed piece of work of the same run (kit/cost.h)", 0.6);
 }
 
-// What vision sees, 20 Hz and 50 ms old: with the prop, on which a finger lies that presses it, as a witness
-// of the depth, and without. What is felt is judged by the true depth; how late a belief is, by vision alone,
-// for with the witness the depth is the prop's own.
+// Vision at 20 Hz and 50 ms old. One run uses the prop under the pressing finger as a witness of the depth,
+// one does not. The force is judged by the true depth. The lag of the estimate is judged by vision alone,
+// because with the witness the depth is the prop's own.
 void vision_figures(const WallRuns& runs, double law, const Report& report) {
   const PressTrace& trace = runs.late;
   const Line press = line_of(trace, Phase::press, Depth::truth, kFrom, kTo);
@@ -331,7 +332,7 @@ void measure_step(const BenchContext& context, const Report& report) {
                 "the same physics by a first-order integrator [sources/twin 1]");
 }
 
-// Error over run time. Alone on one core: it measures time.
+// Error over run time. Runs alone on one core, because it measures time.
 void measure_precision(const BenchContext& context, const Report& report) {
   const Curve reference = sampled(pressed(context, "rk4", 31.25));
   Plot plot{"plane_button_precision",

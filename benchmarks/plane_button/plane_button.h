@@ -1,4 +1,4 @@
-// Parts of the benchmark `plane_button`: runs of wall and button in the twin, and what is read off them.
+// Parts of the benchmark `plane_button`: runs of wall and button in the twin, and their analysis.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace enc::bench::plane_button {
 
-// What a run was, tick by tick, by the truth; `believed` is what the core took the depth for.
+// A run, tick by tick, from the ground truth; `believed` is the depth that the core assumed.
 struct PressTrace {
   std::vector<double> t;         // s
-  std::vector<double> depth;     // of the finger under the surface, m
+  std::vector<double> depth;     // depth of the finger under the surface, m
   std::vector<double> believed;  // m
-  std::vector<double> force;     // along the normal, of the contact in the simulator, N
+  std::vector<double> force;     // true contact force along the normal, N
   std::vector<double> side;      // across it, N
   std::vector<double> gain;      // lambda_z of eq. 7
-  std::vector<double> speed;     // of the tip, m/s
+  std::vector<double> speed;     // speed of the tip, m/s
   std::vector<sim::Phase> phase;
   std::vector<char> contact;  // the core's mode
   trial::TrialResult run;
@@ -26,10 +26,10 @@ struct PressTrace {
   [[nodiscard]] std::size_t size() const { return t.size(); }
 };
 
-// What the first object of a scene is made to be felt as, with the user's settings.
+// The rendered law of the first object of a scene, with the user's settings.
 struct Law {
   InteractionSpec does;
-  double stiffness = kUnset;  // N/m, where it is touched
+  double stiffness = kUnset;  // N/m, at the touched place
   double free = kUnset;       // K_p
 };
 [[nodiscard]] Law law_of(const BenchContext& context, const std::string& scene);
@@ -38,11 +38,11 @@ struct Law {
 [[nodiscard]] PressTrace press_trace(const BenchContext& context, const std::string& scene,
                                      std::vector<std::string> own, double seconds = kUnset);
 
-// A finger that is tracked each tick, without noise: what is left is the display's. No picture leaps, so the
-// target need not take long to settle.
+// Settings of a finger that is tracked each tick, without noise: the remaining error is the display's. No
+// picture leaps, so the target needs little time to settle.
 [[nodiscard]] std::vector<std::string> live(std::vector<std::string> more);
 
-// Straight line through what was felt in a phase, over a depth from `low` to `high`.
+// Straight line through the force of a phase, over a depth from `low` to `high`.
 struct Line {
   double slope = kUnset, r2 = kUnset;  // N/m
   std::int64_t n = 0;
@@ -50,10 +50,10 @@ struct Line {
 enum class Depth : std::uint8_t { truth, believed };
 [[nodiscard]] Line line_of(const PressTrace& trace, sim::Phase phase, Depth of, double low, double high);
 
-// Largest change of the force from one tick to the next, N, in contact and deeper than `low`. `beyond`: more
-// than the motion in that tick gives a spring of this stiffness, N/m.
+// Largest change of the force from one tick to the next, N, in contact and deeper than `low`. `beyond`:
+// subtracts the change of a spring of this stiffness, N/m, for the motion in that tick.
 [[nodiscard]] double greatest_step(const PressTrace& trace, double low, double beyond = 0.0);
-// By how long the believed depth is behind the true one, s: where the two differ least in the mean square.
+// Lag of the believed depth behind the true one, s: the shift with the least mean square difference.
 [[nodiscard]] double lag_of(const PressTrace& trace);
 
 // Force over depth, the mean of pressing and releasing: friction and damping, which oppose the motion,

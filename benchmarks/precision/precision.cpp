@@ -1,5 +1,5 @@
-// Error against run time over the whole twin: what each time step and integrator makes of the force on what
-// is held, in scenes of both machines, and what it costs; beside what ships.
+// Error against run time over the whole twin: the effect of time step and integrator on the force on the held
+// tool or finger in scenes of both machines, and their cost, beside the shipped setting.
 #include "trial/precision/precision.h"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ namespace {
 constexpr double kGlance = 8e-3;  // s, between two places of a fall
 constexpr int kGlances = 25;
 
-// A hand on its way to an object, and the machine that goes to meet it. Encoders that count finely and
-// friction without a jump leave nothing in it that is not smooth.
+// A hand that approaches an object, and the machine that goes to meet it. Encoders with fine counts and
+// friction without a jump keep the whole motion smooth.
 struct Smooth {
   const char* name;
   const char* scene;
-  const char* table;  // where its step stands
-  bool steps;         // the machine, by microns: only the hand moves smoothly
+  const char* table;  // TOML table of its step
+  bool steps;         // the machine moves in microns: only the hand moves smoothly
   std::vector<std::string> set;
 };
 const std::array<Smooth, 2>& smooth() {
@@ -43,11 +43,12 @@ const std::array<Smooth, 2>& smooth() {
 }
 
 struct Way {
-  std::vector<Vec3> at;  // of the tool's tip and, unless the machine steps, of the machine's in turn
+  std::vector<Vec3> at;  // positions of the tool's tip and, unless the machine steps, of the machine's in
+                         // turn
   bool touched = false;
 };
 
-// The arm falls by itself, its motors and friction left out: nothing but MuJoCo's own step.
+// The arm falls freely, its motors and friction left out: only MuJoCo's own step acts.
 Way falling(const BenchContext& context, const std::string& integrator, double step) {
   trial::Trial trial(
       load_scene(context, "wall", {"truth.arm.friction_form=smooth", "truth.arm.integrator=" + integrator}),
@@ -82,8 +83,8 @@ Way way_of(const BenchContext& context, const Smooth& smooth, const std::string&
   return way;
 }
 
-// The path that a step of nothing would give. Where the twin takes a hand and a servo once a step, RK4 has an
-// error of the first order too: two steps tell how large it is, and what is left is of the second.
+// Extrapolates the path to a step of zero. If the twin updates hand and servo once a step, RK4 has a
+// first-order error, too: two steps measure it, and the remainder is second-order.
 template <class WayWith>
 Way converged(const WayWith& way_with, double coarse, bool alone) {
   Way fine = way_with("rk4", coarse / 40.0);
@@ -100,8 +101,8 @@ double apart(const Way& a, const Way& b) {
   return std::sqrt(sum / static_cast<double>(a.at.size()));
 }
 
-// With which power of the step the error falls, where nothing touches, sticks or is counted: theory has one
-// for each integrator.
+// The order of the error in the step for a motion without contact, stiction or counts: theory has one for
+// each integrator.
 void add_orders(Bench& bench) {
   constexpr double kRounding = 1e-15;  // m
   Table table{"orders", "Error of a path without contact", {"path", "integrator", "timestep_us", "error_um"}};
@@ -139,12 +140,12 @@ void add_orders(Bench& bench) {
 
 using trial::PrecisionPoint;
 
-// What is asked about: the force that is felt, or the way of the tip.
+// The judged quantity: the force on the hand, or the path of the tip.
 struct Norm {
   const char* name;
   double PrecisionPoint::*error;
   double trial::Accuracy::*most;
-  double unit;  // as it is printed: N, um
+  double unit;  // its printed unit: N, um
 };
 constexpr std::array kNorms{Norm{"force, N", &PrecisionPoint::error, &trial::Accuracy::force, 1.0},
                             Norm{"path, um", &PrecisionPoint::way, &trial::Accuracy::way, 1e-6}};
@@ -152,17 +153,16 @@ constexpr std::array kNorms{Norm{"force, N", &PrecisionPoint::error, &trial::Acc
 struct Carried {
   std::string scene;
   const Norm* norm = nullptr;
-  const PrecisionPoint *advised = nullptr, *next = nullptr;  // of the study; null: none
+  const PrecisionPoint *advised = nullptr, *next = nullptr;  // points of the study; null: none
   double asked = kUnset, error = kUnset, next_error = kUnset;
-  std::string failure{};  // of a run that judges
+  std::string failure{};  // failure of a judging run
   [[nodiscard]] bool meets() const { return error <= asked; }
   [[nodiscard]] bool has_next() const { return !std::isnan(next_error); }
   [[nodiscard]] bool next_fails() const { return next_error > asked; }
 };
 
-// An error that somebody could ask for, and that tells settings apart: in the middle of the widest gap, by
-// ratio, between what a setting gives and what all that are cheaper do. Where no gap is wide, half more than
-// what costs least errs.
+// A plausible requested error that separates settings: the middle of the widest gap, by ratio, between the
+// error of a setting and those of all cheaper ones. Without a wide gap: 1.5 times the error of the cheapest.
 double asked_of(const std::vector<PrecisionPoint>& points, double PrecisionPoint::*error) {
   constexpr double kWide = 1.3;
   const PrecisionPoint* least = nullptr;
@@ -170,7 +170,7 @@ double asked_of(const std::vector<PrecisionPoint>& points, double PrecisionPoint
   for (const PrecisionPoint& point : points) {
     if (!point.failure.empty()) continue;
     if (least == nullptr || point.cost() < least->cost()) least = &point;
-    double best = kUnset;  // of what is cheaper
+    double best = kUnset;  // least error of the cheaper ones
     for (const PrecisionPoint& other : points)
       if (other.failure.empty() && other.cost() * trial::kAsDear < point.cost() && !(best <= other.*error))
         best = other.*error;
@@ -189,7 +189,7 @@ bool same(const PrecisionPoint& a, const PrecisionPoint& b) {
   return a.integrator == b.integrator && std::abs(a.step - b.step) < 1e-9;
 }
 
-// These points again, judged by RK4 at an eightieth of a period.
+// Repeats these points, judged by RK4 at an eightieth of a period.
 std::vector<PrecisionPoint> again(const BenchContext& context, const ForceStudy& study,
                                   const std::vector<const PrecisionPoint*>& points) {
   trial::PrecisionOptions options;
@@ -236,7 +236,7 @@ std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& 
   return all;
 }
 
-// Advice as `check --advise` gives it, carried out: judged by a converged run of another step.
+// Follows the advice of `check --advise`: judged by a converged run of another step.
 void add_advice(Bench& bench, const std::vector<ForceStudy>& studies) {
   const std::vector<std::vector<Carried>> all =
       bench.each(studies, [&](const ForceStudy& study) { return carried_out(bench.context, study); });
@@ -288,8 +288,8 @@ ForceStudy study_of(const BenchContext& context, const std::string& scene) {
   return force_study(context, scene, {}, options);
 }
 
-// Of all scenes of a machine, which share one rig: the worst error of each setting, over what its scene shall
-// hold, and its cost over that of what ships, the median of the scenes.
+// Combines all scenes of a machine, which share one rig. Error: the worst of each setting over its scene's
+// bound. Cost: relative to the shipped setting, the median of the scenes.
 std::vector<trial::PrecisionPoint> together(const std::vector<ForceStudy>& studies) {
   std::vector<trial::PrecisionPoint> all = studies.front().all.points;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -333,7 +333,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
                 point.failure.empty() ? fixed(point.way * 1e6, 2) : "", fixed(1.0 / point.cpu, 0),
                 point.shipped ? "ships" : "", point.failure);
     const trial::PrecisionPoint* shipped = trial::shipped(points);
-    if (shipped == nullptr) continue;  // --set has put another step in its place
+    if (shipped == nullptr) continue;  // --set has replaced its step
     bench.figure(study.scene + ".error.rms", shipped->error, "N", at_most(accuracy_of(study.all)),
                  fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",
                              shipped->integrator, shipped->step * 1e6, study.all.second.error));
@@ -344,7 +344,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
   const trial::PrecisionPoint* best = cheapest(all, {1.0});
   const trial::PrecisionPoint* shipped = trial::shipped(all);
   add_plot(bench, machine, all);
-  if (shipped == nullptr || bench.context.quick) return;  // of one scene it says nothing
+  if (shipped == nullptr || bench.context.quick) return;  // a single scene is not enough
   bench.cost(fmt::format("{}.default_over_cheapest.cpu", machine.name),
              best != nullptr ? 1.0 / best->cpu : kUnset, "x",
              best != nullptr

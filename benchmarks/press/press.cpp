@@ -1,5 +1,5 @@
-// Does every press stay one press? Many hands, a tracker that is off by 0.3 mm either way, and a push far
-// beyond the limit.
+// Counts contacts per press: many hands, a tracker that is off by 0.3 mm either way, and a push far beyond
+// the limit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ Tally press(const models::Setup& setup, std::uint64_t seed) {
   Tally tally;
   const trial::PressMeasure measure = trial::measured_run(setup, seed, tally.simulated);
   for (const trial::PressFigures& press : measure.presses()) {
-    ++tally.presses;  // also one that never met the surface: it then has no contact
+    ++tally.presses;  // includes a press that never met the surface: it has no contact
     tally.single += press.contacts == 1 ? 1 : 0;
     if (!std::isnan(press.restore_error)) tally.restore = std::max(tally.restore, press.restore_error);
     tally.over_limit = std::max(tally.over_limit, press.over_limit);

@@ -131,7 +131,7 @@ Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
             {},
             fmt::format("Means of {} people for each item, bars: their range; the paper's means beside.",
                         rows.size())};
-  // The axis shows the whole scale, whatever was answered.
+  // The axis shows the whole scale, whatever the answers.
   Series range{"range", {1.0, static_cast<double>(form.highest())}, {kUnset, kUnset}};
   Series mean{.name = fmt::format("mean of {}", rows.size()), .mark = Mark::points};
   Series paper{.name = "paper", .mark = Mark::points, .paper = true};

@@ -1,6 +1,6 @@
-// What answers say: mean, range and counts of each item, as [VHMR Fig 14] shows them, with the published
-// means beside; and what the twin measures of what people were asked. No answer is simulated: a figure stands
-// beside an item, never in its place.
+// Summary of the answers: mean, range and counts of each item, as [VHMR Fig 14] shows them, beside the
+// published means and the twin's figures on the question. No answer is simulated: a figure stands beside an
+// item, never in its place.
 #pragma once
 
 #include <string>
@@ -17,21 +17,21 @@ struct ItemReference {
   double paper = kUnset;             // mean of the paper's participants, on its scale
   std::vector<std::string> figures;  // ids
 };
-// With the means of the study that the form names, if it names one.
+// Includes the means of the study that the form names, if it names one.
 [[nodiscard]] std::vector<ItemReference> items_of(const Form& form, const std::string& models);
 
-// Without rows where none of the figures was judged.
+// Empty if no figure was judged.
 [[nodiscard]] Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all);
 
 struct Opinion {
   double mean = kUnset;
-  int least = 0, most = 0;          // of the points; 0: nobody answered
+  int least = 0, most = 0;          // lowest and highest points; 0: no answer
   std::vector<std::size_t> counts;  // of each step
 };
-// Of one item.
+// Summary of one item.
 [[nodiscard]] Opinion opinion_of(const Form& form, const std::vector<Answer>& rows, std::size_t item);
 [[nodiscard]] double global_mean(const std::vector<Answer>& rows);
-// Those who answered yes, or no, to having used `experience` before.
+// The answers of people who have, or have not, used `experience` before.
 [[nodiscard]] std::vector<Answer> with_experience(const std::vector<Answer>& rows, std::size_t experience,
                                                   bool yes);
 

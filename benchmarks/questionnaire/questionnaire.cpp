@@ -118,7 +118,7 @@ std::vector<std::string> answer_columns(const Form& form, bool dated) {
   return columns;
 }
 
-// The columns stand for a form: one too many is another form's.
+// The columns must match the form: an additional column belongs to another form.
 void check_header(std::string_view text, const std::string& path, const Form& form) {
   const std::vector<std::string> known = answer_columns(form, true);
   std::size_t number = 0;
@@ -194,7 +194,7 @@ class Rows {
   models::CsvReader reader_;
 };
 
-// The file of answers grows at its end and nowhere else: one write under a lock, taken back if it was cut.
+// The file of answers only grows at its end: one write under a lock, taken back if it was cut.
 
 class LockedFile {
  public:
@@ -204,7 +204,7 @@ class LockedFile {
     if (fd_ < 0) fail();
     struct stat kind {};
     if (fstat(fd_, &kind) == 0 && S_ISREG(kind.st_mode) && flock(fd_, LOCK_EX) == 0) {
-      models::note_input(path_);  // no other output of this command goes over it
+      models::note_input(path_);  // no other output of this command may overwrite it
       return;
     }
     if (!S_ISREG(kind.st_mode)) errno = EINVAL;  // a device or a pipe keeps nothing
@@ -231,7 +231,7 @@ class LockedFile {
     const ssize_t written = write(fd_, text.data(), text.size());
     if (written == static_cast<ssize_t>(text.size()) && fsync(fd_) == 0) return;
     const int why = written < 0 ? errno : ENOSPC;
-    if (ftruncate(fd_, static_cast<off_t>(size_before)) != 0) errno = why;  // the first reason counts
+    if (ftruncate(fd_, static_cast<off_t>(size_before)) != 0) errno = why;  // keep the first error
     errno = why;
     fail();
   }
@@ -253,7 +253,7 @@ std::string line_of(const Answer& a, bool dated) {
   return line + (dated ? "," + a.date : "") + "\n";
 }
 
-// Rows are written in the form's order; a file in another one can be read, but not added to.
+// Rows are written in the form's order. A file in another order can be read, but not extended.
 void check_order(const std::string& text, const std::string& path, const std::vector<std::string>& columns) {
   std::istringstream lines(text);
   std::size_t number = 0;
@@ -268,7 +268,7 @@ void check_order(const std::string& text, const std::string& path, const std::ve
   }
 }
 
-// Without the mark that some programs put before UTF-8.
+// Removes the byte-order mark that some programs put before UTF-8.
 std::string unmarked(const std::string& text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
@@ -290,7 +290,7 @@ std::string next_participant(const Answers& answers) {
   return std::to_string(largest + 1);
 }
 
-// What the file holds with `rows`; `text` is what is to be put at its end.
+// The file's content with `rows`; `text` receives the text to append.
 Answers joined(const std::string& before, const std::string& path, const Form& form,
                std::vector<Answer>&& rows, std::string& text) {
   const bool dates = std::any_of(rows.begin(), rows.end(), [](const Answer& a) { return !a.date.empty(); });
@@ -324,7 +324,7 @@ class Interview {
  public:
   Interview(std::istream& in, std::ostream& out, bool again) : in_(in), out_(out), again_(again) {}
 
-  // Until it is one of `words`, which are numbered from 0.
+  // Asks until the answer is one of `words`, which are numbered from 0.
   int one_of(const std::string& question, const std::vector<std::string>& words, const std::string& wanted) {
     for (;;) {
       out_ << question << " [" << wanted << "] " << std::flush;
@@ -335,7 +335,7 @@ class Interview {
             fmt::format("standard input:{}:1: it ended before the last answer; expected {}; nothing was "
                         "stored, begin anew",
                         line_, wanted));
-      if (!again_) out_ << text << '\n';  // nobody has typed it
+      if (!again_) out_ << text << '\n';  // end the line that was not typed
       while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
       for (std::size_t i = 0; i < words.size(); ++i)
         if (text == words[i]) return static_cast<int>(i);
@@ -395,7 +395,7 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
     file.append(text, before.size());
     return all;
   } catch (const Error& e) {
-    if (rows.size() != 1) throw;  // many are in a file of their own
+    if (rows.size() != 1) throw;  // several rows stay in their own file
     std::string line = line_of(rows.front(), !rows.front().date.empty());
     line.pop_back();
     throw Error(fmt::format("{}; the answers were {}", e.what(), line));

@@ -1,4 +1,4 @@
-// A questionnaire: what people are asked, on a scale of steps, and their answers in a file.
+// A questionnaire: questions on a scale of steps, and the people's answers in a file.
 // models/questionnaires/*.toml; asked by `encounter questionnaire`, never simulated [VHMR 4.4, Fig 14].
 #pragma once
 
@@ -10,14 +10,14 @@
 
 namespace enc::bench::questionnaire {
 
-// A step of the scale, a group of items, or what somebody has used before.
+// A step of the scale, a group of items, or a device that a person has used before.
 struct Wording {
   std::string name, text;
 };
 struct Item {
   std::string name, text;
   std::string group;    // by name
-  std::string figures;  // ids of figures that measure what the item asks about, with blanks between
+  std::string figures;  // ids of figures on the subject of the item, with blanks between
 };
 struct Form {
   std::int64_t format = 1;
@@ -26,13 +26,13 @@ struct Form {
   std::vector<Wording> steps;  // the first is 1
   std::vector<Wording> experience, groups;
   std::vector<Item> items;
-  std::string name{};  // of the file, without ".toml"
+  std::string name{};  // file name, without ".toml"
 
   [[nodiscard]] int highest() const { return static_cast<int>(steps.size()); }
 };
 
-// `name`: a file in models/questionnaires without ".toml", or a path. Throws Error with the place of what is
-// wrong.
+// `name`: a file in models/questionnaires without ".toml", or a path. Throws Error with the place of the
+// error.
 [[nodiscard]] Form load_form(const std::string& models, const std::string& name);
 [[nodiscard]] Form parse_form(const std::string& text, const std::string& path);
 
@@ -44,26 +44,26 @@ struct Form {
 struct Answer {
   std::string participant;               // a number or a code, never a name
   std::vector<std::uint8_t> experience;  // 1: yes; in the form's order
-  std::vector<int> points;               // of each item, from 1
+  std::vector<int> points;               // points for each item, from 1
   std::string date{};                    // may be empty
 };
 struct Answers {
   std::vector<Answer> rows;
   bool dated = false;  // the file has a column `date`
 };
-// Throws Error "path:line:column: ..." for what is not of this form.
+// Throws Error "path:line:column: ..." if the text does not fit this form.
 [[nodiscard]] Answers parse_answers(std::string_view text, const std::string& path, const Form& form);
 
-// Puts the rows at the end of the file, all or none, and gives back all that is in it then. What stood there
-// stays as it is; two that write at once take turns. A new file has a date column if one of the rows has a
-// date. Throws Error, and writes nothing, where the file is of another form or a participant is there twice.
+// Appends the rows to the file, all or none, and returns its new content. Existing rows stay unchanged;
+// simultaneous writers take turns. A new file has a date column if one of the rows has a date. Throws Error,
+// and writes nothing, if the file belongs to another form or a participant is there twice.
 Answers append_answers(const std::string& path, const Form& form, std::vector<Answer> rows);
 
-// Throws Error where append_answers() would refuse such an answer or could not write it. Writes nothing.
+// Throws Error if append_answers() would refuse such an answer or could not write it. Writes nothing.
 void check_store(const std::string& path, const Form& form, const Answer& draft);
 
-// Asks on `out`, reads from `in`. `again`: what is no answer is asked again, as a person wants it; otherwise
-// it is an Error with its place. The end of the input is an Error, too.
+// Asks on `out`, reads from `in`. `again`: repeats the question after an invalid answer, as for a person;
+// otherwise an invalid answer is an Error with its place. The end of the input is an Error, too.
 [[nodiscard]] Answer ask(const Form& form, std::istream& in, std::ostream& out, bool again);
 
 }  // namespace enc::bench::questionnaire

@@ -13,15 +13,15 @@ using Vec2 = Eigen::Vector2d;
 using Vec9 = Eigen::Matrix<double, 9, 1>;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-constexpr double kCrosses = 0.7, kOverlap = 0.8;      // as sim/hand/session_plan.cpp has them
-constexpr int kFirst = 24, kSecond = 10, kBegin = 8;  // timings that are tried
+constexpr double kCrosses = 0.7, kOverlap = 0.8;      // as in sim/hand/session_plan.cpp
+constexpr int kFirst = 24, kSecond = 10, kBegin = 8;  // numbers of timings to try
 constexpr std::size_t kPictures = 8;
 constexpr double kWithin = 2e-3;   // m
 constexpr double kExactly = 1e-4;  // m
 
 double below(double x) { return 0.5 * (1.0 + std::erf(x * M_SQRT1_2)); }
 
-// A timing of a reach that touches now, and what is left of its weight beside the pictures'.
+// A timing of a reach that touches now, and the part of its weight that is not the pictures'.
 struct Timing {
   double begins, first, corrects, second;
   bool falls_short;
@@ -61,7 +61,7 @@ std::vector<Timing> timings(const IdealSpec& spec, double length, double fall) {
   return all;
 }
 
-// How probable a second movement of this time is for a hand that has so far to go down, m.
+// Probability of this duration of a second movement for a hand that has `down`, m, left to go.
 double takes(const IdealSpec& spec, const Timing& t, double down) {
   if (!t.falls_short) return down <= 0.0 ? 1.0 : 0.0;
   if (down <= 0.0) return 0.0;
@@ -86,7 +86,7 @@ struct Task {
   double now;
 };
 
-// Nine unknowns: where the hand began, its first movement, and what of the rest of its way is not foreseen.
+// Nine unknowns: the start of the hand, its first movement, and the part of its way that is not predicted.
 Part solved(const Task& task, const Timing& t, const Mat9& prior) {
   const double rest = 1.0 / task.spec.hand.primary_share - 1.0;
   const double beyond = t.falls_short ? 1.0 / MinimumJerk(kCrosses).x : 0.0;
@@ -160,7 +160,7 @@ Part solved(const Task& task, const Timing& t, const Mat9& prior) {
 Mat9 prior_of(const IdealSpec& spec, const Vec3& first) {
   const double length = first.norm(), share = spec.hand.primary_share;
   const Vec3 d = first / length;
-  // A normal that is cut at two standard deviations has 0.88 of them left.
+  // A normal distribution that is cut at two standard deviations keeps 0.88 of them.
   const double far = 0.88 * spec.hand.primary_scatter / (share * share) * length;
   const double aside = 0.88 * spec.hand.aside_scatter / (share * share) * length;
   const Mat3 left = aside * aside * Mat3::Identity() + (far * far - aside * aside) * d * d.transpose();
@@ -179,7 +179,7 @@ Parts parts_of(const Task& task) {
   Vec3 first = 0.17 * (task.pictures.back().at - task.pictures.front().at).normalized();
   Parts found;
   std::vector<Part>& parts = found.all;
-  for (int pass = 0; pass < 2; ++pass) {  // the second one knows how far the first movement goes
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass uses the length of the first movement
     const Mat9 prior = prior_of(task.spec, first);
     const double whole = std::log(prior.bottomRightCorner<3, 3>().determinant());
     parts.clear();
@@ -217,7 +217,7 @@ Ideal ideal_of(const Parts& parts) {
   return ideal;
 }
 
-// When the pictures that somebody goes after were told: what came before has been reached long ago.
+// Arrival times of the pictures of the current aim: the hand has long completed earlier reaches.
 std::vector<double> last_told(const SeenReach& reach) {
   constexpr std::size_t kLast = 4;
   std::vector<double> told;
@@ -234,7 +234,7 @@ Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, do
   if (task.pictures.size() < 3) return {};
   const Parts parts = parts_of(task);
   Ideal ideal = ideal_of(parts);
-  // Of each part within the circle: its normal distribution, over rings about the place.
+  // Probability of each part within the circle: its normal distribution, over rings about the place.
   for (const Part& part : parts.all) {
     if (part.weight < 1e-5) continue;
     const Eigen::Matrix2d root = part.covariance.llt().matrixL();
