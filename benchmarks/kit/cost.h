@@ -93,7 +93,7 @@ class Yardstick {
   std::vector<double> seconds_;
 };
 
-// s, median of 64 in a row: the reference for a run between two of them.
+// s, over 64 in a row: the reference for a run between two such measurements.
 [[nodiscard]] inline double yardstick_now() {
   Yardstick yardstick;
   for (int i = 0; i < 64; ++i) yardstick.measure();

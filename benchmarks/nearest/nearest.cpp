@@ -106,7 +106,7 @@ void tail_figure(Bench& bench, const std::string& id, const Race& race, std::siz
 }
 
 struct Jumps {
-  double point = 0.0, normal = 0.0;  // m, relative to the path of the query; rad
+  double point = 0.0, normal = 0.0;  // m, beyond the motion of the query; rad
 };
 Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
   Jumps most;

@@ -335,7 +335,7 @@ class Interview {
             fmt::format("standard input:{}:1: it ended before the last answer; expected {}; nothing was "
                         "stored, begin anew",
                         line_, wanted));
-      if (!again_) out_ << text << '\n';  // end the line that was not typed
+      if (!again_) out_ << text << '\n';  // echo an answer that was not typed
       while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
       for (std::size_t i = 0; i < words.size(); ++i)
         if (text == words[i]) return static_cast<int>(i);

@@ -217,7 +217,7 @@ Ideal ideal_of(const Parts& parts) {
   return ideal;
 }
 
-// Arrival times of the pictures of the current aim: the hand has long completed earlier reaches.
+// Arrival times of the last pictures before the touch: the arm has long reached the places of earlier ones.
 std::vector<double> last_told(const SeenReach& reach) {
   constexpr std::size_t kLast = 4;
   std::vector<double> told;

@@ -37,7 +37,7 @@ ReachRan run_one(const BenchContext& context, const ReachRun& run) {
   return {measure.reaches(), measure.far_speed(), done.simulated, thread_seconds() - start};
 }
 
-// Someone who presses the wall quickly and not deep.
+// A person who presses the wall quickly and not deep.
 Settings quick_presses(int count) {
   return {"user.kind=\"press_release\"",
           "user.depth_mm=4",
@@ -77,7 +77,8 @@ void ReachMeasure::begin(const trial::Glance& glance) {
 void ReachMeasure::see(const trial::Glance& glance) {
   const double now = seconds(glance.truth.t.time_since_epoch());
   const sim::Phase phase = glance.truth.phase;
-  // The core sees a finger go late: what it counts until the next reach begins is of this one.
+  // The core detects the finger's departure late: its counts until the next reach begins belong to this
+  // reach.
   if (phase == sim::Phase::approach && phase_ != phase) begin(glance);
   phase_ = phase;
   const bool prepares = far_.see(glance);
@@ -97,7 +98,7 @@ void ReachMeasure::see(const trial::Glance& glance) {
   }
 }
 
-// Pictures stay in W until it is known where they meet.
+// Pictures stay in W until the place of touch is known.
 void ReachMeasure::take_picture(const trial::Glance& glance, double now) {
   const Stamped<TrackedTool>& told = glance.in.tool;
   if (!std::isnan(now_.met) || told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;

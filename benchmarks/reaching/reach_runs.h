@@ -1,5 +1,5 @@
-// What became of each reach of a finger, judged by the truth: was the prop where the finger met the surface,
-// since when, and how hard was the meeting [VisHap 2.2].
+// The outcome of each reach of a finger, from the ground truth: whether and since when the prop was where the
+// finger met the surface, and the force of the meeting [VisHap 2.2].
 #pragma once
 
 #include <array>
@@ -14,31 +14,31 @@
 
 namespace enc::bench::reaching {
 
-inline constexpr double kThere = 2e-3;  // m: within this the prop is where it is met
+inline constexpr double kThere = 2e-3;  // m: largest distance at which the prop counts as there
 
 // A reach has met the surface when the finger first touches the prop, or passes through the surface without
 // it.
 struct ReachOutcome {
   std::int32_t aim = -1;       // object that the person reaches for
-  std::int32_t chosen = -1;    // by the core, when they meet
-  std::int32_t felt = -1;      // that the core renders when it first does while the finger touches the prop
-  double felt_after = kUnset;  // s: since they met
-  double felt_depth = kUnset;  // m: how far the finger was through the surface then
+  std::int32_t chosen = -1;    // the core's choice when they meet
+  std::int32_t felt = -1;      // the first object that the core renders while the finger touches the prop
+  double felt_after = kUnset;  // s: since the finger met the surface
+  double felt_depth = kUnset;  // m: depth of the finger below the surface then
   double prepared = kUnset;    // s of experiment: the last "prepare" before
-  double arrived = kUnset;     // s: since then the prop has been where they meet; unset: it is not
+  double arrived = kUnset;     // s: since then the prop has stayed where they meet; unset: it is not there
   double met = kUnset;         // s
-  double speed = kUnset;       // m/s, of the finger, when they meet
-  double miss = kUnset;        // m, along the surface: prop's middle to where it should be
-  double impact = 0.0;         // N, along the normal: most within 50 ms after
-  double slide_error = 0.0;    // m: most along the surface between prop and finger while it is held
-  std::int32_t contacts = 0;   // that the core counted
-  std::int32_t prepares = 0;   // how often it began to prepare
-  bool touched = false;        // the prop, at all
-  bool aborted = false;        // it turns back before
-  SeenReach seen;              // what was told of it until they met
+  double speed = kUnset;       // m/s, speed of the finger when they meet
+  double miss = kUnset;        // m, along the surface: from the prop's middle to its ideal place
+  double impact = 0.0;         // N, along the normal: largest force within 50 ms after
+  double slide_error = 0.0;  // m: largest distance along the surface between prop and finger while it is held
+  std::int32_t contacts = 0;  // contacts counted by the core
+  std::int32_t prepares = 0;  // number of times that it began to prepare
+  bool touched = false;       // any contact with the prop
+  bool aborted = false;       // the finger turns back before the touch
+  SeenReach seen;             // pictures of the reach that the core received until the touch
 
   [[nodiscard]] double lead() const { return met - prepared; }
-  [[nodiscard]] double travel() const { return arrived - prepared; }  // unset: it did not get there
+  [[nodiscard]] double travel() const { return arrived - prepared; }  // unset: the prop did not get there
 };
 
 class ReachMeasure {
@@ -60,12 +60,12 @@ class ReachMeasure {
   sim::Phase phase_ = sim::Phase::wait;
   trial::FarWatch far_;
   Time newest_{};   // picture
-  trial::Way way_;  // of the prop since it was prepared
+  trial::Way way_;  // path of the prop since it was prepared
 };
 
 using Settings = std::vector<std::string>;
 
-// How the finger is seen: as by the vision of the paper, or at once and without noise.
+// Tracking of the finger: by the paper's vision, or without delay and noise.
 enum class Seen : std::uint8_t { vision, live };
 [[nodiscard]] Settings seen(Seen how);
 
@@ -73,33 +73,33 @@ struct ReachRun {
   std::string scene = "wall";
   Settings set;
   std::uint64_t seed = 1;
-  std::int64_t random = 0;  // so many random reaches instead of what the scene's user does
+  std::int64_t random = 0;  // number of random reaches that replace the scene's programme
 };
 struct ReachRan {
   std::vector<ReachOutcome> reaches;
   double far_speed = 0.0;                 // m/s
-  double simulated = 0.0, seconds = 0.0;  // s; seconds: of CPU
+  double simulated = 0.0, seconds = 0.0;  // s; seconds: CPU time
 };
-// All of them, on all cores.
+// Runs all of them, on all cores.
 [[nodiscard]] std::vector<ReachRan> run_all(const BenchContext& context, const std::vector<ReachRun>& runs);
 
-// In place of what the scene's user does, so many random reaches.
+// Replaces the programme of the scene's user by `count` random reaches.
 void reach_at_random(models::Setup& setup, std::int64_t count);
 // `count` random reaches.
 [[nodiscard]] ReachRun random_reaches(const std::string& scene, std::int64_t count, std::uint64_t seed);
-// At the wall: comes with an even speed until it touches, so and so often.
+// Reaches for the wall: the finger comes with a constant speed until it touches, `count` times.
 [[nodiscard]] ReachRun steady_reaches(double speed, double tilt_deg, int count, std::uint64_t seed);
-// Presses the wall and slides along it, there and back.
+// The finger presses the wall and slides along it, there and back.
 [[nodiscard]] ReachRun slide(double speed, int count, std::uint64_t seed);
 [[nodiscard]] ReachRun operator+(ReachRun run, const Settings& set);
 
 [[nodiscard]] std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran);
-// Of each: of the reaches that met the surface.
+// One value for each reach that met the surface.
 [[nodiscard]] std::vector<double> misses(const std::vector<ReachOutcome>& reaches);  // m
-// Of those that were felt.
+// One value for each reach with a rendered object.
 [[nodiscard]] std::vector<double> felts(const std::vector<ReachOutcome>& reaches, double ReachOutcome::*what);
 [[nodiscard]] std::vector<double> impacts(const std::vector<ReachOutcome>& reaches);  // N
-// Share of the reaches for which the prop was there in time.
+// Share of the reaches with the prop there in time.
 [[nodiscard]] double in_time(const std::vector<ReachOutcome>& reaches);
 
 }  // namespace enc::bench::reaching

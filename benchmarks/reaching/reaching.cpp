@@ -1,5 +1,5 @@
-// The encounter of a bare finger: whether the prop is there before the finger, how far beside it they meet,
-// and how hard [VisHap 2.2].
+// The encounter of a bare finger: whether the prop is there before the finger, the distance between prop and
+// touch, and the impact [VisHap 2.2].
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,11 +14,11 @@
 namespace enc::bench::reaching {
 namespace {
 
-// What a better finger, another filter and finer steps of the physics would give, and what they cost.
+// Gains and costs of a faster finger tracker, another filter and finer steps of the physics.
 
-constexpr int kEach = 10;  // for each of two tilts: 20 have a p95
+constexpr int kEach = 10;  // reaches for each of two tilts: 20 have a p95
 
-// Of a finger that comes obliquely with 200 mm/s, 20 and 40 degrees from the normal, p95, mm.
+// Misses of a finger that comes obliquely with 200 mm/s, 20 and 40 degrees from the normal, p95, mm.
 std::vector<double> misses_with(const BenchContext& context, const std::vector<Settings>& settings) {
   std::vector<ReachRun> runs;
   for (const Settings& set : settings)
@@ -52,8 +52,8 @@ void vision_part(const BenchContext& context, BenchResult& result) {
   result.plots.push_back(std::move(plot));
 }
 
-// The filter's one number: too small and it is late when the hand changes its speed, too large and it carries
-// on noise.
+// The filter's one number: if it is too small, the filter lags when the hand changes its speed; if too large,
+// it passes noise on.
 void filter_part(const BenchContext& context, BenchResult& result) {
   const std::vector<double> noise{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
   std::vector<Settings> settings;
@@ -87,7 +87,7 @@ struct Steps {
   std::vector<double> timestep_us;
 };
 
-// Same reaches, the physics stepped otherwise: error of the impact against fine steps, over the run time.
+// Equal reaches with other steps of the physics: error of the impact against fine steps, over the run time.
 void steps_part(const BenchContext& context, BenchResult& result) {
   const auto with = [&](const std::string& integrator, double us) {
     return steady_reaches(0.2, 20.0, kEach, context.seed) + seen(Seen::live) +
@@ -126,10 +126,10 @@ void steps_part(const BenchContext& context, BenchResult& result) {
   result.plots.push_back(std::move(plot));
 }
 
-// The far arm rests, whatever its friction is and however it sets in.
+// The remote arm stays at rest for every friction and onset.
 
-// Friction: none; what 0.04 N at the tip are [PHANToM sheet]; the estimate of the published model; twice
-// that. Its onset: as sharp as the time step allows, up to the constraint's own 20 ms.
+// Friction: zero; the equivalent of 0.04 N at the tip [PHANToM sheet]; the estimate of the published model;
+// twice that. Its onset: as sharp as the time step allows, up to the constraint's own 20 ms.
 struct Friction {
   double torque_Nm, time_ms, timestep_us;
 };
@@ -173,7 +173,7 @@ const std::array<std::string, 2> kScenes{"wall", "keypad"};
 
 // Reaches for random places of both scenes in turn, by several people at once.
 std::vector<ReachRan> random_runs(const BenchContext& context, Seen how) {
-  // A thousand reaches at the wall, of a finger that vision sees.
+  // A thousand reaches for the wall by a finger that vision tracks.
   const int people = context.quick ? 1 : !context.full ? 5 : how == Seen::vision ? 100 : 25;
   const std::int64_t each = context.quick ? 8 : context.full ? 10 : 12;
   std::vector<ReachRun> runs;
@@ -223,13 +223,13 @@ void random_figures(Bench& bench, const std::vector<ReachRan>& ran, Seen how, bo
   }
 }
 
-// Whether the prop was there, beside what an ideal predictor could do with the same pictures and this arm
-// (ideal.h).
+// Share of the reaches with the prop in time, beside that of an ideal predictor with the same pictures and
+// this arm (ideal.h).
 void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   const BenchContext& context = bench.context;
-  constexpr double kSoon = 0.01;  // s: with it the ideal is best
+  constexpr double kSoon = 0.01;  // s: gives the best ideal predictor
   const models::Setup setup = load_scene(context, "wall");
-  const bool reach = setup.rig.tracker.foresight == Foresight::reach;  // the law that is in force
+  const bool reach = setup.rig.tracker.foresight == Foresight::reach;  // the scene's motion prediction
   const double acceleration = reach ? setup.rig.arm.reach_acceleration : setup.rig.arm.acceleration;
   IdealSpec spec;
   spec.hand = setup.twin.hand;
@@ -276,7 +276,7 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   bench.figure(
       "vision.of_ideal_percent.wall", reached > 0.0 ? 100.0 * ours / reached : kUnset, "%",
       fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches", 100.0 * ours / counts));
-  // Of a thousand; of fewer it is drawn.
+  // Judged with a thousand reaches; fewer are only drawn.
   bench.figure("vision.of_carried_percent.wall", carried > 0.0 ? 100.0 * ours / carried : kUnset, "%",
                at_least(context.full ? 90.0 : kUnset), "the same, of that ideal with an arm");
 }
@@ -290,7 +290,7 @@ void random_part(Bench& bench) {
       far = std::max(far, one.far_speed);
       bench.result.simulated += one.simulated;
     }
-    // By a quarter less than is measured: of 60 reaches, which are drawn.
+    // The bound is a quarter below the measured value for 60 random reaches.
     bench.figure(key_of(how) + "lead_percent", 100.0 * in_time(joined(ran)), "%",
                  at_least(context.quick       ? kUnset
                           : how == Seen::live ? 95.0
@@ -340,7 +340,7 @@ Speeds steady(const BenchContext& context, BenchResult& result, Seen how) {
       runs.push_back(steady_reaches(v, tilt,
                                     context.quick  ? 1
                                     : context.full ? 12
-                                                   : 7,  // of three tilts: 21 have a p95
+                                                   : 7,  // reaches for each of three tilts: 21 have a p95
                                     context.seed) +
                      seen(how));
   const std::vector<ReachRan> ran = run_all(context, runs);
@@ -441,14 +441,15 @@ void slide_part(Bench& bench) {
   bench.result.plots.push_back(std::move(plot));
 }
 
-// By `--full`: what the finger's rate and latency, the filter's noise and the physics' steps cost and give.
+// Run by `--full`: costs and gains of the finger's rate and latency, the filter's noise and the physics'
+// steps.
 void add_reaching_full(const BenchContext& context, BenchResult& result) {
   vision_part(context, result);
   filter_part(context, result);
   steps_part(context, result);
 }
 
-// How still the far tip is, over the friction of the joints.
+// Motion of the remote tip at rest, over the friction of the joints.
 void add_rest(Bench& bench) {
   const BenchContext& context = bench.context;
   const std::vector<Friction> all = frictions(context);

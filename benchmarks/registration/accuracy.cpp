@@ -11,7 +11,7 @@
 namespace enc::bench::registration {
 namespace {
 
-// What one seed gives for every combination.
+// Results of one seed for every combination.
 struct OneSeed {
   std::vector<models::Registration> found;
   std::vector<double> seconds;

@@ -1,6 +1,6 @@
-// How good a registration is, over many seeds of camera noise and over the number of pairs and of frames of
-// each: the places are visited once, with the most of both, the camera sees them anew for each seed, and
-// fewer are taken from their beginning.
+// Accuracy of a registration over many seeds of camera noise, and over the number of pairs and of frames of
+// each. The arm visits the places once, with the most of both. The camera sees them anew for each seed, and
+// smaller numbers use the first ones.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace enc::bench::registration {
 struct Accuracy {
   std::size_t pairs = 8, frames = 20;
   std::vector<Vec3> residual;        // mean |error| left over at the pairs
-  std::vector<Vec3> held_out;        // mean |error| of the registration itself at the targets
-  std::vector<Vec3> position;        // |error| of the camera's own place
+  std::vector<Vec3> held_out;        // mean |error| of the registration at the targets
+  std::vector<Vec3> position;        // |error| of the camera's position
   std::vector<double> turn;          // rad
   std::vector<double> scale;         // camera's size over the device's
-  std::vector<double> square;        // at each target, mean over seeds, m^2
+  std::vector<double> square;        // m^2, at each target, mean over seeds
   double seconds = kUnset;           // of experiment
   [[nodiscard]] double rms() const;  // over targets and seeds, m
   [[nodiscard]] double rms_at(std::size_t from, std::size_t to) const;  // of some targets
@@ -31,15 +31,15 @@ struct AccuracyStudy {
   std::size_t seeds = 200;
   std::uint64_t first_seed = 1;
 };
-// In the order of pairs, then frames. visits: of the first places, in their order, with as many frames as are
-// studied.
+// Results in the order of pairs, then frames. visits: the first places, in their order, with as many frames
+// as are studied.
 [[nodiscard]] std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig,
                                                  const trial::RegistrationPlaces& places,
                                                  const std::vector<trial::TipVisit>& visits,
                                                  const AccuracyStudy& study,
                                                  const std::function<void(double)>& progress = {});
 
-// Largest of random transforms' errors, without noise: position in m and rotation (of its matrix).
+// Largest errors over random transforms, without noise: position in m and rotation (of its matrix).
 [[nodiscard]] double exact_error(std::size_t count, std::uint64_t seed);
 
 }  // namespace enc::bench::registration

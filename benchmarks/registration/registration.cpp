@@ -1,5 +1,5 @@
-// Registration of camera and arm [VisHap 2.2]: pairs of places, each an average of frames; what is left over
-// at them, what the registration is wrong by elsewhere, and how both fall with pairs and frames.
+// Registration of camera and arm [VisHap 2.2]: pairs of places, each an average of frames. Measures the
+// residual at the pairs, the error elsewhere, and the decrease of both with pairs and frames.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,14 +35,14 @@ std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
   return worst;
 }
 
-// Of the list in which pairs and frames are each of the given ones.
+// The entry of the list with these numbers of pairs and frames.
 const Accuracy& accuracy_of(const std::vector<Accuracy>& all, std::size_t pairs, std::size_t frames) {
   return *std::find_if(all.begin(), all.end(),
                        [&](const Accuracy& one) { return one.pairs == pairs && one.frames == frames; });
 }
 
 void add_point(Series& to, double x, const std::vector<double>& values) {
-  // Of too few seeds for a band of 95 % the least and the most.
+  // Too few seeds for a band of 95 % give the least and the most.
   const double out = models::has_percentile(values.size(), 0.975) ? 0.025 : 0.0;
   to.add(x, Value(median(values), percentile(values, out), percentile(values, 1.0 - out)) * kMmPerM);
 }
@@ -59,7 +59,7 @@ Plot axes_plot(const std::vector<Accuracy>& all, double paper) {
     const char* name;
     std::size_t frames;
     std::vector<Vec3> Accuracy::*what;
-    double shift;  // so that they stand side by side
+    double shift;  // sideways, so that the points stand side by side
   };
   for (const Kind& kind : {Kind{"20 frames, left over at the pairs", 20, &Accuracy::residual, -0.15},
                            Kind{"20 frames, elsewhere", 20, &Accuracy::held_out, -0.05},
@@ -83,7 +83,7 @@ Plot axes_plot(const std::vector<Accuracy>& all, double paper) {
   return plot;
 }
 
-// Of the registration all over the volume. With bands, lines stand a little aside of each other.
+// Error of the registration over the whole volume. With bands, the lines are shifted a little sideways.
 Plot frames_plot(const char* id, const char* title, const char* x_label, const std::vector<Accuracy>& all,
                  double paper, bool bands, const std::function<double(const Accuracy&)>& x) {
   Plot plot{id, title, x_label, "mean |error| elsewhere, worst axis (mm)", false, true};
@@ -157,7 +157,7 @@ void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<
   result.plots.push_back(std::move(cpu));
 }
 
-constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (sources/tracking 9)
+constexpr std::size_t kPairs = 8, kFrames = 20;  // used by the figures (sources/tracking 9)
 
 const std::vector<std::size_t> kPairCounts{4, 5, 6, 8, 12, 16, 20};
 const std::vector<std::size_t> kFrameCounts{1, 5, 20, 100};
@@ -174,7 +174,7 @@ struct Bounds {
   Role role = Role::ours;
 };
 
-// Median over seeds; least and most; in the note what 97.5 % of them stay below.
+// Median over seeds; least and most; the note has the 97.5 % quantile.
 void add_axes(const std::string& name, const std::vector<Vec3>& errors, const Bounds& bounds,
               const std::string& note, BenchResult& result) {
   for (std::size_t a = 0; a < 3; ++a) {
@@ -242,7 +242,7 @@ std::vector<trial::TipVisit> visits_of(const trial::RegistrationRig& rig,
   return trial::visit_places(arm, places.visited, rig.camera.rate, frames);
 }
 
-// The same through the twin: the arm is driven there once, and the camera sees that with each seed.
+// The registration in the twin: the arm visits the places once, and the camera sees them anew with each seed.
 void add_driven(const models::Setup& setup, const trial::RegistrationRig& rig, const AccuracyStudy& base,
                 double paper, BenchResult& result) {
   const trial::RegistrationPlaces places = trial::places_of(rig, kPairs);
@@ -261,7 +261,7 @@ void add_driven(const models::Setup& setup, const trial::RegistrationRig& rig, c
                             kUnset, kUnset, "of experiment, as driven"});
 }
 
-// Alone on one core, because it measures time.
+// Runs alone on one core, because it measures time.
 std::vector<RegistrationCost> costs_of(const trial::RegistrationRig& rig,
                                        const trial::RegistrationPlaces& places, std::uint64_t seed,
                                        bool quick) {
@@ -289,7 +289,7 @@ struct Variant {
   std::function<void(trial::RegistrationRig&)> change;
 };
 
-// What the answer depends on: noise that is assumed, and what is believed wrongly.
+// Sensitivity of the result: to the assumed noise, and to wrong assumptions.
 Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& base) {
   const auto noise = [](double sim::CameraTruth::*what, double value) {
     return [what, value](trial::RegistrationRig& r) { r.camera.*what = value; };

@@ -1,5 +1,5 @@
-// Registration of camera and arm through pictures [VisHap 2.2]: the arm is driven to eight places, a ball at
-// its tip is found in twenty noisy stereo pairs of each, and both are laid over each other.
+// Registration of camera and arm through pictures [VisHap 2.2]: the arm visits eight places, the detector
+// finds a ball at its tip in twenty noisy stereo pairs of each, and the registration aligns both sets.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,13 +27,13 @@ struct Asked {
   const models::Setup* setup = nullptr;
   const std::vector<trial::TipVisit>* visits = nullptr;
   const std::vector<Point<'W'>>* targets = nullptr;  // all over the volume in view
-  std::uint64_t seed = 1;                            // of scenery and noise
+  std::uint64_t seed = 1;                            // seed of scenery and noise
   int samples = 0;                                   // of a pixel
-  double rod = 0.0;  // m, radius of one from the tip to the arm's base, in the twin's picture; 0: none
+  double rod = 0.0;  // m, radius of a rod from the tip to the arm's base, in the twin's picture; 0: no rod
 };
 
-// The frames of a place: off the truth as the believed head would see it; px of column, row and disparity,
-// and m along C.
+// The frames of a place: errors against the truth in the assumed head; px of column, row and disparity, and m
+// along C.
 struct PlaceSeen {
   double depth = kUnset;  // m
   Vec3 bias_px{kUnset, kUnset, kUnset}, scatter_px{kUnset, kUnset, kUnset};
@@ -41,16 +41,16 @@ struct PlaceSeen {
 };
 
 struct Seen {
-  Vec3 left_over{kUnset, kUnset, kUnset};  // mean |error| at the pairs, m; NaN: too few places were seen
+  Vec3 left_over{kUnset, kUnset, kUnset};  // mean |error| at the pairs, m; NaN: too few places were detected
   Vec3 elsewhere{kUnset, kUnset, kUnset};  // all over the volume in view
   std::vector<PlaceSeen> places;
-  std::size_t frames = 0, found = 0, other = 0;  // other: more than 5 mm from where it is
-  std::vector<double> seconds;                   // CPU time of finding it in a pair
+  std::size_t frames = 0, found = 0, other = 0;  // other: more than 5 mm from the true place
+  std::vector<double> seconds;                   // CPU time of the detection in a pair
 };
 
 Pose<'W', 'C'> camera_pose(const models::Setup& setup) { return pose_of<'W', 'C'>(setup.twin.frames.W_C); }
 
-// Nothing moves at a place: it is drawn once, and each frame of it is exposed with noise of its own.
+// The arm is at rest at a place: it is drawn once, and each frame is exposed with its own noise.
 class StillEyes final : public trial::TipEyes {
  public:
   explicit StillEyes(const Asked& asked)
@@ -82,7 +82,7 @@ class StillEyes final : public trial::TipEyes {
     off_.push_back(last.centre.e() - truth.e());
     return last.centre;
   }
-  // What was seen at the place.
+  // Stores the detections at the place.
   void finish() {
     if (px_.size() > 1) {
       PlaceSeen place{depth_};
@@ -155,7 +155,7 @@ Seen registered(const Asked& asked) {
   return seen;
 }
 
-// A pair with the outline that was found, as a PNG.
+// A pair with the detected outline, as a PNG.
 std::string marked_pair(const Asked& asked) {
   StillEyes eyes(asked);
   eyes.see(asked.visits->front().frames.front());
@@ -330,7 +330,7 @@ Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, 
   return table;
 }
 
-// m: how far a tip moves at a place while its frames are taken.
+// m: largest motion of a tip at a place while its frames are taken.
 double most_motion(const std::vector<trial::TipVisit>& visits) {
   double most = 0.0;
   for (const trial::TipVisit& visit : visits)

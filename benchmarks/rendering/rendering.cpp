@@ -1,4 +1,4 @@
-// What a pair of the twin's images costs beside MuJoCo's own calls for the same room and hand.
+// Cost of a pair of the twin's images beside MuJoCo's own calls for the same room and hand.
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"

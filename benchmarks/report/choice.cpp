@@ -18,7 +18,7 @@ const Benchmark* named(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-// A benchmark that is named as a whole stays whole.
+// A benchmark that is named as a whole keeps all of its figures.
 void add(std::vector<Choice>& list, const Benchmark* benchmark, const std::string& id) {
   const auto same =
       std::find_if(list.begin(), list.end(), [&](const Choice& c) { return c.benchmark == benchmark; });

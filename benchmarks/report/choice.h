@@ -1,4 +1,4 @@
-// What the words after `bench` name: benchmarks, groups of them, figures or the beginnings of their ids.
+// Parses the words after `bench`: benchmarks, groups of them, figures or the beginnings of their ids.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace enc::bench {
 struct Group {
   const char* name;
   const char* what;
-  std::vector<std::string> members;  // those that are not there are passed over
+  std::vector<std::string> members;  // names that do not exist are skipped
 };
 [[nodiscard]] std::span<const Group> groups();
 
@@ -20,17 +20,18 @@ struct Choice {
   const Benchmark* benchmark;
   std::vector<std::string> ids;  // whole ids or their first tokens; empty: all figures
 };
-// In the order named, each benchmark once; no words: all. Throws Error for a word that names nothing here.
+// Result in the order named, each benchmark once; no words: all. Throws Error for an unknown word.
 [[nodiscard]] std::vector<Choice> chosen(const std::vector<std::string>& words);
-// For --set: those with a scene or a rig in the folder `models`. One without, which --set could not change,
-// is refused where it was named (throws Error) and left out of all; `left` has their names.
+// Filters for --set: keeps the benchmarks with a scene or a rig in the folder `models`. A benchmark without
+// one, which --set could not change, is refused if it was named (throws Error), else left out; `left` has the
+// names left out.
 [[nodiscard]] std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
                                            std::vector<std::string>& left);
-// For --rig: those that can be measured over devices, likewise; the others are left out of all without a
-// word.
+// Filters for --rig: keeps the benchmarks that can run over devices. Another one is refused if it was named,
+// else left out silently.
 [[nodiscard]] std::vector<Choice> over_devices(std::vector<Choice> choices, bool named);
 [[nodiscard]] bool wanted(const Choice& choice, const Figure& figure);
-// Only a run knows the ids. Throws Error, with the nearest one, where an id was named that there is not.
+// Checks ids after a run, because only a run has them. Throws Error, with the nearest id, for an unknown id.
 void check_ids(const Choice& choice, const BenchResult& result);
 
 }  // namespace enc::bench

@@ -28,13 +28,14 @@ std::string first_complaint(const std::string& text) {
   return "it said nothing";
 }
 
-// Told apart also by the colour-blind [Okabe and Ito 2008]; the paper is black.
+// Colours that colour-blind readers can distinguish [Okabe and Ito 2008]; the paper is black.
 constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5195"};
-constexpr std::array kFields{"#BFE0EE", "#F2DC8C", "#CC6677", "#DDDDDD"};  // of maps, lines go over them
+constexpr std::array kFields{"#BFE0EE", "#F2DC8C", "#CC6677", "#DDDDDD"};  // colours of map fields; lines are
+                                                                           // drawn over them
 constexpr std::array kPoints{7, 5, 9, 13, 11, 15, 3};  // gnuplot's numbers of filled shapes
-constexpr double kTop = 0.975;                         // where failures stand, as a share of the axis
+constexpr double kTop = 0.975;                         // place of failures, as a share of the axis
 
-// In gnuplot nothing is special between single quotes but the quote itself and the end of the line.
+// Single quotes protect everything in gnuplot but the quote itself and the end of the line.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -58,7 +59,7 @@ struct Limits {
     most = std::max(most, value);
     if (value > 0.0) least_positive = std::min(least_positive, value);
   }
-  // Something that an axis of either kind can show.
+  // Reports whether an axis of this kind has a value to show.
   [[nodiscard]] bool any(bool log) const { return log ? std::isfinite(least_positive) : least <= most; }
 };
 Limits limits_of(const Plot& plot, bool of_y) {
@@ -76,7 +77,7 @@ bool any_finite(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double y) { return std::isfinite(y); });
 }
 
-// How wide one bar is, and how far the bars of one x stand apart: all in the unit of x.
+// Width of one bar, and distance between the bars of one x: both in the unit of x.
 struct Bars {
   double width = 0.8;
   int count = 0;
@@ -97,8 +98,8 @@ struct Bars {
   [[nodiscard]] double offset(int bar) const { return (bar - 0.5 * (count - 1)) * width; }
 };
 
-// The data of a series. On a logarithmic axis what is not positive has no place: a value becomes a gap, the
-// lower end of an error bar the edge of the picture.
+// The data of a series. A logarithmic axis has no place for a value that is not positive: it becomes a gap;
+// the lower end of an error bar becomes the edge of the picture.
 std::string data_block(const Series& s, const Plot& plot, std::size_t index, double shift, double floor) {
   std::string text = fmt::format("$d{} << EOD\n", index);
   for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -115,7 +116,7 @@ std::string data_block(const Series& s, const Plot& plot, std::size_t index, dou
   return text + "EOD\n";
 }
 
-// Where a field of a map ends: half-way to the next one that there is.
+// Edges of the fields of a map: half-way to the next existing field.
 class Grid {
  public:
   Grid(const Plot& plot, bool of_y) : log_(of_y ? plot.log_y : plot.log_x) {
@@ -156,7 +157,7 @@ std::string field_block(const Series& s, const Grid& across, const Grid& up, std
 // The parts of gnuplot's one `plot` command.
 class Parts {
  public:
-  // `steady`: what has no data has its colour all the same.
+  // `steady`: a series without data still takes its colour.
   explicit Parts(bool steady = false) : steady_(steady) {}
   void add(const Series& s, std::size_t index) {
     if (s.mark == Mark::cells) {
@@ -212,14 +213,14 @@ class Parts {
   static Look paper() { return {"#000000", "(8,5)", 6, 1.6, 1.0}; }
   Look ours() {
     const std::size_t i = next_++;
-    // After three lines the dash tells, too.
+    // After three lines the dash also distinguishes the series.
     return {kColours[i % kColours.size()],
             i < 3        ? "solid"
             : i % 2 == 1 ? "(12,4)"
                          : "(12,4,3,4)",
             kPoints[i % kPoints.size()], 2.0, 0.7};
   }
-  // In the colour of the series before them, whose failures they are.
+  // Failures take the colour of the series before them, which they belong to.
   [[nodiscard]] std::string crosses(const Series& s) const {
     return fmt::format("1:{} with points lc rgb '{}' pt 2 ps 0.9 lw 2.2",
                        any_finite(s.y) ? "2" : fmt::format("({}) axes x1y2", kTop), look_.colour);
@@ -231,7 +232,7 @@ class Parts {
   bool steady_;
 };
 
-// Round numbers where an axis has few powers of ten: there 1, 2, 5, 10, ...
+// Round numbers on an axis with few powers of ten: 1, 2, 5, 10, ...
 std::string log_tics(const char* axis, double low, double high) {
   const bool plain = low >= 1e-5 && high <= 1e6;
   std::string text = fmt::format("set logscale {0}\nset format {0} {1}\n", axis, plain ? "'%g'" : "'1e%T'");
@@ -244,7 +245,7 @@ std::string log_tics(const char* axis, double low, double high) {
   return text + fmt::format("set format {} '%g'\nset {}tics ({})\n", axis, axis, tics);
 }
 
-// A little wider than the data; `above` is a share of the axis that is kept free at the upper end; a
+// A range a little wider than the data. `above` is a share of the axis that stays free at the upper end; a
 // logarithmic axis spans at least `ratio`.
 std::string axis_range(const char* axis, const Limits& limits, bool log, double above, double ratio) {
   if (!limits.any(log)) return fmt::format("set {}range [{}]\n", axis, log ? "0.1:1" : "0:1");
@@ -263,7 +264,7 @@ std::string axis_range(const char* axis, const Limits& limits, bool log, double 
          log_tics(axis, std::exp(low), std::exp(high));
 }
 
-// Bands first: they cover what is behind them.
+// Bands come first: they cover the series behind them.
 std::vector<std::size_t> drawing_order(const Plot& plot) {
   std::vector<std::size_t> order(plot.series.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -273,7 +274,7 @@ std::vector<std::size_t> drawing_order(const Plot& plot) {
   return order;
 }
 
-// Names under the axis that have no room side by side.
+// Reports whether the names under the axis lack room side by side.
 bool crowded(const Plot& plot) {
   std::size_t letters = 0;
   for (const std::string& name : plot.x_names) letters += name.size() + 2;
@@ -299,7 +300,7 @@ std::string axes(const Plot& plot, const Bars& bars) {
     x.see(x.most + 0.6 * bars.width * bars.count);
     y.see(0.0);  // the length of a bar is its value
   }
-  // Costs and errors that differ by little shall not look as if they differed by much.
+  // Costs and errors that differ by little must not appear to differ by much.
   const double ratio = plot.log_x && plot.log_y ? 4.0 : 1.0;
   std::string text = axis_range("x", x, plot.log_x, 0.0, ratio) +
                      axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0, ratio);
@@ -320,7 +321,7 @@ std::string axes(const Plot& plot, const Bars& bars) {
   return text;
 }
 
-// How many columns of the legend fit, px.
+// Number of columns of the legend that fit into `width`, px.
 std::size_t legend_columns(const Plot& plot, std::size_t width) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
@@ -337,7 +338,7 @@ std::string plot_head(std::size_t width, std::size_t height) {
          "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
 }
 
-// Axes of `whole` and the data of `plot`. `steady`: what has no data has its colour all the same.
+// Axes of `whole` and the data of `plot`. `steady`: a series without data still takes its colour.
 std::string plot_body(const Plot& plot, const Plot& whole, bool steady) {
   const Limits y = limits_of(plot, true);
   const Bars bars(plot);
@@ -358,9 +359,9 @@ std::string plot_body(const Plot& plot, const Plot& whole, bool steady) {
 // Several panels with the same axes and one legend under them.
 
 constexpr double kLeft = 78.0, kGap = 16.0, kRight = 14.0, kTitle = 28.0, kAbove = 34.0, kUnder = 92.0;  // px
-constexpr double kHigh = 225.0, kWide = 930.0;  // px: of a panel; of all
+constexpr double kHigh = 225.0, kWide = 930.0;  // px: height of a panel; width of all
 
-// With every series that any panel has, so that a name has its look in each.
+// Has every series that any panel has, so that a name has one look in all panels.
 Plot panel_of(const Plot& plot, std::size_t panel) {
   Plot one = plot;
   one.series.clear();
@@ -376,7 +377,7 @@ Plot panel_of(const Plot& plot, std::size_t panel) {
   return one;
 }
 
-// Outside of what is drawn: only the legend is seen of it.
+// The data lie outside the axes, so that only the legend is visible.
 Plot legend_of(const Plot& plot) {
   Plot legend = panel_of(plot, plot.panels.size());
   for (Series& s : legend.series) {
@@ -435,7 +436,7 @@ std::string panels_script(const Plot& plot) {
 }  // namespace
 
 Drawing draw(const Plot& plot) {
-  // -d: without what the user's own start-up file says.
+  // -d: ignores the user's own start-up file.
   Child child = run_child({"gnuplot", "-d", "-"}, plot_script(plot));
   if (!child.started) return {"", "gnuplot is missing (Debian: gnuplot-nox)"};
   if (child.code != 0 || child.out.find("</svg>") == std::string::npos)
@@ -461,7 +462,7 @@ std::string svg_for_page(const std::string& svg, const std::string& plot_id) {
   std::replace(prefix.begin(), prefix.end(), '.', '_');
   const std::string title = "<title>Gnuplot</title>";  // a page shows it under the pointer
   if (const std::size_t i = text.find(title); i != std::string::npos) text.erase(i, title.size());
-  // Where gnuplot defines a name of its own, and where it uses one.
+  // Renames each definition and each use of a name of gnuplot.
   for (const std::string found :
        {"='gp", "=\"gp", "=\"gnuplot", "='#gp", "=\"#gp", "(#gp", "='textbox", "='greybox"}) {
     const std::size_t name = found.find_last_of("'\"#") + 1;

@@ -20,7 +20,7 @@ struct Fact {
   std::string name, value;
 };
 
-// Text that Markdown shall not take for anything else.
+// Escapes text so that Markdown takes it literally.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -58,7 +58,7 @@ std::string markdown_picture(const Report& report, const Plot& plot) {
   return text + fmt::format("{} ([data]({}.plot.csv))\n", plain(plot.caption), plot.id);
 }
 
-// One page that needs nothing but itself: no script, no link out, pictures in it.
+// A self-contained page: no script, no external link, pictures inside it.
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en">
@@ -132,7 +132,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-// Also of a range.
+// Accepts a range, too.
 bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("+-0123456789.e ") == std::string::npos &&
          text.find_first_of("0123456789") != std::string::npos;
@@ -157,7 +157,7 @@ std::string html_table(const Table& t) {
 
 std::string cell(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : ""; }
 
-// What was measured. Without a value, the column "holds" says whether there should have been one.
+// The measured value. Without a value, the column "holds" says whether one was expected.
 std::string twin_cell(const Figure& f) {
   if (std::isnan(f.twin)) return "absent";
   return std::isfinite(f.twin) ? cell(f.twin) : "none";
@@ -208,7 +208,7 @@ std::string figures_line(const Report& report) {
                                               : "none out of bounds so far, but not all were measured");
 }
 
-// What the two forms of the report have in common. Columns with nothing in them are left out.
+// The part that both forms of the report share. Empty columns are left out.
 Table overview_table(const Report& report) {
   Table table{
       "overview",
@@ -252,7 +252,7 @@ std::vector<Fact> facts(const Report& report) {
   return list;
 }
 
-// What stands after the benchmarks, in order. Tables with nothing in them are left out.
+// The tables after the benchmarks, in order. Empty tables are left out.
 std::vector<Table> closing_tables(const Report& report) {
   const std::vector<Judged> all = judged(report.results, report.background.thresholds);
   std::vector<Table> tables{verdict_table(all), threshold_table(all),

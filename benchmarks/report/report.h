@@ -1,5 +1,5 @@
 // The report of a bench run: results.json (sources/choices 4), report.html, REPORT.md, and a CSV of every
-// table and plot. Complete after each benchmark, and says what is missing.
+// table and plot. It is complete after each benchmark, and lists the missing results.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace enc::bench {
 
-// What does not depend on the run: the paper's contradictions, what a person can tell, and what people were
-// asked.
+// The part that does not depend on the run: the paper's contradictions, perception thresholds, and the
+// questionnaire.
 struct Background {
   std::vector<Contradiction> contradictions;
   std::vector<Threshold> thresholds;
@@ -27,17 +27,17 @@ struct Report {
   std::string command;  // that made it
   std::uint64_t seed = 1;
   std::vector<std::string> set;      // the user's overrides
-  std::vector<std::string> missing;  // benchmarks that were asked for and have not ended
+  std::vector<std::string> missing;  // benchmarks that were requested and have not ended
   std::vector<BenchResult> results{};
   std::map<std::string, std::string> drawings{};  // SVG by plot id
-  std::string not_drawn{};                        // why a drawing is missing; empty: none is
+  std::string not_drawn{};                        // why a drawing is missing; empty: all are there
   Background background{};
   trial::WallTime started = trial::wall_time();
-  Plot verdict{};  // of the results so far; without names where nothing was judged
+  Plot verdict{};  // plot of the results so far; without names if no figure was judged
 };
 
 [[nodiscard]] const char* role_name(Role role);
-// Those first that have a value of the paper in them.
+// Plots with a value of the paper come first.
 [[nodiscard]] std::vector<const Plot*> ordered_plots(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);
 [[nodiscard]] Table role_table(const Report& report);
@@ -46,10 +46,10 @@ struct Report {
 [[nodiscard]] std::string report_markdown(const Report& report);
 [[nodiscard]] std::string report_html(const Report& report);
 
-// Draws the plots of a result, and the verdict with it, and moves it from what is missing to the results.
+// Draws the plots of a result and the verdict, and moves the result from the missing ones to the results.
 void add_result(Report& report, BenchResult result);
-// Every file whole or not at all (written aside, then renamed), so that a run that was killed leaves what was
-// complete. Throws Error where the folder cannot be written.
+// Writes every file whole or not at all (written aside, then renamed), so that a killed run leaves its
+// complete part. Throws Error if the folder cannot be written.
 void write_report(const std::string& folder, const Report& report);
 
 }  // namespace enc::bench

@@ -1,4 +1,4 @@
-// The files of a report, and results.json, which others read: keep its form (sources/choices 4).
+// The files of a report, and results.json, which other programs read: keep its form (sources/choices 4).
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -176,7 +176,8 @@ void write_report(const std::string& folder, const Report& report) {
   }
   write_whole(at / "REPORT.md", report_markdown(report));
   write_whole(at / "report.html", report_html(report));
-  write_whole(at / "results.json", results_json(report));  // last: who waits for it finds all the rest
+  write_whole(at / "results.json", results_json(report));  // last: a program that waits for it finds all
+                                                           // other files
 }
 
 }  // namespace enc::bench

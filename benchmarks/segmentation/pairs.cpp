@@ -50,7 +50,7 @@ class Scene {
   }
 
  private:
-  // Spares drawing what is sure to be too small.
+  // Skips drawing a hand that is certain to be too small.
   [[nodiscard]] bool palm_in_view() const {
     const Point<'C'> palm = shot_.pose.tip + Vec<'C'>(-kPalm * shot_.pose.along.e().normalized());
     const Lens& lens = rig_.left;
@@ -81,7 +81,7 @@ class Scene {
   Pair pair_;
 };
 
-// All methods, once each has learned a background.
+// All methods, after each has learned a background.
 class Judges {
  public:
   Judges(const Place& place, const std::vector<Image>& background) {

@@ -1,5 +1,5 @@
-// Backgrounds with and without a hand, drawn at random, how well each method tells its skin, and what a set
-// of pairs says about a method: means over pairs with their 95 % intervals.
+// Random backgrounds with and without a hand, the accuracy of each method's skin mask, and the statistics of
+// a method over a set of pairs: means with their 95 % intervals.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 namespace enc::bench::segmentation {
 
 inline constexpr int kWidth = 640, kHeight = 480;
-inline constexpr double kLeastHand = 0.15;  // of the frame's pixels are skin, else the hand is drawn anew
+inline constexpr double kLeastHand = 0.15;  // least share of skin pixels; a smaller hand is drawn anew
 
 enum Method : std::uint8_t { published, ours, mog2, knn, nothing };
 inline constexpr std::array<const char*, 5> kMethods{"the published method", "ours", "OpenCV MOG2 + inRange",
@@ -54,7 +54,7 @@ struct Judged {
 };
 [[nodiscard]] std::vector<Judged> judge(const Place& place);
 
-// What a segmenter learns from and is asked, kept.
+// The stored input of a segmenter: frames to learn from and frames to segment.
 struct Material {
   std::vector<Image> background;
   Image image;
@@ -75,11 +75,11 @@ struct Sequence {
 [[nodiscard]] HueRange range_of(const SkinModel& skin);  // as wide as SegmentationSpec's default
 
 using Mean = models::Interval;  // 95 %, by Student's t over the pairs
-// With the interval's ends; a share is nowhere below 0 or above 1, whatever t says of few pairs.
+// Value with the interval's ends, limited to 0 and 1, which Student's t may exceed with few pairs.
 [[nodiscard]] Value ends(const Mean& share);
 [[nodiscard]] inline Value in_percent(const Mean& share) { return ends(share) * 1e2; }
 [[nodiscard]] std::string interval_text(const Mean& share, int digits = 2);  // in percent: "99.8..100.0"
-// Of the pairs that a method saw.
+// Score over the pairs that a method processed.
 struct Score {
   std::size_t pairs = 0;
   Mean correct, false_positives, false_negatives, iou;  // shares
@@ -87,10 +87,10 @@ struct Score {
 using Filter = std::function<bool(const Judged&)>;
 [[nodiscard]] Score score(std::span<const Judged> pairs, Method method, const Filter& of = nullptr);
 
-// How far the means of two sets are apart, as a share of the 95 % interval of their difference.
+// Distance between the means of two sets, as a share of the 95 % interval of their difference.
 [[nodiscard]] double apart(const Mean& a, const Mean& b);
 
-// A line for each method that was there.
+// A line for each available method.
 void add_rows(Table& table, const std::string& row, std::span<const Judged> pairs,
               const Filter& of = nullptr);
 

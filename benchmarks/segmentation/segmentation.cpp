@@ -1,5 +1,5 @@
-// Which pixels are a bare hand? The published method beside the paper's figures, on pairs of its kind; where
-// it fails, and what ours and OpenCV's do there [VisHap 2.1.1, 3, Fig 2].
+// Segmentation of a bare hand: the published method beside the paper's figures on pairs of its kind; the
+// cases in which it fails, and the results of ours and OpenCV's there [VisHap 2.1.1, 3, Fig 2].
 #include <algorithm>
 #include <cstring>
 
@@ -21,7 +21,7 @@ constexpr std::array<double, 8> kMatch{0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.96};
 constexpr std::array<double, 8> kChange{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0};
 constexpr std::array<double, 6> kSkin{1.5, 2.0, 2.5, 3.0, 3.5, 4.0};
 const std::array<sim::Light, 4> kLights{{{}, {.gain = 0.8}, {.side = 0.3}, {.colour = {1.2F, 1.0F, 0.8F}}}};
-constexpr double kLeastRate = 1e-6;  // for a logarithmic axis
+constexpr double kLeastRate = 1e-6;  // lower bound for a logarithmic axis
 
 std::vector<RocPoint> points_of(const Place& like, SegmentationMethod method,
                                 std::span<const SegmentationPair> pairs) {
@@ -56,9 +56,9 @@ void plot(Bench& bench, const char* name, SegmentationMethod method, const std::
        .caption = "Three sceneries in four lights. Along a line the threshold of the foreground changes."});
 }
 
-// ROC over the two thresholds, on training seeds: where SegmentationSpec's defaults come from.
+// ROC over the two thresholds, on training seeds: the source of SegmentationSpec's defaults.
 
-// Of the three sceneries in turn, in four lights; `like` has camera and skin.
+// Judges the three sceneries in turn, in four lights; `like` has camera and skin.
 void judge_thresholds(Bench& bench, const Place& like) {
   std::vector<Place> places;
   for (std::size_t i = 0; i < 12; ++i) {
@@ -100,13 +100,13 @@ namespace s = enc::segmentation;
 
 constexpr std::size_t kRing = 16;  // frames of a camera's buffers: 15 MB, more than a core's caches keep
 
-// Work on one frame after the other of the ring.
+// Works on the frames of the ring one after the other.
 template <class Work>
 std::function<void()> on_ring(const Sequence& frames, Work work) {
   return [&frames, work, i = std::size_t{0}]() mutable { work(i++ % frames.left.size()); };
 }
 
-// Everything that a frame may go through.
+// All stages that a frame may pass through.
 struct Course {
   const Place& place;
   std::size_t rounds;
@@ -141,7 +141,7 @@ void beside_copy(Bench& bench, Course& course) {
              "the same with one frame again and again, which no camera gives: its copy stays in the caches");
 }
 
-// The same frames, the peer's mask judged by the same truth.
+// Runs OpenCV on these frames, its mask judged by the same truth.
 void beside_pipeline(Bench& bench, Course& course) {
   const auto peer = course.place.opencv->mog2(range_of(course.place.skin));
   for (const Image& image : course.frames.background) peer->learn(image.view());
@@ -169,7 +169,8 @@ void beside_pipeline(Bench& bench, Course& course) {
                            100.0 * (1.0 - other.correct())));
 }
 
-// Ours keeps the pixels of foreground tiles that have a hue, were every hue skin. Theirs tells the tiles.
+// Ours keeps the pixels of foreground tiles that have a hue, with every hue set to skin. The peer returns the
+// tiles.
 double unlike_tiles(Course& course, s::Tiles& tiles, TilePeer& peer) {
   const int side = course.spec.tile;
   const s::Grid grid{kWidth, kHeight, side};
@@ -224,7 +225,7 @@ void beside_parts(Bench& bench, Course& course) {
                          "skin is judged, too; from RGB both",
                          tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
 
-  std::vector<Mask> rough;  // what the filter is for: skin before it
+  std::vector<Mask> rough;  // masks before the filter, to show its effect
   for (std::size_t i = 0; i < kRing; ++i) {
     tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
     rough.push_back(course.found);
@@ -248,7 +249,7 @@ void beside_parts(Bench& bench, Course& course) {
                fmt::format("of {} that medianBlur filters to other bits", kRing));
 }
 
-// How long a frame takes, beside OpenCV and beside a copy of the frame.
+// Time of a frame, beside OpenCV and beside a copy of the frame.
 
 // A hand that moves in the light of the background, in `place`.
 void race(Bench& bench, const Place& place) {
@@ -272,14 +273,15 @@ constexpr std::array<sim::Light, 6> kOffice{{{.gain = 0.8, .side = 0.0},
 constexpr std::size_t kChanged = kOffice.size();
 constexpr int kTones = 4;  // fair to brown
 
-// What the paper does not have, one thing at a time.
+// Conditions that the paper does not have, one at a time.
 struct Row {
   const char *id, *title;
   sim::Scenery scenery = sim::Scenery::office;
   sim::Light light{};
-  std::optional<sim::Tone> tone{};  // none: fair to brown in turn
+  std::optional<sim::Tone> tone{};  // unset: fair to brown in turn
   double exposure = 1.0;
-  // Clips fair skin: judged by the mean over all tones, which a quick run has not, and not by its outline.
+  // Clips fair skin: judged by the mean over all tones, which a quick run does not have, and not by its
+  // outline.
   bool clips = false;
 };
 const std::array<Row, 11> kRows{{
@@ -310,7 +312,7 @@ const std::array<Row, 11> kRows{{
 
 sim::Tone tone_of(std::size_t i) { return static_cast<sim::Tone>(i % kTones); }
 
-// So many pairs of the paper's kind, each of a scenery of its own; the last 6 (quick: 1) in changed light.
+// Pairs of the paper's kind, each with its own scenery; the last 6 (quick: 1) in changed light.
 std::vector<Place> of_the_paper(const Place& like, std::uint64_t seed, std::size_t pairs) {
   std::vector<Place> places;
   const std::size_t changed = pairs < 4 * kChanged ? pairs / 4 : kChanged;
@@ -326,7 +328,7 @@ std::vector<Place> of_the_paper(const Place& like, std::uint64_t seed, std::size
   return places;
 }
 
-// All rows, each of so many places; what differs in light and skin alone shares them.
+// All rows with `count` places each; rows that differ in light and skin alone share places.
 std::vector<Place> of_rows(const Place& like, std::uint64_t seed, std::size_t count) {
   std::vector<Place> places;
   for (std::size_t i = 0; i < count; ++i)
@@ -411,7 +413,7 @@ void judge_rows(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
   }
 }
 
-// Seeds that nobody looked at while this was built: the same but for chance.
+// Seeds that were not used during development: the results must be equal but for chance.
 void judge_never_seen(Bench& bench, Table& table, const std::vector<Judged>& seen,
                       const std::vector<Judged>& fresh) {
   add_rows(table, "office, seeds never looked at", fresh);
@@ -435,7 +437,7 @@ void judge_never_seen(Bench& bench, Table& table, const std::vector<Judged>& see
   }
 }
 
-// Half as wide and high.
+// Half the width and height.
 Image smaller(const Image& image) {
   Image half(image.width / 2, image.height / 2);
   const ImageView from = image.view();

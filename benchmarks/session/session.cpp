@@ -1,5 +1,5 @@
-// A user's two minutes [VHMR 4.4], for many hands: is every press one contact, how well is it met, what does
-// the touch feel like, and what does a change of the tool do?
+// A user's two minutes [VHMR 4.4], for many hands: whether every press is one contact, the miss and the
+// impact of the touch, and the effect of a tool change.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,10 +18,10 @@
 namespace enc::bench::session {
 namespace {
 
-// A tick of the session that is drawn.
+// A tick of the drawn session.
 struct SessionSample {
   double t;           // s
-  double speed;       // of the tool's tip, m/s, true
+  double speed;       // speed of the tool's tip, m/s, true
   double deflection;  // m, true, of the haptic-tip below the undeformed surface
   Mode mode;
   sim::Phase phase;
@@ -67,7 +67,7 @@ Plot share_plot(const std::vector<SessionRun>& runs, const char* id, const char*
   return plot;
 }
 
-// Seen from above: the angle from straight up is the distance from the middle.
+// View from above: the angle from straight up is the distance from the middle.
 Plot places(const std::vector<SessionRun>& runs) {
   Plot plot{"session_places", "Where the ball is pressed", "towards +x (degrees from straight up)",
             "towards +y (degrees from straight up)"};
@@ -101,7 +101,7 @@ Plot timeline(const std::vector<SessionSample>& drawn) {
   for (std::size_t i = 0; i < drawn.size(); i += kEvery) {
     const SessionSample& s = drawn[i];
     for (Series* series : {&deflection, &mode, &tool}) series->x.push_back(s.t);
-    // On its way to another place the tip may be anywhere below the surface.
+    // The tip may be anywhere below the surface while it moves to another place.
     deflection.y.push_back(std::max(-0.5, s.deflection * 1e3));
     mode.y.push_back(-3.0 + 0.5 * static_cast<double>(s.mode));
     tool.y.push_back(-4.0 + 0.5 * s.shown);
@@ -223,7 +223,7 @@ class Figures {
     result_.figures.push_back(
         {"session." + id, kUnset, twin, unit, Role::ours, low, high, note, least, most});
   }
-  // `of` is NaN where a press has none of it.
+  // `of` is NaN if a press lacks the value.
   template <class Of>
   void distribution(const std::string& id, const char* unit, const std::string& note, Of of,
                     const std::vector<std::pair<const char*, double>>& shares);
@@ -347,7 +347,7 @@ void Figures::add_change() {
       first.least, first.most);
 }
 
-// A hand that does not drift: the path of the machine alone is compared.
+// A hand without drift, so that only the paths of the machine are compared.
 void add_precision(const BenchContext& context, BenchResult& result) {
   constexpr double kAccuracy = 20e-6;  // m rms: a fiftieth of the median miss
   constexpr double kTime = 8.0;        // s: a reach, a press, and the next reach
@@ -362,9 +362,9 @@ void add_precision(const BenchContext& context, BenchResult& result) {
   }
 }
 
-// The same hands among hard objects beside a soft one [VHMR 5: training], in one table with the session.
+// The session's hands among hard objects beside a soft one [VHMR 5: training], in one table with the session.
 void add_training(Bench& bench, const std::vector<SessionRun>& session) {
-  if (!bench.context.set.empty()) return;  // which are of the session's own objects
+  if (!bench.context.set.empty()) return;  // the settings address the session's own objects
   std::vector<std::string> set;
   if (bench.context.quick) set = {"user.session.duration_s=20"};
   const models::Setup setup = load_scene(bench.context, "training", set);

@@ -9,14 +9,14 @@ namespace enc::bench::session {
 namespace {
 
 constexpr double kImpactTime = 0.1;  // s from the first touch
-constexpr double kBounceTime = 0.2;  // s: later it is another touch
-constexpr double kLong = 0.02;       // s: shorter is a rattle of two hard tips
+constexpr double kBounceTime = 0.2;  // s: a later touch is a new touch
+constexpr double kLong = 0.02;       // s: a shorter loss is a rattle of two hard tips
 
 double time_of(const sim::Truth& truth) { return seconds(truth.t.time_since_epoch()); }
 
 }  // namespace
 
-// Each set-point against the speed, acceleration and reach that the machine promises.
+// Checks each set-point against the machine's limits of speed, acceleration and reach.
 void SessionMeasure::see_command(const trial::Glance& glance) {
   const Point<'R'> command = glance.out.tip.origin();
   if (command_.finite()) {
@@ -24,7 +24,7 @@ void SessionMeasure::see_command(const trial::Glance& glance) {
     const Vec3 velocity = (command - command_).e() / dt;
     const double acceleration = (velocity - command_velocity_).norm() / dt;
     const Reach& reach = glance.scene.reach;
-    constexpr double kRounding = 1e-6;  // of a difference of set-points
+    constexpr double kRounding = 1e-6;  // rounding of a difference of set-points
     const bool within = velocity.norm() <= reach.speed * (1.0 + kRounding) &&
                         acceleration <= reach.acceleration * (1.0 + kRounding) &&
                         reach.contains(glance.out.tip);
@@ -43,7 +43,7 @@ void SessionMeasure::see_touch(const trial::Glance& glance, SessionPress& press,
   const double now = time_of(truth);
   if (truth.touching && !touching_) {
     if (std::isnan(touched_at_)) touched_at_ = now;
-    const double lost = now - lost_at_;  // NaN before anything was
+    const double lost = now - lost_at_;  // NaN before the first loss
     if (lost <= kBounceTime) ++press.bounces;
     if (lost <= kBounceTime && lost >= kLong) ++press.long_bounces;
   }

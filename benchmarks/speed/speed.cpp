@@ -1,5 +1,5 @@
-// How fast is the twin? The core's tick, the whole loop against real time, and our stepping wrapper against
-// raw mj_step of the same model, paired and interleaved in one run.
+// Speed of the twin: the core's tick, the whole loop against real time, and our stepping wrapper against raw
+// mj_step of the same model, paired and interleaved in one run.
 #include <algorithm>
 
 #include "benchmarks/kit/cost.h"
@@ -10,8 +10,8 @@
 namespace enc::bench::speed {
 namespace {
 
-// Our step against raw mj_step, and raw twice more, each from the state in which the physics is now: every
-// chunk does the same work.
+// Our step against raw mj_step, and raw twice more, each from the present state of the physics: every chunk
+// does equal work.
 Race wrapper_and_raw(sim::Physics& physics, std::size_t rounds) {
   const auto chunk = [&physics, from = physics.save()](auto step) {
     return [&physics, from, step] {

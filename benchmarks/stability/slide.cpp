@@ -22,7 +22,7 @@ mjsBody* body_of(mjsBody* parent, double mass) {
   return body;
 }
 
-// A mass on a slide; the hand is a body that is rigidly on it.
+// A mass on a slide; the hand is a body fixed rigidly to it.
 sim::SpecPtr spec_of(const Device& device, const Stepping& stepping) {
   sim::install_mujoco_handlers();
   sim::SpecPtr spec(mj_makeSpec());
@@ -45,7 +45,7 @@ sim::SpecPtr spec_of(const Device& device, const Stepping& stepping) {
   return spec;
 }
 
-// s: some swings, and what a damper takes to creep to rest.
+// s: some swings, or the time in which a damper creeps to rest.
 double watched(const Device& device, const Wall& wall, double swings) {
   const double spring = wall.stiffness + device.hand_spring, mass = device.mass + device.hand_mass;
   const double damper = device.damping + device.hand_damping + wall.damper;
@@ -138,7 +138,7 @@ double critical(const Device& device, double damper, const Stepping& stepping, d
   double high = std::isnan(near) ? most : near * widen, at_high = grows(high);
   if (std::isnan(near) && at_high < 0.0) return kInfinite;
   while (at_high < 0.0) at_high = grows(high *= widen);
-  // Downwards: what grows is soon seen.
+  // Searches downwards, because growth shows quickly.
   double low = high / (widen * widen), at_low = grows(low);
   while (at_low >= 0.0) {
     high = low;
@@ -147,7 +147,7 @@ double critical(const Device& device, double damper, const Stepping& stepping, d
     at_low = grows(low /= widen);
   }
   for (double before = 0.0; high / low > kEnough;) {
-    const double share = std::clamp(at_low / (at_low - at_high), 0.02, 0.98);  // where a line is 0
+    const double share = std::clamp(at_low / (at_low - at_high), 0.02, 0.98);  // share at which a line is 0
     const double between = low * std::pow(high / low, share), at = grows(between);
     (at < 0.0 ? low : high) = between;
     (at < 0.0 ? at_low : at_high) = at;

@@ -1,5 +1,5 @@
-// Which walls are stable: the certificate's exact eigenvalues, bounds and release against a slide in MuJoCo
-// that is assembled apart (docs/reference/stability.md).
+// Stable walls: the certificate's exact eigenvalues, bounds and release against a slide in MuJoCo that is
+// written independently (docs/reference/stability.md).
 #include "benchmarks/stability/stability.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace enc::bench::stability {
 namespace {
 
-// What MuJoCo's integrators do to the boundary of a wall that is sampled [sources/twin 1].
+// Effect of MuJoCo's integrators on the boundary of a sampled wall [sources/twin 1].
 
 struct Stepped {
   Scheme scheme;
@@ -28,10 +28,10 @@ struct Stepped {
   double delay;  // s
 };
 struct Moved {
-  double factor = kUnset, expected = kUnset;  // of the critical stiffness
+  double factor = kUnset, expected = kUnset;  // factors on the critical stiffness
 };
 
-// (T/2 + t_d)/(T/2 + t_d - h/2) of the first-order ones: their place is that of half a step later.
+// (T/2 + t_d)/(T/2 + t_d - h/2) for the first-order integrators: their position is that of half a step later.
 Moved moved_by(const Stepped& s) {
   const Device device{0.1, 0.2, 1e-3, s.delay};
   const double exact = certificate::critical_stiffness(loop_of(device)), lag = 0.5e-3 + s.delay;
@@ -40,31 +40,31 @@ Moved moved_by(const Stepped& s) {
   return {simulated / exact, lag / std::max(0.0, lag - gained)};
 }
 
-// The certificate of every scene that ships, and what it costs (trial/certificates.h).
+// The certificate of every scene that ships, and its cost (trial/certificates.h).
 
 std::string in_mm(double per_metre) {
   return std::isfinite(per_metre) ? fmt::format("{:.4g}", 1e-3 * per_metre) : std::string();
 }
 
-// N/mm; nothing where the certificate has no such row.
+// N/mm; empty if the certificate has no such row.
 std::string told(const trial::Certified& one, const char* name, double certificate::Row::*of) {
   for (const certificate::Row& row : one.certificate.rows)
     if (row.name == name) return sign_of(row.side) + in_mm(row.*of);
   return {};
 }
 
-// Error against run time: what time step and integrator do to the critical stiffness, and what they cost.
+// Error against run time: the effect of time step and integrator on the critical stiffness, and their cost.
 
 constexpr std::array kStepCounts{1, 2, 5, 10, 20};  // of a period
 constexpr double kTimedPeriod = 1e-3;               // s
-constexpr int kTimedPeriods = 1000;                 // of a run that is timed
+constexpr int kTimedPeriods = 1000;                 // periods of a timed run
 
 struct Setting {
   Scheme scheme;
   int steps;
   double delay;                          // s
   double error = kUnset, cost = kUnset;  // %; s of CPU for each second
-  bool none = false;                     // stable for every stiffness: it failed
+  bool none = false;                     // stable for every stiffness: the run failed
 };
 
 Device timed_device(double delay) { return {0.1, 0.2, kTimedPeriod, delay}; }
@@ -80,14 +80,15 @@ Setting timed(Setting s) {
 
 using certificate::Rest;
 
-// A button that is pressed to its bottom, in MuJoCo, over stiffness, delay, period and grip: its force falls
-// at the trigger, so what is unstable hops between its branches.
+// A button that is pressed to its bottom, in MuJoCo, over stiffness, delay, period and grip. Its force falls
+// at the trigger, so an unstable button hops between its branches.
 
 constexpr double kTrigger = 2e-3, kFall = 0.5e-3, kBottom = 4e-3, kBelow = 2e-3;  // m, deep
-constexpr double kKeyAside = 1e-3;                                                // m, beside where it rests
-constexpr double kKeyStep = 1e-3;                                                 // s, RK4
+constexpr double kKeyAside = 1e-3;  // m, beside its place of rest
+constexpr double kKeyStep = 1e-3;   // s, RK4
 
-// N: resistance up to the trigger, half of it behind, a floor [VisHap Fig 4]; `floor`, N/m, is the stiffest.
+// N: resistance up to the trigger, half of it behind, a floor [VisHap Fig 4]; `floor`, N/m, is the stiffest
+// part.
 double key_pushes(double depth, double floor) {
   const double resist = floor * 2.0 / 3.0, after = floor / 3.0;
   if (depth <= 0.0) return 0.0;
@@ -103,7 +104,7 @@ struct KeyCell {
   Device device;
 };
 
-// A finger key_pushes with what holds it 2 mm below the bottom: that is x = 0.
+// A finger presses the key, with its grip 2 mm below the bottom: that is x = 0.
 Rest key_outcome(const KeyCell& cell) {
   const int steps = static_cast<int>(std::lround(cell.device.period / kKeyStep));
   Slide slide(cell.device, {}, {Scheme::rk4, steps}, kKeyAside);
@@ -127,12 +128,12 @@ Rest key_outcome(const KeyCell& cell) {
   return last < 0.01 * kKeyAside || last < 0.9 * before ? Rest::still : Rest::cycle;
 }
 
-constexpr double kMost = 1e6;  // N/m, from which down is looked
+constexpr double kMost = 1e6;  // N/m, start of the downward search
 
 struct Case {
   Device device;
   double damper = 0.0;
-  int steps = 1;  // the fewest that its delay allows
+  int steps = 1;  // the fewest steps that the delay allows
 };
 
 Device device_of(double damping, double delay_ms, double mass = 0.1, double period = 1e-3) {
@@ -163,7 +164,7 @@ std::vector<Case> cases() {
     for (const double delay : {0.5, 1.5}) all.push_back({device_of(0.2, delay), damper, 2});
     for (const double delay : {0.3, 2.7}) all.push_back({device_of(0.2, delay), damper, 10});
   }
-  // As much damping in the wall as in the device, up to a damper that stops it within the delay.
+  // Dampers of the wall: as much damping as the device, up to a damper that stops it within the delay.
   for (const auto& [mass, damping] : {std::pair{0.1, 0.2}, {0.1, 1.0}, {0.1, 5.0}})
     for (const double delay : {0.0, 1.0, 3.0, 10.0})
       all.push_back({device_of(damping, delay, mass), damping});
@@ -172,10 +173,10 @@ std::vector<Case> cases() {
 
 struct Found {
   double predicted = kUnset, formula = kUnset;
-  double at[3] = {kUnset, kUnset, kUnset};  // of 1, 2, 10 steps a period; unset: no whole number of them
+  double at[3] = {kUnset, kUnset, kUnset};  // at 1, 2, 10 steps a period; unset: no whole number of them
   double error = 0.0;                       // %, the largest
   int judged = 0;                           // of those steps
-  bool applies = false;                     // the formula, by the certificate
+  bool applies = false;                     // the certificate says whether the formula applies
 };
 constexpr int kSteps[] = {1, 2, 10};
 
@@ -216,14 +217,14 @@ void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<Fou
   bench.table(std::move(table));
 }
 
-// The formula against what was found, where its own condition holds and where it does not.
+// The formula against the result, with and without its own condition.
 void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<Found>& found) {
   double within = 0.0, late = 0.0, beyond = 0.0;
   int applied = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Device& d = all[i].device;
     if (d.hand_spring > 0.0) continue;
-    double simulated = kUnset;  // at the coarsest step that there is
+    double simulated = kUnset;  // result at the coarsest possible step
     for (const double k : found[i].at)
       if (std::isnan(simulated)) simulated = k;
     double& most = found[i].applies ? within : all[i].damper <= d.damping ? late : beyond;
@@ -255,7 +256,7 @@ void add_no_stiffness(Bench& bench) {
                exactly(0.0), "critical stiffness by the eigenvalues: none is stable");
 }
 
-// What a certificate costs: the law of an arm, filtered, rates of two ticks, with a hand.
+// Cost of a certificate: the law of an arm, filtered, rates of two ticks, with a hand.
 double seconds_of(double period, double delay_ms, int times, Yardstick& yardstick) {
   const Device device = held(device_of(0.0114, delay_ms, 0.075, period));
   certificate::SampledLoop loop = loop_of(device);
@@ -334,7 +335,9 @@ void add_button_map(Bench& bench) {
 void add_linear_cases(Bench& bench) {
   const bool quick = bench.context.quick;
   std::vector<Case> all = cases();
-  if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // no step of T/10 then
+  if (quick)
+    std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // a step of T/10 is then
+                                                                      // impossible
   const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
   double worst = 0.0, judged = 0.0;
   for (const Found& f : found) {
@@ -351,7 +354,7 @@ void add_linear_cases(Bench& bench) {
   add_table(bench, all, found);
 }
 
-// What each integrator does to the boundary.
+// Effect of each integrator on the boundary.
 void add_integrators(Bench& bench) {
   std::vector<Stepped> all;
   for (const Scheme scheme : kSchemes)

@@ -1,6 +1,5 @@
-// Parts of the benchmark `stability`: the certificate's predictions beside what MuJoCo does; and its maps:
-// what becomes of a disturbance over stiffness and delay, in small multiples, with the bounds drawn into
-// them.
+// Parts of the benchmark `stability`: the certificate's predictions beside MuJoCo's results; and its maps:
+// the outcome of a disturbance over stiffness and delay, in small multiples, with the bounds drawn in.
 #pragma once
 
 #include <array>
@@ -13,29 +12,30 @@
 
 namespace enc::bench::stability {
 
-// What the certificate is told of a device.
+// The certificate's input for a device.
 [[nodiscard]] certificate::SampledLoop loop_of(const Device& device);
 [[nodiscard]] certificate::Steps steps_of(const Device& device);
 
-// What MuJoCo does, in the certificate's words.
+// MuJoCo's outcome as a value of the certificate.
 [[nodiscard]] certificate::Rest same_as(Outcome outcome);
 
-// What was foretold of places, beside what became of them. What either does not know is not foretold.
+// Predictions beside outcomes. A place counts as predicted only if both are known.
 struct Agreement {
-  double places = 0.0, rest = 0.0, same = 0.0;  // rest: whether it rests; same: limit cycles told apart, too
+  double places = 0.0, rest = 0.0, same = 0.0;  // rest: predicts whether it rests; same: also distinguishes
+                                                // limit cycles
   void see(certificate::Rest told, certificate::Rest seen);
 };
 
-// The larger of two; NaN where one is.
+// The larger of two; NaN if one of them is.
 [[nodiscard]] double worse(double a, double b);
-void add_passivity(Bench& bench);  // what a wall gives out, with the core's controller in its loop
-void add_spare(Bench& bench);      // the same of the hexapod, in the twin
-void add_regions(Bench& bench);    // with friction and counts: damping x delay, and a map
+void add_passivity(Bench& bench);  // energy output of a wall with the core's controller in its loop
+void add_spare(Bench& bench);      // energy output of the hexapod in the twin
+void add_regions(Bench& bench);    // regions with friction and counts: damping x delay, and a map
 
 inline constexpr std::array kDelays{0.0, 0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3};  // s
 inline constexpr double kSoftest = 1e-2, kHardest = 1e6;                                          // N/m
 
-// Who holds it. A finger and a pen's grip [sources/hand 1]; `firm` is one that is clenched.
+// The operator model: a finger and a pen's grip [sources/hand 1]; `firm` is a clenched pen.
 struct Grip {
   const char* name;
   certificate::Hand hand;
@@ -44,16 +44,16 @@ inline const std::array<Grip, 3> kGrips{Grip{"nobody", {}}, Grip{"a fingertip", 
                                         Grip{"a firm grip", {0.15, 10.0, 2000.0}}};
 [[nodiscard]] Device held_by(Device device, const Grip& grip);
 
-// Of certificate::Rest, in its order.
+// Words for certificate::Rest, in its order.
 inline constexpr std::array kRestWords{"rests", "limit cycle", "runs away", "not known"};
 [[nodiscard]] inline const char* words_of(certificate::Rest rest) {
   return kRestWords[static_cast<std::size_t>(rest)];
 }
 
-// Even steps of a logarithm: half decades, decades where it has to be quick, quarters of them in full.
+// Even logarithmic steps: half decades; decades in a quick run, quarters of them in a full one.
 [[nodiscard]] std::vector<double> stiffnesses(const BenchContext& context);
 
-// A plot of panels over the delays; what is outside of it is a gap.
+// A plot of panels over the delays; values outside it become gaps.
 class Map {
  public:
   Map(std::string id, std::string title, std::vector<std::string> panels, std::size_t columns);
@@ -74,11 +74,11 @@ struct Place {
 };
 [[nodiscard]] std::vector<Place> random_places(const BenchContext& context, std::size_t panels,
                                                std::size_t count, std::uint64_t stream);
-// N/m: about the boundary, up to 30 times softer and stiffer, where a wrong boundary shows; within the map.
+// N/m: near the boundary, up to 30 times softer and stiffer, to expose a wrong boundary; within the map.
 [[nodiscard]] double about(double boundary, double share);
 
 void add_wall_maps(Bench& bench);       // stiffness x delay x period x grip, and x damping of both
-void add_admittance_map(Bench& bench);  // of a machine that measures force
+void add_admittance_map(Bench& bench);  // map of a machine that measures force
 void add_widths(Bench& bench);          // softest to stiffest, beside published devices
 
 }  // namespace enc::bench::stability

@@ -1,4 +1,4 @@
-// Walls over stiffness, delay, period, damping and grip: foretold by the certificate's own release, spot
+// Walls over stiffness, delay, period, damping and grip: predicted by the certificate's own release, spot
 // checks by MuJoCo.
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ using certificate::Rest;
 
 struct Panel {
   std::string title;
-  Device device;  // its delay is that of the place
+  Device device;  // the delay comes from the place
   double damper = 0.0;
 };
 
@@ -62,14 +62,14 @@ Device late_device(const Panel& panel, std::size_t delay) {
 
 Rest foretold(const Panel& panel, std::size_t delay, double stiffness) {
   const Device device = late_device(panel, delay);
-  // Where friction holds what law and hand pull with it never moves, however long that is watched.
+  // A device that friction holds against law and hand never moves, however long it is watched.
   const double reads = kLetGo + 0.5 * device.count;
   if (stiffness * reads + device.hand_spring * kLetGo < device.friction) return Rest::still;
   return certificate::release(loop_of(device), steps_of(device), stiffness, panel.damper, kLetGo).rest;
 }
 
-// The lowest stiffness that is on the circle. A spring alone is stable below it, so no eigenvalue has to be
-// looked at: with 500 periods of delay that would take seconds.
+// The lowest stiffness on the circle. A spring alone is stable below it, so no eigenvalue is needed: with 500
+// periods of delay that would take seconds.
 double exact(const certificate::SampledLoop& loop, double damper, double dry) {
   const certificate::Damper fixed{damper, 0.0};
   if (damper > 0.0 && dry == 0.0) return certificate::critical_stiffness(loop, fixed);
@@ -157,11 +157,11 @@ std::vector<std::string> titles(const std::vector<Panel>& panels) {
   return all;
 }
 
-// With dry friction and encoder counts: does a device that is let go come to rest?
+// Friction and encoder counts: whether a released device comes to rest.
 
 constexpr Stepping kFine{Scheme::rk4, 10};
 
-// Rubs as much as a small arm does.
+// A device with the friction of a small arm.
 Device rubbed(double damping, double delay) {
   Device device{0.1, damping, 1e-3, delay};
   device.friction = 0.05;
@@ -187,15 +187,15 @@ Judged judge(const Cell& cell) {
 struct Grid {
   const char* name;
   double x0, stiffness, count;  // m, N/m, m
-  double least, most;           // N s/m, of the damping: about what the boundary has
+  double least, most;           // N s/m, damping: a range around that of the boundary
 };
-// One for each disturbance where it comes to rest for some; and one whose counts push more than friction
-// holds (K step > 2 f_c): what is called still there goes on by less than 1 % of the disturbance.
+// One grid for each disturbance that comes to rest for some of its cells. One with counts that push more than
+// friction holds (K step > 2 f_c): its `still` cells continue by less than 1 % of the disturbance.
 constexpr Grid kGrids[] = {{"0.1mm", certificate::kSmall, 3000.0, 30e-6, 0.25, 16.0},
                            {"1mm", certificate::kLarge, 1000.0, 30e-6, 0.02, 8.0},
                            {"counts", certificate::kLarge, 1000.0, 150e-6, 0.02, 8.0}};
 
-// Damping x delay at one stiffness, and which share of it is foretold.
+// Damping x delay at one stiffness, and the predicted share of it.
 void add_grid(Bench& bench, const Grid& grid) {
   std::vector<Cell> all;
   const int rows = bench.context.quick ? 7 : 12, columns = bench.context.quick ? 6 : 11;
@@ -230,7 +230,7 @@ void add_grid(Bench& bench, const Grid& grid) {
   bench.table(std::move(table));
 }
 
-// A device that has all there is: well damped, with coarse counts, 2 f_c/step = 267 N/m below 2 b/T = 2000.
+// A device with all effects: well damped, with coarse counts, 2 f_c/step = 267 N/m below 2 b/T = 2000.
 Device of_map(double delay) {
   Device device = rubbed(1.0, delay);
   device.friction = 0.02;
@@ -294,12 +294,12 @@ void add_map(Bench& bench) {
   bench.plot(std::move(plot));
 }
 
-// Z-width: from the softest to the stiffest that a device renders, by what it is stable with, beside what is
-// published of others.
+// Z-width: the softest to the stiffest object that a device renders stably, beside published values of other
+// devices.
 
 struct Width {
   std::string device, what, brief;
-  double low, high;  // N/mm; low 0: nothing is too soft
+  double low, high;  // N/mm; low 0: no lower limit
   std::string source;
   const char* kind;  // a series of the plot
 };
@@ -317,7 +317,7 @@ std::vector<Width> width_of_arm(const Bench& bench) {
           {device, "with the hand", "arm", 0.0, bound("exact_with_hand"), source, "with a hand"}};
 }
 
-// Stiff is no limit of it: up to the stiffest that is asked of any map it stands still.
+// No upper limit was found: it stands still up to the stiffest object of any map.
 std::vector<Width> width_of_hexapod(const Bench& bench) {
   const models::Setup setup = models::load(bench.context.models + "/scenes/stiffness.toml", {});
   const Steadiness loop(setup.rig);
@@ -356,8 +356,8 @@ std::vector<Width> published() {
 
 using certificate::Rest;
 
-// A machine that measures force: the stiffness of what it renders over dead time, period and grip. Foretold
-// by the large-signal loop of core/control/scene/steadiness.h, spot checks by the twin.
+// A machine that measures force: the rendered stiffness over dead time, period and grip. Predicted by the
+// large-signal loop of core/control/scene/steadiness.h, spot checks by the twin.
 
 struct Pushed {
   const char* name;
@@ -366,11 +366,11 @@ struct Pushed {
 constexpr std::array<Pushed, 3> kHands{
     {{"0.13 N/mm", 130.0, 2.0}, {"0.7 N/mm", 700.0, 4.0}, {"2 N/mm", 2000.0, 8.0}}};
 constexpr std::array kTicks{0.1e-3, 1e-3, 10e-3};  // s
-constexpr std::size_t kOwn = 1;                    // of these, that of the machine: the twin runs with it
+constexpr std::size_t kOwn = 1;                    // index of the machine's own value: the twin runs with it
 constexpr double kPushDepth = 15e-3, kPushForce = 30.0,
                  kPushLimit = 23e-3;  // m, N, m: of the scene `stiffness`
 constexpr double kAway = 20e-3;       // m, of the tip
-constexpr std::size_t kEnough = 60;   // places: of fewer, one or two beside the boundary are more than 5 %
+constexpr std::size_t kEnough = 60;   // places: with fewer, one or two beside the boundary are more than 5 %
 
 models::Setup pushed_setup(const BenchContext& context, const Pushed& hand, double period, double delay) {
   models::Setup setup =
@@ -396,7 +396,7 @@ Rest foretold(const models::Setup& setup, double stiffness) {
   return by_swing(loop.swing(spring, most, kPushLimit, Steadiness::kSlow), loop.still());
 }
 
-// The twin as the scene pushes it.
+// The twin with the scene's push.
 Rest pushed(const models::Setup& setup, double stiffness, std::uint64_t seed) {
   const Steadiness loop(setup.rig);
   const auto push = stiffness::push_once(stiffness::with_stiffness(setup, stiffness), seed);
@@ -491,7 +491,7 @@ void add_widths(Bench& bench) {
             .y_label = "stiffness (N/mm)",
             .log_y = true};
   const auto number = [](double k) { return std::isnan(k) ? std::string("-") : fmt::format("{:.3g}", k); };
-  constexpr double kEdge = 1e-3;  // N/mm: where an axis ends that has no 0
+  constexpr double kEdge = 1e-3;  // N/mm: end of an axis without a 0
   for (const Width& width : all) {
     const bool recalled = std::string_view(width.kind) == "from memory";
     table.add(width.device, width.what, number(width.low), number(width.high),

@@ -1,5 +1,5 @@
-// The passivity controller of the core in the loop of a wall, on the slide in MuJoCo: how much energy the
-// wall gives out, with and without it.
+// The core's passivity controller in the loop of a wall, on the slide in MuJoCo: the energy output of the
+// wall, with and without it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,10 +22,10 @@
 namespace enc::bench::stability {
 namespace {
 
-constexpr double kPeak = 8.5;  // N, of a PHANToM
+constexpr double kPeak = 8.5;  // N, limit of a PHANToM
 constexpr Stepping kTenths{Scheme::rk4, 10};
 
-// A wall that pushes outwards alone, as far as the machine can.
+// A wall that only pushes outwards, up to the machine's limit.
 struct Rendered {
   Device device;
   Wall wall;
@@ -44,7 +44,7 @@ class Loop {
     contact_ = 0.0;
     touching_ = false;
   }
-  // One period, under a hand's push. Outwards is +x.
+  // Runs one period, under a hand's push. Outwards is +x.
   void period(double hand) {
     const double apart = slide_.read() - surface(), moved = apart - before_, depth = std::max(0.0, -apart);
     before_ = apart;
@@ -60,7 +60,10 @@ class Loop {
   [[nodiscard]] bool touching() const { return touching_; }
   [[nodiscard]] const Slide& slide() const { return slide_; }
   [[nodiscard]] double contact() const { return contact_; }  // J, true, of the present or last one
-  [[nodiscard]] double given() const { return given_; }  // J, true: at any moment of any contact, the most
+  [[nodiscard]] double given() const {
+    return given_;
+  }  // J, true: largest output at any moment of any
+     // contact
 
  private:
   [[nodiscard]] double surface() const {
@@ -97,11 +100,11 @@ class Loop {
   std::int64_t periods_ = 0;
 };
 
-// Of many bounces.
+// Results of many bounces.
 struct Bounced {
-  double given = 0.0;   // J: that was out more than in, at any moment of a contact, the most
-  double kept = -1.0;   // J: at its end, the most
-  double parted = 0.0;  // speed at which it parts over that at which it met, mean
+  double given = 0.0;   // J: largest energy out less energy in, at any moment of a contact
+  double kept = -1.0;   // J: the largest at the end of a contact
+  double parted = 0.0;  // speed after the bounce over the speed before, mean
 };
 Bounced bounce(const Rendered& r, int times, double slowest, double fastest) {
   std::mt19937_64 draw(20);
@@ -111,7 +114,7 @@ Bounced bounce(const Rendered& r, int times, double slowest, double fastest) {
   for (int i = 0; i < times; ++i) {
     const double speed = slowest + (fastest - slowest) * even(draw);
     loop.throw_from(speed * r.device.period * even(draw), -speed);
-    const std::int64_t most = std::llround(1.0 / r.device.period);  // in a second it has parted
+    const std::int64_t most = std::llround(1.0 / r.device.period);  // a second is enough for the parting
     bool met = false;
     for (std::int64_t k = 0; k < most && !(met && !loop.touching()); ++k) {
       loop.period(0.0);
@@ -124,7 +127,7 @@ Bounced bounce(const Rendered& r, int times, double slowest, double fastest) {
   return all;
 }
 
-// Pressed against it by 1 N for so long: what it gave out in one contact, J, the most.
+// Presses against the wall with 1 N for `seconds`: largest energy output in one contact, J.
 double pressed(const Rendered& r, double seconds) {
   Loop loop(r);
   loop.throw_from(2e-3, 0.0);
@@ -132,7 +135,7 @@ double pressed(const Rendered& r, double seconds) {
   return loop.given();
 }
 
-// Three times what is passive, and what is stable.
+// Three times the passive limit, and the stable limit.
 double beyond(double damping) {
   const Device device{0.1, damping, 1e-3};
   return 3.0 * std::max(2.0 * damping / device.period, certificate::critical_stiffness(loop_of(device)));
@@ -159,8 +162,8 @@ Row measured(Row row, bool quick) {
   return row;
 }
 
-// By how much faster it parts from a wall that is held for a period than from one that goes along, %
-// [fidelity d1: 0.1 kg at 0.2 m/s, damping ratio 0.1].
+// Gain of speed at a wall that is held for a period against one that follows continuously, % [fidelity d1:
+// 0.1 kg at 0.2 m/s, damping ratio 0.1].
 double gained(double stiffness, bool controlled) {
   Rendered r{{0.1, 0.0, 1e-3}, {stiffness, 0.2 * std::sqrt(0.1 * stiffness)}, controlled, false};
   const double held = bounce(r, 200, 0.2, 0.2).parted;
@@ -190,16 +193,16 @@ void add_cost_of_control(Bench& bench) {
              kept == 0.0 ? "of a tick: nothing was pushed" : "of a tick, observer and controller");
 }
 
-// The passivity controller of the hexapod in the twin, where what it renders is softer than its loop bears:
-// what a hand gets out, by the truth of the twin; and what the controller costs at the shipped ball.
+// The passivity controller of the hexapod in the twin, with an object softer than its loop allows: the true
+// energy output to the hand, and the cost of the controller at the shipped ball.
 
-// A hand, and the one that the rig expects, N/m and N s/m.
+// A hand, and the hand that the rig expects, N/m and N s/m.
 struct SpareHand {
   double stiffness, damping, believed;
 };
 struct Pushes {
-  double out = 0.0;    // J: more than in, at any moment of a contact, true
-  double put = 0.0;    // J, the most that a contact held
+  double out = 0.0;    // J: energy out less energy in, largest at any moment of a contact, true
+  double put = 0.0;    // J, largest energy put into a contact
   double swing = 0.0;  // m, peak to peak, of the tip while it is held
   std::int64_t bounces = 0;
 };
@@ -256,7 +259,7 @@ struct SparePush {
   Pushes off{}, on{};
 };
 
-// What the shipped ball is felt like.
+// Results for the shipped ball.
 struct Ball {
   double press, release, in, out, acted;  // N, N, J, J, s
 };
@@ -288,8 +291,8 @@ void add_ball(Bench& bench) {
   bench.figure("spare.ball.acted", 1e3 * on.acted, "ms", "in which it held the tip back, of five presses");
 }
 
-// J that came out of a contact more than was put in, at any moment of it, the most of all: by forces and ways
-// of the truth, along its normal and across it.
+// J: energy out of a contact less energy in, largest at any moment of all contacts: from true forces and
+// paths, along the normal and across it.
 struct GivenOut {
   double along = 0.0, across = 0.0;
 };
