@@ -276,7 +276,7 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   bench.figure(
       "vision.of_ideal_percent.wall", reached > 0.0 ? 100.0 * ours / reached : kUnset, "%",
       fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches", 100.0 * ours / counts));
-  // Judged with a thousand reaches; fewer are only drawn.
+  // The bound applies only to a thousand reaches.
   bench.figure("vision.of_carried_percent.wall", carried > 0.0 ? 100.0 * ours / carried : kUnset, "%",
                at_least(context.full ? 90.0 : kUnset), "the same, of that ideal with an arm");
 }

@@ -39,11 +39,8 @@ class SessionMeasure {
   [[nodiscard]] std::vector<SessionPress> presses() const;
   [[nodiscard]] ToolChange change() const;
   [[nodiscard]] double tension() const { return presses_.greatest_tension(); }  // N
-  [[nodiscard]] std::int64_t beyond_machine() const {
-    return beyond_;
-  }                                                            // ticks with a command beyond the
-                                                               // machine's limits
-  [[nodiscard]] std::int64_t holds() const { return holds_; }  // ticks in hold
+  [[nodiscard]] std::int64_t beyond_machine() const { return beyond_; }         // ticks beyond its limits
+  [[nodiscard]] std::int64_t holds() const { return holds_; }                   // ticks in hold
   [[nodiscard]] std::uint32_t hold_reasons() const { return hold_reasons_; }
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
 

@@ -54,7 +54,7 @@ class Slide {
   double before_;                                          // m, the reading one period ago
   double force_;                                           // N, that acts
   double work_ = 0.0;                                      // J
-  std::deque<std::pair<std::int64_t, double>> under_way_;  // first step of each force, and N
+  std::deque<std::pair<std::int64_t, double>> under_way_;  // first step of each force; force, N
 };
 
 // 1/s: growth rate of a swing (above 0: it grows), without friction and counts, from the readings of the last

@@ -335,9 +335,7 @@ void add_button_map(Bench& bench) {
 void add_linear_cases(Bench& bench) {
   const bool quick = bench.context.quick;
   std::vector<Case> all = cases();
-  if (quick)
-    std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // a step of T/10 is then
-                                                                      // impossible
+  if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // T/10 is not possible
   const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
   double worst = 0.0, judged = 0.0;
   for (const Found& f : found) {

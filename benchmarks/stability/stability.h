@@ -35,7 +35,7 @@ void add_regions(Bench& bench);    // regions with friction and counts: damping 
 inline constexpr std::array kDelays{0.0, 0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3};  // s
 inline constexpr double kSoftest = 1e-2, kHardest = 1e6;                                          // N/m
 
-// The operator model: a finger and a pen's grip [sources/hand 1]; `firm` is a clenched pen.
+// The operator models: no hand, a finger, and a pen's grip [sources/hand 1]; `firm` is a clenched grip.
 struct Grip {
   const char* name;
   certificate::Hand hand;

@@ -62,7 +62,7 @@ class Loop {
   [[nodiscard]] double contact() const { return contact_; }  // J, true, of the present or last one
   [[nodiscard]] double given() const {
     return given_;
-  }  // J, true: largest output at any moment of any
+  }  // J, true: largest output of any contact
      // contact
 
  private:

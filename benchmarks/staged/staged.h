@@ -1,5 +1,5 @@
-// What the benchmarks of vision look at: hands before the twin's stereo head, drawn at random, and their
-// images for the report.
+// Input of the vision benchmarks: random hands before the twin's stereo head, and their images for the
+// report.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace enc::bench::staged {
 
-// Seeds of sceneries and hands. Skin is learned from the first, judged by the others; the last were looked at
-// by nobody while vision was built.
+// Seeds of sceneries and hands. Skin is learned from the first and judged by the others; the last were not
+// used while vision was built.
 inline constexpr std::uint64_t kTraining = 1000, kTest = 2000, kNeverSeen = 1'000'000'000;
 
-// Of the user's --seed: where the benchmark's sceneries begin. Throws Error for one that reaches those that
-// nobody looked at.
+// Start of the benchmark's sceneries, from the user's --seed. Throws Error for a seed that reaches those not
+// used while vision was built.
 [[nodiscard]] std::uint64_t test_seed(const BenchContext& context);
-// The module that draws. Throws Error where it is not built.
+// The module that draws. Throws Error if it was not built.
 [[nodiscard]] const sim::CameraModule& camera(const BenchContext& context);
 
 // A rectified head of a size, with the field of view of the default one.
@@ -32,16 +32,16 @@ struct Draw {
   double thin = 0.010, thick = 0.025;  // m, width of the finger
   double tilt = 0.6;                   // rad, the finger out of the image's plane, either way
 };
-// m, of the finger of one of so many persons: evenly from thin to thick, as Draw has them.
+// m, finger width of one of `persons`: evenly from thin to thick, as in Draw.
 [[nodiscard]] double finger_width(std::size_t person, std::size_t persons);
 struct Shot {
   sim::HandPose pose;
   sim::HandLook look;
 };
-// From all sides; the tip where both cameras see it, half a finger's length from the edges.
+// A hand from any side; both cameras see its tip, half a finger's length from the edges.
 [[nodiscard]] Shot drawn(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream);
 
-// Skin of all tones in the office, from training seeds; and of each alone, where asked for.
+// Skin of all tones in the office, from training seeds; and of each tone alone, if requested.
 [[nodiscard]] SkinModel learned_skin(const sim::CameraModule& camera, int width,
                                      std::vector<SkinModel>* by_tone = nullptr);
 
@@ -51,7 +51,7 @@ struct Pair {
   sim::PixelTruth truth;
 };
 
-// px: a tip that is found farther from the true one is another thing, not a tip found badly.
+// px: a detected tip farther from the true one counts as another object, not as an inaccurate tip.
 [[nodiscard]] double within_cap(const sim::PixelTruth& truth);
 
 // Images side by side, as the bytes of a PNG.

@@ -13,8 +13,8 @@
 namespace enc::bench::stiffness {
 namespace {
 
-// Shares of the hold, at its end: over which is averaged (a raised cosine weighs 2 s like 1 s), and in which
-// the tip must have come to rest.
+// Shares of the hold, at its end: the part that is averaged (a raised cosine weighs 2 s like 1 s), and the
+// part in which the tip must be at rest.
 constexpr double kSteady = 1.0 / 3.0, kWatched = 0.5;
 constexpr double kGravity = 9.80665;
 
@@ -22,20 +22,20 @@ std::span<const double> last(const std::vector<double>& signal, double share) {
   return std::span(signal).last(static_cast<std::size_t>(share * static_cast<double>(signal.size())));
 }
 
-// Signals of the hold. Displacements are from where the tip rests unloaded at the surface, m; forces press,
-// N. What needs the truth is empty where nobody knows it.
+// Signals of the hold. Displacements start where the tip rests unloaded at the surface, m; forces press, N.
+// Signals that need the ground truth are empty without it.
 struct Hold {
   std::vector<double> force, zero_error, displacement, true_displacement;
 };
 
 class Observer {
  public:
-  // `world`: where every device is its view; null: only what the core is told can be asked for.
+  // `world`: the true places of all devices; null: only the core's own data are available.
   Observer(const Scene& scene, const sim::World* world, const models::Setup& setup)
       : scene_(scene), world_(world), setup_(setup), at_(pushed_point(setup.scene, scene).at) {}
 
   [[nodiscard]] double true_displacement() const {
-    // Where the machine stands wrong, its rest is wrong by as much.
+    // An error of the machine's place shifts its place of rest equally.
     const Pose<'W', 'R'>& X_WR = world_->X_WR();
     const Vec3 rest = X_WR.q() * (scene_.X_WR.inverse() * rest_point()).e() + X_WR.p();
     return at_.normal.e().dot(rest - world_->truth().tip.e());
@@ -58,8 +58,8 @@ class Observer {
   [[nodiscard]] Point<'W'> rest_point() const {
     return at_.point - (scene_.tip_radius + stages::kSkin) * at_.normal;
   }
-  // By how much the force that the core has calculated is wrong: what the sensor reads unloaded, and weight
-  // that the core does not know, less what the core believes to be the zero.
+  // Error of the force that the core computes: the sensor's unloaded reading and weight unknown to the core,
+  // less the core's zero.
   [[nodiscard]] Vec<'W'> zero_error(const Pose<'W', 'H'>& X_WH, const State& state) const {
     const Pose<'W', 'F'> X_WF = X_WH * scene_.X_HF;
     const double unknown = setup_.twin.hexapod.mass - scene_.force.mass;
@@ -83,7 +83,7 @@ Push judged(const Hold& hold, double stiffness, double dt) {
   Push push;
   push.stiffness = stiffness;
   const auto steady = [&](const std::vector<double>& signal) { return last(signal, kSteady); };
-  if (hold.force.size() < 100) return push;  // a hold that is too short says nothing
+  if (hold.force.size() < 100) return push;  // a hold that is too short has no result
   const double x = steady_mean(steady(hold.displacement));
   push.force = steady_mean(steady(hold.force));
   push.measured = push.force / x;
@@ -219,7 +219,7 @@ bool StabilityMap::stable(std::int64_t point) {
 }
 
 double StabilityMap::lowest_stable(double guess) {
-  constexpr double kStiffest = 1e5;  // N/m: nobody pushes like that
+  constexpr double kStiffest = 1e5;  // N/m: no pusher is that stiff
   auto high = std::max<std::int64_t>(1, std::llround(guess / grid_));
   while (!stable(high)) {
     if (static_cast<double>(high) * grid_ > kStiffest) return std::numeric_limits<double>::infinity();
@@ -234,7 +234,7 @@ double StabilityMap::lowest_stable(double guess) {
     const std::int64_t middle = (low + high) / 2;
     (stable(middle) ? high : low) = middle;
   }
-  // "From there up": what was seen above must be stable as well.
+  // "From there up": the stiffnesses already tried above must be stable as well.
   for (const auto& [point, ways] : seen_)
     if (point > high && !stable(point)) high = point + 1;
   return static_cast<double>(low == 0 && high == 1 ? 0 : high) * grid_;

@@ -1,5 +1,5 @@
-// How faithfully is a stiffness rendered, and how soft may it be? [VHMR 2, Fig 3]: each point is a whole run
-// of core and twin, pushed from outside. Nothing here knows the answer: instability is seen in the motion.
+// Accuracy of a rendered stiffness, and its lower limit [VHMR 2, Fig 3]: each point is a whole run of core
+// and twin, pushed from outside. No result is computed from theory: instability shows in the motion.
 #include "benchmarks/stiffness/stiffness.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ const std::vector<std::string>& no_threshold_no_drift() {
   return kSet;
 }
 
-// The core does not know of the gripper's 0.51 kg (sources/hexapod 3).
+// The core does not compensate the gripper's 0.51 kg (sources/hexapod 3).
 const std::vector<std::string>& uncompensated_gripper() {
   static const std::vector<std::string> kSet{"rig.force.mass_kg=0.4"};
   return kSet;
@@ -66,7 +66,7 @@ std::vector<Switch> switches(const models::Setup& baseline) {
       {"gripper's inertia not compensated", uncompensated_gripper()}};
 }
 
-// What the text of the paper says about Fig 3.
+// Statements of the paper's text about Fig 3.
 struct PaperText {
   double softest, stiffest, within_from, within;  // N/mm, N/mm, N/mm, %
   std::size_t repeats;
@@ -80,10 +80,10 @@ PaperText paper_of(const std::string& models) {
           value("within_from_N_per_mm"), value("within_percent"), static_cast<std::size_t>(value("repeats"))};
 }
 
-// How much is done.
+// Size of the study.
 struct Extent {
   std::vector<double> levels, below;  // N/mm
-  std::size_t repeats, presses;       // at each level; for the boundary
+  std::size_t repeats, presses;       // pushes at each level; and for the boundary
   std::vector<std::string> set;
 };
 Extent extent_of(const BenchContext& context, const PaperText& paper) {
@@ -117,7 +117,7 @@ void add_error_figures(const std::vector<Level>& levels, const PaperText& paper,
       const bool bound =
           way.felt == &Push::measured && level.stiffness >= paper.within_from * kNewtonPerMillimetre * 0.999;
       const auto add = [&](const char* what, double value, double high) {
-        // The threshold was assumed such that the knee lies where the paper has it.
+        // The threshold was assumed so that the knee lies where the paper has it.
         const Role role = !bound ? Role::ours
                           : level.stiffness < paper.within_from * kNewtonPerMillimetre * 1.001
                               ? Role::calibrated
@@ -147,7 +147,7 @@ void add_slope(const std::vector<Level>& levels, const PaperText& paper, Bench& 
   add("load_error.slope", &Push::load, kUnset, "likewise, without the error of the force's zero");
 }
 
-// On all cores; push i of level j has the seed that belongs to the two alone.
+// On all cores; the seed of push i at level j depends on i and j alone.
 std::vector<Level> levels_of(const models::Setup& setup, const std::vector<double>& stiffnesses,
                              std::size_t pushes, std::uint64_t seed, const Progress& progress = {}) {
   std::vector<Level> levels;
@@ -163,8 +163,8 @@ std::vector<Level> levels_of(const models::Setup& setup, const std::vector<doubl
   return levels;
 }
 
-// Force error gone, the error is gone. Near the boundary the tip never quite rests, so that takes a long hold
-// and the mean of the repetitions.
+// Without the force error the stiffness error vanishes. Near the boundary the tip never quite rests, so that
+// takes a long hold and the mean of the repetitions.
 void add_no_threshold(const BenchContext& context, const Extent& extent, Bench& bench) {
   std::vector<std::string> variant = no_threshold_no_drift();
   if (!context.quick) variant.emplace_back("pusher.hold_s=30");
@@ -239,7 +239,7 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   result.simulated += map.simulated();
 }
 
-// Small signals and a stiff pusher: there the linear theory has to hold.
+// Small signals and a stiff pusher: the linear theory must hold there.
 void add_firm(const BenchContext& context, const Extent& extent, Bench& bench) {
   std::vector<std::string> variant = unlimited_acceleration();
   variant.emplace_back("truth.pusher.stiffness_N_per_mm=1");
@@ -360,10 +360,10 @@ void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
   result.tables.push_back(std::move(table));
 }
 
-// What explains Fig 3? Each effect is switched off alone; and the two explanations of the knee at 0.3 N/mm
-// stand beside each other [sources/hexapod 5].
+// Explanations of Fig 3: each effect is switched off alone; and the two explanations of the knee at 0.3 N/mm
+// are compared [sources/hexapod 5].
 
-// Both explanations of the knee at 0.3 N/mm beside each other, as figures and a table.
+// Both explanations of the knee at 0.3 N/mm, as figures and a table.
 void add_knee(const BenchContext& context, BenchResult& result) {
   Table table{"stiffness_knee",
               "Two explanations of the knee at 0.3 N/mm",
@@ -406,7 +406,7 @@ void add_knee(const BenchContext& context, BenchResult& result) {
   result.tables.push_back(std::move(table));
 }
 
-// Each effect switched off alone: what it does to the boundary and to the error.
+// Each effect switched off alone: its influence on the boundary and on the error.
 void add_switches(const BenchContext& context, const Progress& progress, BenchResult& result) {
   Table table{"stiffness_switches",
               "What each effect does",
@@ -436,7 +436,7 @@ void run(Bench& bench) {
   const BenchContext& given = bench.context;
   BenchResult& result = bench.result;
   BenchContext context = given;
-  context.seed = (given.seed - 1) * 10'000 + 1;  // each push has a seed of its own: seeds 1 and 2 share none
+  context.seed = (given.seed - 1) * 10'000 + 1;  // each push has its own seed: seeds 1 and 2 share none
   const PaperText paper = paper_of(context.models);
   const Extent extent = extent_of(context, paper);
   const double share = context.full ? 0.3 : 1.0;  // of the bar

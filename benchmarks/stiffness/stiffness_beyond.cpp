@@ -15,10 +15,10 @@
 namespace enc::bench::stiffness {
 namespace {
 
-// How soft an object this machine holds still: what `check` says beforehand (core/control/scene/steadiness.h)
-// against the twin, over hands, filters and machines.
+// The softest object that this machine holds still: the prediction of `check`
+// (core/control/scene/steadiness.h) against the twin, over hands, filters and machines.
 
-constexpr double kDepth = 0.015, kForce = 30.0;  // m, N: what `check` prints is for this push
+constexpr double kDepth = 0.015, kForce = 30.0;  // m, N: the push that `check` assumes
 constexpr double kWithin = 1.25;
 
 struct Hand {
@@ -30,8 +30,8 @@ struct Cell {
   bool limited;                      // in its acceleration
   double ramp;                       // s
   double said = kUnset;              // N/m
-  bool least = false;                // what is softer is not felt, so nothing is said of it
-  double there = 0.0, softer = 0.0;  // m, peak to peak, most: at what was said, and 25 % softer
+  bool least = false;                // softer objects are not rendered, so there is no prediction
+  double there = 0.0, softer = 0.0;  // m, peak to peak, largest: at the predicted stiffness, and 25 % softer
   double still = kUnset;             // m
 };
 
@@ -61,7 +61,7 @@ models::Setup setup_of(const BenchContext& context, const Cell& cell) {
   return push_setup(context.models, set);
 }
 
-// The widest swing over pushes of several depths, none of which check asks for but the deepest.
+// The widest swing over pushes of several depths; `check` assumes only the deepest.
 double widest(const BenchContext& context, models::Setup setup) {
   double way = 0.0;
   std::uint64_t seed = context.seed;
@@ -86,11 +86,12 @@ void judge(const BenchContext& context, Cell& cell) {
 
 using Words = std::vector<std::string>;
 
-// The controller, and the sensor that 3 mN ask for (docs/reference/model.md). The user's settings come after.
+// The controller, and the sensor that a threshold of 3 mN requires (docs/reference/model.md). The user's
+// settings come after.
 const Words kController{"rig.admittance.damping=observed", "rig.force.threshold_N=0",
                         "rig.force.contact_N=0.01",        "rig.force.tare=window",
                         "rig.contact.leave_time_ms=500",   "pusher.rest_s=4"};
-// The zero has drifted before the push, where re-taring can find it, and drifts less during it.
+// The zero has drifted before the push, where re-taring can correct it, and drifts less during it.
 const Words kSensor{"truth.force.oversampling=8", "truth.force.drift_ahead_s=3",
                     "truth.force.drift_N_per_sqrt_s=0.0003"};
 
@@ -125,8 +126,8 @@ struct Run {
   double settling = kUnset;  // s
 };
 
-// s from the end of the ramp until the deflection, averaged over 0.2 s, stays within 2 % of where it ends;
-// the whole hold where it does not come to rest.
+// s from the end of the ramp until the deflection, averaged over 0.2 s, stays within 2 % of its final value;
+// the whole hold if it does not come to rest.
 double settling_of(const PushTrace& trace, const PusherSpec& pusher, double dt) {
   const std::vector<double>& x = trace.deflection;
   const auto ticks = [&](double s) { return static_cast<std::size_t>(std::llround(s / dt)); };
@@ -165,7 +166,7 @@ struct Range {
   }
   [[nodiscard]] double worst() const { return std::max(std::abs(least), std::abs(most)); }
 };
-// Of the pushes at one stiffness.
+// Statistics of the pushes at one stiffness.
 struct BeyondLevel {
   double stiffness;
   Range error, load_error, settling, way;
@@ -194,7 +195,7 @@ Series series_of(const std::vector<BeyondLevel>& levels, const std::string& name
   return s;
 }
 
-// The lowest stiffness that is stable, with all looked at above it, N/m; infinite where none is.
+// The lowest stable stiffness, with all tested ones above it stable, N/m; infinite if there is none.
 double boundary_of(const std::vector<BeyondLevel>& levels) {
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = levels.size(); i-- > 0 && levels[i].way.most <= kWander;) lowest = levels[i].stiffness;
@@ -294,7 +295,7 @@ struct Course {
   std::vector<double> time, deflection, seen;  // s, mm, N/mm
 };
 
-// One push, every 10 ms: where the tip truly is, and the stiffness of the pusher that the core has seen.
+// One push, every 10 ms: the true tip, and the pusher stiffness that the core has estimated.
 Course course_of(const models::Setup& setup, std::uint64_t seed) {
   trial::Trial trial(setup, {.seed = seed, .seconds = push_time(setup)});
   const PressPoint at = pushed_point(setup.scene, trial.scene()).at;
@@ -309,7 +310,7 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
   return course;
 }
 
-// Both pushers on a very soft wall, with and without the damper; and what drives the damper.
+// Both pushers on a very soft wall, with and without the damper; and the signals that drive the damper.
 void add_courses(const BenchContext& context, const BeyondExtent& extent, BenchResult& result) {
   Plot motion{"stiffness_beyond_motion", "A push into a wall of 0.01 N/mm", "time, s", "deflection, mm"};
   Plot seen{"stiffness_beyond_seen", "What drives the damper: the pusher's stiffness, as seen in the swing",
@@ -335,7 +336,7 @@ void add_courses(const BenchContext& context, const BeyondExtent& extent, BenchR
   result.plots.push_back(std::move(seen));
 }
 
-// What the controller costs where the paper's needs no help: the tennis ball.
+// Cost of the controller at an object that needs no help, the paper's tennis ball.
 void add_price(const BenchContext& context, BenchResult& result) {
   Table table{"stiffness_beyond_elsewhere",
               "The tennis ball with and without the damper",

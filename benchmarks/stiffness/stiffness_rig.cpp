@@ -1,7 +1,7 @@
-// Fig 3 over the devices of a rig, real ones or fakes: force over displacement as the core is told them, as
-// the paper did it. What the twin of the same rig file says, without wires, with the same settings and seeds,
-// stands beside it. What the truth alone says is absent: of a real machine nobody knows it, and of fakes
-// another program.
+// Fig 3 over the devices of a rig, real ones or fakes: force over displacement from the core's inputs, as in
+// the paper. The twin of that rig file, in one process, with equal settings and seeds, stands beside it.
+// Figures that need the ground truth are absent: a real machine has none, and that of fakes is in another
+// program.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -31,7 +31,7 @@ struct RigLevel {
   [[nodiscard]] std::string name() const { return fmt::format("{:g}", stiffness / kNewtonPerMillimetre); }
 };
 
-// As a run with a real machine does, before anything moves.
+// Checks the certificate as a run with a real machine does, before any motion.
 std::string certificate_refuses(const models::Setup& setup) {
   if (!trial::slots_of(setup).machine) return {};
   for (const trial::Certified& one : trial::certificates_of(setup, trial::prepare_setup(setup)))
@@ -40,14 +40,15 @@ std::string certificate_refuses(const models::Setup& setup) {
 }
 
 RigLevel planned_level(const BenchContext& context, double stiffness) {
-  std::vector<std::string> own{"rig.force.tare=start"};  // as the paper did it
+  std::vector<std::string> own{"rig.force.tare=start"};  // as in the paper
   if (context.quick) own.emplace_back("pusher.hold_s=4");
   const OnRig any = on_rig(context, "stiffness", own);
   const SceneSpec& scene = any.setup.scene;
   std::vector<std::string> held{fmt::format("behaviour.{}.stiffness_N_per_mm={:g}",
                                             scene.behaviours[pushed_behaviour(scene)].name,
                                             stiffness / kNewtonPerMillimetre)};
-  // Unset, it is the first row of the certificate, which says more. A rig that sets it is not overruled.
+  // An unset value comes from the first row of the certificate, which is more exact. A value that the rig
+  // sets is kept.
   if (std::isnan(any.setup.rig.contact.softest)) held.emplace_back("rig.contact.softest_N_per_mm=0");
   RigLevel level{stiffness, on_rig(context, "stiffness", own, held)};
   level.refused = certificate_refuses(level.on.setup);
@@ -55,8 +56,8 @@ RigLevel planned_level(const BenchContext& context, double stiffness) {
   return level;
 }
 
-// Tells whoever pushes by hand what to do and when. The loop only says what time it is: a terminal may keep
-// whoever writes to it waiting.
+// Prompts a person who pushes by hand. The loop only passes the time on: a terminal may block the thread that
+// writes to it.
 class Prompter {
  public:
   Prompter(const PusherSpec& pusher, const std::string& level)
@@ -98,12 +99,12 @@ class Prompter {
   const PusherSpec pusher_;
   const std::string level_;
   std::atomic<PushPart> part_{PushPart::rest};
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last, because it uses the other members
 };
 
 void push_levels(Bench& bench, std::vector<RigLevel>& levels, std::size_t repeats) {
-  // On the wall clock the fakes' world begins before the loop does, and their pusher must not let go before
-  // its end.
+  // On the wall clock the fakes' world begins before the loop, and their pusher must not let go before the
+  // loop ends.
   constexpr double kLonger = 1.0;  // s
   const BenchContext& context = bench.context;
   const auto seed_of = [&](std::size_t level, std::size_t repeat) {
@@ -141,7 +142,7 @@ void push_levels(Bench& bench, std::vector<RigLevel>& levels, std::size_t repeat
   }
 }
 
-// Of all pushes; unset where one of them gave none.
+// Worst value over all pushes; unset if one of them has none.
 Value worst_of(const Level& level, double Push::*felt) {
   const Spread s = spread(level, felt);
   return std::isnan(s.mean) ? Value(kUnset) : Value(s.worst(), s.least, s.most);
@@ -153,7 +154,7 @@ double longest_of(const Level& level, double Push::*way) {
   return longest;
 }
 
-// What the paper says of Fig 3: from `from` N/mm up the error is within `within` %.
+// The paper's statement about Fig 3: from `from` N/mm up the error is within `within` %.
 struct PaperWords {
   double from, within;
 };
@@ -168,11 +169,10 @@ void add_level_figures(Bench& bench, const RigLevel& level, const PaperWords& pa
   }
   const double at = level.stiffness / kNewtonPerMillimetre;
   const bool within = at >= paper.from * 0.999;
-  // Of the fakes' truth the threshold of force was chosen such that this is so at the knee; of a real rig
-  // nothing.
+  // The fakes' threshold of force was chosen so that this holds at the knee; a real rig's was not.
   const bool chosen = bench.context.fakes && at < paper.from * 1.001;
   const double said = within ? paper.within : kUnset;
-  // As the twin's figure; on the wall clock two programs take the processor from each other.
+  // Bounds as in the twin; on the wall clock two programs compete for the processor.
   const Bounds bounds =
       within && bench.context.fakes && bench.context.lockstep ? at_most(paper.within) : Bounds{};
   bench.figure(

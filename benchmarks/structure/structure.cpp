@@ -1,5 +1,5 @@
-// The structural hexapod: does it sag, vibrate and converge as theory says, what does it cost, and what would
-// a closed loop of bodies and constraints cost instead?
+// The structural hexapod: sag, vibration and convergence against theory; its cost, and that of a closed loop
+// of bodies and constraints.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,12 +19,12 @@
 namespace enc::bench::structure {
 namespace {
 
-// The machine alone, legs and platform, for the benchmark `structure`: as tendons, which is what the twin
-// uses, and as a closed loop of bodies with `connect` constraints, which exists for comparison only.
+// The machine alone, legs and platform, for the benchmark `structure`: as tendons, as in the twin, and as a
+// closed loop of bodies with `connect` constraints, which exists for comparison only.
 
 enum class LegForm : std::uint8_t { tendon, connect };
 
-// How the servo moves H: 10 mm and 3 degrees at 1 Hz, slanted, from a sudden start.
+// The servo's motion of H: 10 mm and 3 degrees at 1 Hz, slanted, from a sudden start.
 struct LegCommand {
   Pose<'R', 'H'> pose;
   Vec<'R'> velocity, turning;
@@ -37,7 +37,7 @@ class LegModel {
   void step(const LegCommand& from, const LegCommand& to);  // one physics step
   void push(const Vec3& force);                             // on H, N, until the next call
   [[nodiscard]] Vec3 tip() const;                           // H in R, m
-  [[nodiscard]] double gap() const;                         // of the loops, m; 0 for tendons
+  [[nodiscard]] double gap() const;                         // m, opening of the loops; 0 for tendons
   // The natural frequencies of the equations of motion, by differences of qacc, ascending, Hz (tendons).
   [[nodiscard]] Hexapod::Lengths measured_modes();
   [[nodiscard]] const Hexapod& machine() const { return machine_; }
@@ -52,7 +52,7 @@ class LegModel {
 };
 
 constexpr double kBehind = 0.91;  // kg behind the sensor
-constexpr double kRod = 1e-4;     // kg, of half a leg in the closed loop: next to nothing
+constexpr double kRod = 1e-4;     // kg, of half a leg in the closed loop: negligible
 
 void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void set4(double* to, const Quat& q) {
@@ -99,7 +99,7 @@ void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
   set3(tie->data, machine.platform_joint(leg));
   tie->solref[0] = 0.001;  // s: as hard as a step of 0.5 ms allows
   tie->solimp[0] = tie->solimp[1] = 0.9999;
-  // The same spring and damper as the tendon's, on the slide, whose zero is the leg's length at zero.
+  // The tendon's spring and damper on the slide, whose zero is the leg's length at zero.
   auto* drive = mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));
   drive->trntype = mjTRN_JOINT;
   drive->biasprm[0] = drive->biasprm[1] * machine.zero_length();
@@ -155,7 +155,7 @@ void LegModel::step(const LegCommand& from, const LegCommand& to) {
 void LegModel::push(const Vec3& force) {
   mjData* d = physics_.data();
   std::fill_n(d->qfrc_applied, physics_.model()->nv, 0.0);
-  set3(d->qfrc_applied + dof_, force);  // the free joint's speeds are those of H
+  set3(d->qfrc_applied + dof_, force);  // the free joint's velocities are those of H
 }
 
 Vec3 LegModel::tip() const { return Eigen::Map<const Vec3>(physics_.data()->qpos + qpos_); }
@@ -250,17 +250,18 @@ double rms(const Path& a, const Path& b) {
   return std::sqrt(sum / static_cast<double>(a.tip.size()));
 }
 
-// One integrator of one form, its time step halved again and again.
+// One integrator of one form, with its time step halved repeatedly.
 struct Family {
   LegForm form;
   const char* integrator;
   std::vector<double> steps;  // s
-  double order, tolerance;    // of the halvings from `bounded` on
+  double order, tolerance;    // bounds for the halvings from `bounded` on
   std::size_t bounded;
   [[nodiscard]] const char* name() const { return form == LegForm::tendon ? "tendon" : "connect"; }
 };
 const std::vector<Family>& families() {
-  // What is not bounded is for the table alone: there a step is no small part of the fastest vibration.
+  // Steps without bounds are for the table alone: they are not small against the period of the fastest
+  // vibration.
   static const std::vector<double> kFine{0.25e-3, 0.125e-3, 0.0625e-3, 0.03125e-3, 0.015625e-3, 0.0078125e-3};
   static const std::vector<Family> kAll{
       {LegForm::tendon, "rk4", {1e-3, 0.5e-3, 0.25e-3, 0.125e-3}, 4.0, 0.4, 2},
@@ -271,7 +272,7 @@ const std::vector<Family>& families() {
   return kAll;
 }
 
-// Error against the own converged path; each halving's order; cost.
+// Error against its own converged path; each halving's order; cost.
 CostCurve converge(const Report& report, const Family& family, const Path& truth,
                    const std::vector<Path>& paths) {
   double before = kUnset;
@@ -302,7 +303,7 @@ CostCurve converge(const Report& report, const Family& family, const Path& truth
   return error_of_cost;
 }
 
-// All paths on all cores; what a step costs is the CPU time of its thread.
+// All paths on all cores; the cost of a step is the CPU time of its thread.
 void work_and_precision(const Report& report, const BenchContext& context) {
   const double seconds = context.quick ? 0.25 : 1.0;
   const double finest = context.quick ? 0.0625e-3 : 0.015625e-3;
@@ -389,7 +390,7 @@ models::Setup on_legs(const BenchContext& context, std::vector<std::string> more
   return load_scene(context, "tennis_ball", {}, more);
 }
 
-// A world of the scene in structural form without a person, its machine told where to go.
+// A world of the scene in structural form, without a person; the test commands its machine directly.
 struct Machine {
   explicit Machine(const BenchContext& context, const std::vector<std::string>& more)
       : setup(on_legs(context, more)) {
@@ -453,7 +454,7 @@ void repeatability(const Report& report, const BenchContext& context) {
   double sum = 0.0;
   for (const Vec3& at : arrivals) sum += (at - mean).squaredNorm();
   report.result.simulated += m.simulated;
-  // The rms of n numbers is known to 1 / sqrt(2 n): of 300 to 4 %; four sigma.
+  // The rms of n numbers has an error of 1 / sqrt(2 n): 4 % for 300; four sigma.
   const double room = 4.0 / std::sqrt(6.0 * count);
   report.add("structure.repeatability.rms", std::sqrt(sum / (3.0 * (count - 1))) * 1e6, "um",
              0.5 * (1.0 - room), 0.5 * (1.0 + room),
@@ -489,7 +490,7 @@ void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;
   const Report report{result};
-  speed(report, context);  // alone: it is about time
+  speed(report, context);  // runs alone, because it measures time
   work_and_precision(report, context);
   const std::array<void (*)(const Report&, const BenchContext&), 4> others{static_sag, modes, payload,
                                                                            repeatability};

@@ -82,7 +82,7 @@ std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, doubl
     const Nearest at = object.surface.nearest(object.X_WO.inverse() * p);
     const bool button = std::holds_alternative<Button>(object.surface.shape());
     if (at.distance > least || (button && at.feature == kButtonSide)) continue;
-    if (touched >= 0 && at.distance == least) continue;  // of equals the first
+    if (touched >= 0 && at.distance == least) continue;  // the first of equals
     least = at.distance;
     touched = static_cast<std::int32_t>(i);
   }

@@ -1,4 +1,4 @@
-// Which of many objects is nearest, and what becomes of those that move [VisHap 2.2, 2.3.3].
+// Choice of the nearest of many objects, and the motion of dynamic objects [VisHap 2.2, 2.3.3].
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,12 +20,12 @@
 namespace enc::bench::switching {
 namespace {
 
-// A tracker that sees the finger where it is, each tick: what is left is the display's.
+// An ideal tracker of the finger, each tick: the remaining error is the display's.
 const std::vector<std::string> kLiveFinger{
     "truth.tracker.rate_hz=1000",      "truth.tracker.latency_ms=0",      "truth.tracker.noise_mm=[0,0,0]",
     "truth.tracker.marker_noise_mm=0", "rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
 
-// Keys, ball, tiles and drum in the twin, judged by the truth.
+// Keys, ball, tiles and drum in the twin, judged by the ground truth.
 
 models::Setup live(const BenchContext& context, const std::string& scene, std::vector<std::string> own = {}) {
   own.insert(own.begin(), kLiveFinger.begin(), kLiveFinger.end());
@@ -37,7 +37,7 @@ trial::TrialOptions options_of(const BenchContext& context) { return {.seed = co
 constexpr double kFelt = 0.1;  // N
 
 struct Row {
-  double meant = 0.0, felt = 0.0;  // ticks with force; of those with the right key
+  double meant = 0.0, felt = 0.0;  // ticks with force; ticks of them with the right key
   double step = 0.0;               // N: largest change of the force in the tick after a switch
   std::int32_t switches = 0;
 };
@@ -72,17 +72,17 @@ models::Setup shipped(const BenchContext& context, const std::string& scene,
   return load_scene(context, scene, own);
 }
 
-constexpr std::size_t kSeeds = 16;  // each of what is judged as it is shipped
+constexpr std::size_t kSeeds = 16;  // seeds for each judged shipped setting
 
 struct Bounce {
   double approach = kUnset, restitution = kUnset;
-  // N s: impulse of the force that the arm is told, that of the finger on the prop, and that of the ball
+  // N s: impulse of the commanded force, of the finger's force on the prop, and of the ball
   double rendered = 0.0, given = 0.0, momentum = kUnset;
-  double work = 0.0, energy = kUnset;  // J: of the finger on the prop, and of the ball
+  double work = 0.0, energy = kUnset;  // J: work of the finger on the prop, and energy of the ball
   std::int32_t contacts = 0;           // with the ball
 };
-// A hand goes on evenly, as the law means it, up to what it presses; so that is put behind the ball, where it
-// does not disturb the hit.
+// A hand continues evenly up to its target, as the law assumes. So the target is put behind the ball, where
+// it does not disturb the hit.
 models::Setup even_hit(const BenchContext& context, double speed, double restitution) {
   models::Setup setup = shipped(
       context, "hit_ball",
@@ -90,7 +90,7 @@ models::Setup even_hit(const BenchContext& context, double speed, double restitu
        "tool.finger.mass_kg=1", "truth.hand.grip_stiffness_N_per_mm=10",
        "truth.hand.grip_damping_Ns_per_m=1500", "truth.hand.mass_kg=20", "truth.hand.stiffness_N_per_mm=5",
        "truth.hand.damping_Ns_per_m=500", "truth.hand.strength_N=1e6",
-       // A soft hit lasts longer than 45 mm take a fast hand.
+       // A soft hit lasts longer than a fast hand needs for 45 mm.
        "behaviour.hit_ball.interaction.travel_mm=70",
        fmt::format("behaviour.hit_ball.interaction.restitution={}", restitution)});
   BehaviourSpec wall = setup.scene.behaviours.front();
@@ -108,8 +108,8 @@ models::Setup even_hit(const BenchContext& context, double speed, double restitu
   return setup;
 }
 
-// Speeds along the normal: of the true finger, before it touches the prop and where ball and prop part; and
-// of the ball, which is the core's.
+// Speeds along the normal: the true finger's before it touches the prop and at the parting of ball and prop;
+// and the ball's, from the core.
 Bounce hit_once(models::Setup setup, std::uint64_t seed) {
   trial::Trial trial(std::move(setup), {.seed = seed});
   const double dt = trial.scene().dt;
@@ -157,7 +157,7 @@ double most_of(const std::vector<Bounce>& hits, double (*of)(const Bounce&)) {
   return most;
 }
 
-// The hand of the scene: light, it gives way. Contacts that are one too many or too few, over all seeds.
+// The light hand of the scene gives way. Counts missing and additional contacts over all seeds.
 void hit_by_hand(Bench& bench) {
   const BenchContext& context = bench.context;
   std::vector<double> wrong(context.quick ? 1 : kSeeds);
@@ -185,7 +185,7 @@ void hit_balls(Bench& bench) {
   });
   Plot plot{"switching_restitution", "A ball that is hit in the twin", "restitution that is set",
             "restitution measured, mean over seeds"};
-  // Of what is softer a count of the encoders in the time of the speed's mean, 4 mm/s, is a fifth or more.
+  // For softer balls, one encoder count in the time of the speed's mean, 4 mm/s, is a fifth or more.
   constexpr double kSoft = 0.4;
   double worst = 0.0, off = 0.0, returned = 0.0;
   std::vector<Bounce> firm;
@@ -237,7 +237,7 @@ void hit_balls(Bench& bench) {
   hit_by_hand(bench);
 }
 
-// How far a tile is at the end, in mm, and how fast.
+// Place of a tile at the end, in mm, and its speed.
 struct TileEnd {
   double way = kUnset, speed = kUnset;
 };
@@ -261,13 +261,14 @@ struct Mean {
   [[nodiscard]] double value() const { return count > 0.0 ? sum / count : kUnset; }
 };
 
-// How fast the drum's surface runs, m/s, while a finger slides along it, faster than it runs and back, and
-// takes the prop along; and what is felt, seen by the tracker that ships.
+// Speed of the drum's surface, m/s, while a finger slides along it, faster than the surface and back, and
+// takes the prop along; and the rendered force, with the tracker that ships.
 struct Running {
-  Mean there, back;   // prop's own motion and belt's together, as the finger goes with it and against it
-  Mean felt;          // of the finger, while it is neither dragged nor held
+  Mean there, back;   // sum of the prop's own motion and the belt's, as the finger moves with the drum and
+                      // against it
+  Mean felt;          // speed of the finger, while it is neither dragged nor held
   double step = 0.0;  // N: of the force along the normal, from one ms to the next
-  double sideways = 0.0, normal = 0.0;  // N s, while more than 1 N is felt
+  double sideways = 0.0, normal = 0.0;  // N s, while the force exceeds 1 N
   [[nodiscard]] double error(double wanted) const {
     return 100.0 * std::max(std::abs(there.value() / wanted - 1.0), std::abs(back.value() / wanted - 1.0));
   }
@@ -336,7 +337,7 @@ void run_drum(Bench& bench) {
                            1e3 * wanted));
 }
 
-// A finger slides over the keys, row by row, pressed: is the key that is felt the one that is meant?
+// A finger slides over the keys, row by row, pressed: checks that the rendered key is the intended one.
 void slide_over_keys(Bench& bench) {
   const std::vector<std::string> all{"key_1", "key_4", "key_7", "key_10"};
   std::vector<Row> rows(bench.context.quick ? 1 : all.size());
@@ -374,7 +375,7 @@ void move_things(Bench& bench) {
   run_drum(bench);
 }
 
-// Of step() alone, with the finger at p, s of this thread.
+// s of this thread for step() alone, with the finger at p.
 double time_of(trial::FingerLoop& loop, const Point<'W'>& p) {
   loop.put(p);
   const double start = thread_seconds();
@@ -385,7 +386,7 @@ double time_of(trial::FingerLoop& loop, const Point<'W'>& p) {
 constexpr double kNoise = 1e-3;        // m, of the finger along each axis [V35]
 constexpr double kSeenNoise = 0.5e-3;  // m, of the rig [VisHap 2.1]
 
-// A finger that is seen as it is: the choice itself is judged.
+// The finger's pose is exact: only the choice is judged.
 Scene bare_scene(const BenchContext& context) {
   return trial::prepare_setup(load_scene(context, "keypad", {}, {"rig.tracker.prediction=\"hold\""}));
 }
@@ -406,14 +407,14 @@ double share_right(const BenchContext& context, int queries) {
     loop.state = State{};
     const Point<'W'> p = anywhere(random);
     loop.tick(p);
-    // Objects that are touched come first: then the nearest of all may not be one of them.
+    // Objects that are touched come first, so the nearest of all may not be one of them.
     right += loop.out.object == nearest_for_a_finger(loop.scene, p, loop.scene.tools[0].tip.radius) ? 1 : 0;
   }
   return static_cast<double>(right) / queries;
 }
 
-// How a finger at rest is seen: as it is, each tick; or as vision sees it, 20 pictures a second that are 50
-// ms old when they come, and carried on by the filter of the scene.
+// Tracking of a finger at rest: exact, each tick; or by vision, 20 pictures a second that arrive 50 ms old,
+// predicted by the scene's filter.
 enum class Shown : std::uint8_t { each_tick, pictures };
 struct Chatter {
   const char* name;
@@ -422,7 +423,7 @@ struct Chatter {
   std::vector<double> per_second = {};
 };
 
-// Two balls that face each other 40 mm apart: what noise does there is the worst.
+// Two balls that face each other 40 mm apart: noise has its worst effect there.
 Scene facing(Scene scene) {
   const Surface ball{Sphere{0.010}};
   scene.objects = {Object{ball, Pose<'W', 'O'>::shift(-0.03, 0, 0), {}},
@@ -434,7 +435,7 @@ double switches_per_second(Scene scene, double hysteresis, const Chatter& finger
                            std::uint64_t seed) {
   constexpr int kPicture = 50;  // ticks
   constexpr Duration kOld = std::chrono::milliseconds(50);
-  constexpr int kFrom = 1000;  // ticks until the filter knows the finger
+  constexpr int kFrom = 1000;  // ticks until the filter has settled on the finger
   scene.follow.hysteresis = hysteresis;
   trial::FingerLoop loop(std::move(scene));
   std::mt19937_64 random(seed);
@@ -462,7 +463,7 @@ void chatter(Bench& bench) {
   std::vector<double> hysteresis;
   for (int mm = 0; mm <= 14; ++mm) hysteresis.push_back(1e-3 * mm);
   const Scene keypad = bare_scene(context), whole = trial::prepare_setup(load_scene(context, "keypad"));
-  // 12 mm over the gap between two keys: a finger that looks for the next one.
+  // 12 mm over the gap between two keys: a finger that searches for the next one.
   const Point<'W'> gap(0.010, 0.010, 0.012);
   std::vector<Chatter> cases{{"two balls that face each other", {0, 0, 0}},
                              {"two keys side by side", gap},
@@ -498,7 +499,7 @@ void chatter(Bench& bench) {
   bench.result.plots.push_back(std::move(plot));
 }
 
-// Time of a tick and of the same answer by asking all, over the number of objects.
+// Time of a tick, and of testing all objects for an equal answer, over the number of objects.
 void timing(Bench& bench) {
   const BenchContext& context = bench.context;
   const std::vector<std::size_t> counts{1, 3, 10, 30, 100, 300, 1000};
@@ -521,7 +522,7 @@ void timing(Bench& bench) {
       const Nearby all = brute_force(loop.scene, p);
       all_s.push_back(thread_seconds() - start);
       const double chosen = distance_to(loop.scene, loop.out.object, p);
-      // What is in contact stays so until the finger has left it.
+      // An object in contact stays chosen until the finger has left it.
       if (loop.out.mode != Mode::contact) wrong = std::max(wrong, chosen - all.distance);  // m
     }
     const auto n = static_cast<double>(count);

@@ -16,8 +16,8 @@ namespace {
 
 using Signal = Eigen::Map<const Eigen::VectorXd>;
 
-// Of the parts that lie over each other when `later` is drawn `shift` samples earlier. The same number of
-// samples whatever the shift, so that none is favoured.
+// Correlation of the overlapping parts if `later` is shifted `shift` samples earlier. The number of samples
+// is equal for all shifts, so that none is favoured.
 double correlation(const Signal& earlier, const Signal& later, Eigen::Index most, Eigen::Index shift) {
   const Eigen::Index n = earlier.size() - 2 * most;
   const Eigen::VectorXd a = earlier.segment(most, n).array() - earlier.segment(most, n).mean();
@@ -31,7 +31,7 @@ constexpr double kPeriod = 1e-3;     // s, at which signals are compared for the
 
 double seconds_of(Time t) { return seconds(t.time_since_epoch()); }
 
-// What the machine itself says: its tip against the buffered first touch.
+// The machine's own measure: its tip against the buffered first touch.
 double haptic_deflection(const trial::Glance& g, const Object& object) {
   if (g.out.mode != Mode::contact || !g.out.first_touch.finite()) return 0.0;
   const Vec<'W'> normal = stages::nearest(object, g.out.first_touch).normal;

@@ -1,6 +1,5 @@
-// Fig 13 [VHMR 4.3]: three presses, stopped at 6, 4 and 2 mm; the deflection that the eye sees against the
-// one that the hand feels. With the paper's pipeline, at four frame rates; and fused, judged by the true
-// tool.
+// Fig 13 [VHMR 4.3]: three presses, stopped at 6, 4 and 2 mm; the displayed deflection against the rendered
+// one. Runs the paper's pipeline at four frame rates; and the fused pipeline, judged by the true tool.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +18,7 @@
 namespace enc::bench::synchrony {
 namespace {
 
-// What a run came to; its samples are gone.
+// Summary of a run without its samples.
 struct SyncSummary {
   SyncErrors haptic, packets, rests, truth;
   double lag = kUnset, truth_lag = kUnset;  // s
@@ -40,7 +39,7 @@ struct SyncGroup {
   std::string name;
   models::Setup setup;
   std::vector<SyncSummary> seeds;
-  SyncRun first{};  // with its samples, where they are kept
+  SyncRun first{};  // includes samples, if they are kept
   bool keep = false;
 
   template <class Value>
@@ -56,7 +55,7 @@ struct SyncGroup {
   }
 };
 
-// On which side of the way in the tracker's static bias is, along z [VHMR Table 1 gives no sign].
+// The side of the tracker's static bias along the way in, z [VHMR Table 1 gives no sign].
 constexpr std::array<const char*, 3> kBiasSides{"deeper", "shallower", "none"};
 
 constexpr std::array<double, 4> kPressTimes{0.8, 1.2, 1.7, 2.4};  // s
@@ -70,8 +69,8 @@ struct SyncStudy {
   std::array<SyncGroup, 4> rates;
   SyncGroup later;              // the display 10 ms later
   SyncGroup predicted;          // the loop's own predicted tool
-  SyncGroup fused, late_fused;  // with and without looking ahead, nothing gives
-  // Where tool and contact give, and the tool tilts:
+  SyncGroup fused, late_fused;  // with and without prediction, rigid contact
+  // Variants with a compliant tool and contact, and a tilting tool:
   SyncGroup giving_paper, giving_fused, giving_late_fused, giving_known, giving_blind;
   double paper_mae = kUnset, paper_rmse = kUnset;  // m, as printed
 };
@@ -179,7 +178,7 @@ Series line(const char* name, const std::vector<SyncSample>& samples, double Syn
   return series;
 }
 
-// When each contact begins and ends, s.
+// Begin and end of each contact, s.
 struct Span {
   double from, to;
 };
@@ -301,12 +300,12 @@ void add_sync_plots(const SyncStudy& study, BenchResult& result) {
 
 using Set = std::vector<std::string>;
 
-constexpr double kLater = 10e-3;  // s, put on the display's latency
+constexpr double kLater = 10e-3;  // s, added to the display's latency
 
-// The paper's pipeline: the newest pose as it is, and nothing predicted anywhere.
+// The paper's pipeline: the newest pose unchanged, without any prediction.
 const Set kPaper{"rig.tracker.prediction=\"hold\"", "rig.display.tip=\"tracked\""};
 const Set kPredicted{"rig.display.tip=\"predicted\""};
-// What gives where the tool touches, and how a hand holds it: assumed (docs/notes/synchrony.md).
+// Compliance at the tool's contact, and the grip of the hand: assumed (docs/notes/synchrony.md).
 const Set kGiving{"truth.contact.compliance_um_per_N=3", "truth.contact.flexure_um_per_N=10",
                   "truth.hand.tilt_deg=5", "truth.hand.tilt_rate_hz=0.5",
                   "truth.tracker.turn_noise_deg=0.01"};
@@ -323,7 +322,7 @@ SyncGroup group_of(const BenchContext& context, std::string name, const std::vec
   return {std::move(name), setup_of(context, own), std::vector<SyncSummary>(seeds), {}, keep};
 }
 
-// The tool seems deeper in the object than it is, shallower, or as deep.
+// The tool appears deeper in the object than it is, shallower, or equally deep.
 Set bias_of(const Vec3& bias, std::size_t side) {
   const Vec3 b = side == 2 ? Vec3(0, 0, 0) : Vec3(bias.x(), bias.y(), side == 0 ? -bias.z() : bias.z());
   return {fmt::format("truth.tracker.bias_mm=[{:g}, {:g}, {:g}]", b.x() * 1e3, b.y() * 1e3, b.z() * 1e3)};
@@ -333,11 +332,12 @@ Set press_of(double time) {
   return {fmt::format("user.press_s={:g}", time), fmt::format("user.release_s={:g}", time)};
 }
 
-// Ahead by how old a surface is, in the middle, while it is seen: the way back and half a frame.
+// Predicts ahead by the age of a surface in the middle of its display time: the latency of the display and
+// half a frame.
 Set fused_of(const sim::DisplayTruth& display, bool ahead) {
   const double lead = ahead ? display.latency + 0.5 / display.rate : 0.0;
   return {"rig.display.tip=\"fused\"", fmt::format("rig.display.lead_ms={:g}", lead * 1e3),
-          "rig.display.compliance_um_per_N=6"};  // what the twin's stop gives, kGiving apart: measured
+          "rig.display.compliance_um_per_N=6"};  // compliance of the twin's stop without kGiving: measured
 }
 
 SyncStudy study_of(const BenchContext& context) {
@@ -422,7 +422,7 @@ void run_all(SyncStudy& study, const BenchContext& context, double& simulated) {
   for (const Job& job : jobs) simulated += job.simulated;
 }
 
-// Bounds and values in the figure's unit; what is measured, in SI times `scale`.
+// Bounds and values in the figure's unit; measurements in SI times `scale`.
 struct Wanted {
   std::string id;
   const char* unit;
@@ -526,7 +526,7 @@ void run(Bench& bench) {
     for (const std::string_view law : kWords<Reversal>) {
       Set own = kPaper;
       own.push_back(fmt::format("behaviour.tennis_ball.reversal=\"{}\"", law));
-      own.emplace_back("truth.hand.drift_mm=0");  // the path of the machine alone is compared
+      own.emplace_back("truth.hand.drift_mm=0");  // compares the path of the machine alone
       BenchResult one;
       add_work_precision({fmt::format("synchrony.{}", law), "synchrony", own, 6.0, 30e-6}, context, one);
       for (Figure& f : one.figures) result.figures.push_back(std::move(f));

@@ -72,7 +72,7 @@ namespace {
 struct Tried {
   double latency = kUnset, found = kUnset;  // s
   Vec3 bias{0, 0, 0}, found_bias{0, 0, 0};  // m
-  bool latency_held = false;                // the interval holds what was put in
+  bool latency_held = false;                // the interval contains the injected value
   int bias_held = 0;                        // axes
 };
 
@@ -137,7 +137,7 @@ void add_plot(BenchResult& result, const std::vector<Tried>& trials) {
   result.plots.push_back(std::move(plot));
 }
 
-// Table 1 is no log: three speeds, and no sign. So what it says depends on what is assumed of the bias.
+// Table 1 is no log: three speeds, and no sign. So its result depends on the assumed bias.
 void add_table(const Table1& paper, BenchResult& result) {
   Table table{"tracking_table1_latency",
               "Latency in the paper's Table 1, by what is assumed of the bias (ms)",
@@ -148,7 +148,7 @@ void add_table(const Table1& paper, BenchResult& result) {
               "Adds, opposes: (MAE -/+ bias) / speed. Slope: (MAE at 40 - MAE at 20) / 20 mm/s, any bias "
               "that does not change. Speed changes at both ends of a move are ignored."};
   for (std::size_t a = 0; a < 3; ++a) {
-    std::array<double, 3> rmse{}, mae{};  // at rest, at 20 and at 40 mm/s, mm
+    std::array<double, 3> rmse{}, mae{};  // errors at rest, at 20 and at 40 mm/s, mm
     for (std::size_t s = 0; s < paper.size(); ++s) {
       rmse[s] = paper[s][a].rmse / kMillimetre;
       mae[s] = paper[s][a].mae / kMillimetre;

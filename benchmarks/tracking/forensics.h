@@ -1,5 +1,5 @@
-// Does `encounter calibrate tracker` find what was put in? Logs of the simulated tracker with known latency
-// and bias, and the method on the paper's own Table 1 [VHMR 4.1].
+// Checks that `encounter calibrate tracker` finds the injected values: logs of the simulated tracker with
+// known latency and bias, and the method on the paper's own Table 1 [VHMR 4.1].
 #pragma once
 
 #include "benchmarks/kit/bench.h"
@@ -8,22 +8,22 @@
 
 namespace enc::bench::tracking {
 
-// A tool that a machine carries along x, y and z, past the simulated tracker [VHMR 4.1].
+// A tool that a machine moves along x, y and z, past the simulated tracker [VHMR 4.1].
 struct LogSpec {
   sim::TrackerTruth tracker;
   std::vector<double> speeds{0.020, 0.040};  // m/s, one after another
   double dwell = 0.5;                        // s, at 0, 5, 10, 20, 40 mm
   bool both_ways = true;
-  bool stamps = false;                         // with the packets' own stamps
+  bool stamps = false;                         // uses the packets' own stamps
   std::array<bool, 3> axes{true, true, true};  // which are moved
 };
 struct MadeLog {
   models::TrackerLog log;
-  double latency = kUnset;  // s: mean age of the packets that came while the tool moved
+  double latency = kUnset;  // s: mean age of the packets that arrived while the tool moved
 };
 [[nodiscard]] MadeLog made_log(const LogSpec& spec, std::uint64_t seed);
 
-// Figures tracking.forensics.*, a plot of found over injected, and a table of what Table 1 says by itself.
+// Figures tracking.forensics.*, a plot of found over injected, and a table of the results from Table 1 alone.
 void add_forensics(const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench::tracking

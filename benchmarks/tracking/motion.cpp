@@ -14,7 +14,7 @@
 namespace enc::bench::tracking {
 namespace {
 
-// A straight move that begins at `start`: speeds up, runs, slows down by the same acceleration.
+// A straight move that begins at `start`: accelerates, runs, decelerates equally.
 struct Leg {
   double start, from, to;           // s, m, m
   double acceleration, ramp, even;  // m/s^2, s, s
@@ -52,7 +52,7 @@ double early_peak_speed(double s) {
   return 105.0 * s * s * rest * rest;
 }
 
-// 80 % of the way in the first 70 % of the time, the rest from half time on.
+// 80 % of the way in the first 70 % of the time; the rest starts at half time.
 constexpr double kFirstWay = 0.8, kFirstTime = 0.7, kSecondStart = 0.5;
 double two_movements_way(double s) {
   const double first = std::clamp(s / kFirstTime, 0.0, 1.0);
@@ -72,14 +72,15 @@ struct Wave {
   Vec3 phase;      // rad
 };
 
-constexpr double kSettle = 0.5;  // s at rest before the motion: the filter knows the tool by then
+constexpr double kSettle = 0.5;  // s at rest before the motion: the filter settles on the tool
 
 struct Sums {
   double packets = 0.0, ticks = 0.0;
   std::int64_t packet_count = 0, tick_count = 0;
 };
 
-// One core that sees the tracker alone, in follow: nothing is away, so that a drop-out has to be caught up.
+// One core with the tracker as its only input, in follow: no hold occurs, so that it has to catch up after a
+// drop-out.
 struct Watcher {
   Scene scene;
   State state;
@@ -92,7 +93,7 @@ struct Watcher {
     scene.tracker.prediction = prediction;
     state.mode = Mode::follow;
   }
-  // The error of this tick, or unset where the tool was not seen yet.
+  // The error of this tick, unset before the first pose of the tool.
   Vec3 see(const Tick& tick, const Inputs& in, const Vec3& truth) {
     stages::StepContext step_context(scene, tick, in);
     stages::track_tool(step_context, state, false);

@@ -1,7 +1,7 @@
 // Scripted motions of a tool's tip as functions of time, for measures that need no simulated hand: the
-// paper's moves with stops [VHMR 4.1], reaches of several shapes, a press, tremor, a sudden stop.
-// And what the simulated tracker and the core make of them without a machine: how far is the tip from where
-// the core takes it to be?
+// paper's moves with stops [VHMR 4.1], reaches of several shapes, a press, tremor, a sudden stop. Also their
+// error after the simulated tracker and the core, without a machine: the distance between the tip and the
+// core's estimate.
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@ struct MotionPoint {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};  // m, m/s
 };
 
-// `at` takes s since the start and may be asked beyond both ends, where the tool rests.
+// `at` takes s since the start and accepts times beyond both ends, where the tool rests.
 struct Motion {
   std::string name;
   double duration = 0.0;  // s
   std::function<MotionPoint(double)> at;
 };
 
-// From stop to stop at a speed, in straight lines [VHMR 4.1]: dwell, move, dwell, ... The last dwell is
+// Moves from stop to stop at a speed, in straight lines [VHMR 4.1]: dwell, move, dwell, ... The last dwell is
 // whole.
 struct StopsSpec {
   Vec3 from{0, 0, 0};                                          // m, of stop 0
-  Vec3 direction{1, 0, 0};                                     // the stops lie along it
+  Vec3 direction{1, 0, 0};                                     // direction of the stops
   std::vector<double> stops{0.0, 0.005, 0.010, 0.020, 0.040};  // m
   double speed = 0.040;                                        // m/s
   double acceleration = 0.41;  // m/s^2, both ends of a move; a short move does not reach its speed
@@ -54,7 +54,7 @@ struct ReachShape {
 [[nodiscard]] const ReachShape& early_peak();
 [[nodiscard]] const ReachShape& two_movements();
 
-// There and back, `times` times, with a rest after each way.
+// Moves there and back, `times` times, with a rest after each way.
 struct ReachSpec {
   Vec3 way{0.020, 0, 0};      // m
   double peak_speed = 0.040;  // m/s
@@ -66,17 +66,17 @@ struct ReachSpec {
 [[nodiscard]] Motion at_rest(double duration);
 // amplitude * sin(2 pi rate t)
 [[nodiscard]] Motion swing(const Vec3& amplitude, double rate, double duration);
-// The motion with a tremor of `rms` along each axis (m), of 16 waves between two rates, Hz, phases by the
-// seed.
+// Adds a tremor of `rms` along each axis (m) to the motion, of 16 waves between two rates, Hz, with phases
+// from the seed.
 [[nodiscard]] Motion with_tremor(const Motion& motion, double rms, double lowest, double highest,
                                  std::uint64_t seed);
-// The motion until it meets something, at `at`, s; from there it stands still.
+// The motion until a collision at `at`, s; from then on it stands still.
 [[nodiscard]] Motion stopped(const Motion& motion, double at);
 
 inline constexpr std::array<Prediction, 3> kPredictions{Prediction::hold, Prediction::constant_velocity,
                                                         Prediction::constant_acceleration};
 
-// A motion, what the tracker is like on it, and which part of it counts.
+// A motion, the tracker's properties on it, and the part of it that counts.
 struct PredictionRun {
   Motion motion;
   sim::TrackerTruth truth;  // its black-out counts from the motion's start
@@ -87,17 +87,17 @@ struct PredictionRun {
 
 struct TipErrors {
   double at_packets = kUnset;  // m, rms of the distance, on ticks with a new pose
-  double at_ticks = kUnset;    // m, the same on every tick
+  double at_ticks = kUnset;    // m, rms of the distance on every tick
   double peak = 0.0;           // m, largest along an axis, on every tick
-  double largest_step = 0.0;   // m: of the prediction beyond the tool's own in a tick
+  double largest_step = 0.0;   // m: step of the prediction beyond the tool's own in a tick
 };
-// On one tick, along x: what a plot over time shows.
+// Errors along x on each tick, for a plot over time.
 struct TipTrace {
   std::vector<double> time;                  // s since the motion's start
   std::array<std::vector<double>, 3> error;  // m, for each prediction
 };
 
-// Runs the motion with each prediction on the same packets. The scene has the core's settings; `trace` may be
+// Runs the motion with each prediction on equal packets. The scene has the core's settings; `trace` may be
 // null.
 [[nodiscard]] std::array<TipErrors, 3> predicted_run(const Scene& scene, const Pose<'W', 'C'>& true_X_WC,
                                                      const PredictionRun& run, TipTrace* trace = nullptr);

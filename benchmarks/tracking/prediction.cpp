@@ -1,6 +1,6 @@
-// Where is the tool now, when its pose is old? Hold, constant velocity and constant acceleration on the
-// paper's moves and on what a hand does otherwise; packets polled at 100 Hz as the paper's, or sent when
-// ready.
+// Prediction of the tool's present place from an old pose: hold, constant velocity and constant acceleration,
+// on the paper's moves and on other motions of a hand. Packets are polled at 100 Hz as in the paper, or sent
+// when ready.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,18 +25,18 @@ namespace {
 struct PredictionRow {
   std::string id, title;
   std::function<Motion(std::uint64_t seed)> motion;
-  std::function<void(sim::TrackerTruth&)> change{};                 // of the tracker; none: as the rig has it
-  bool with_bias = false;                                           // registration error kept
-  bool moving_only = false;                                         // stops do not count
-  bool peak = false;                                                // the largest error is what matters
-  bool in_figures = false;                                          // of each prediction and kind of packets
-  double from = 0.0, to = std::numeric_limits<double>::infinity();  // s of the motion that count
+  std::function<void(sim::TrackerTruth&)> change{};  // changes the tracker; empty: as in the rig
+  bool with_bias = false;                            // registration error kept
+  bool moving_only = false;                          // excludes stops
+  bool peak = false;                                 // judges the largest error
+  bool in_figures = false;                           // adds figures for each prediction and kind of packets
+  double from = 0.0, to = std::numeric_limits<double>::infinity();  // s, counted part of the motion
   double paper = kUnset;                                            // m
-  double highest = kUnset;                                          // m: bound of constant velocity with
-  std::size_t bound_on = 1;                                         // packets: 0 polled, 1 event
+  double highest = kUnset;   // m: bound on the error of constant velocity, with
+  std::size_t bound_on = 1;  // packets: 0 polled, 1 event
 };
 
-// Every axis moves alike, so that the distance is what the paper's norm of three separate axes is.
+// Every axis moves alike, so that the distance equals the paper's norm of three separate axes.
 const Vec3 kAll = Vec3::Ones();
 
 Motion paper_moves(double speed, double acceleration, bool both_ways) {
@@ -45,12 +45,12 @@ Motion paper_moves(double speed, double acceleration, bool both_ways) {
   for (double& stop : spec.stops) stop *= kAll.norm();
   spec.speed = speed * kAll.norm();
   spec.acceleration = acceleration * kAll.norm();
-  spec.dwell = 0.5;  // what comes later in a stop is like that
+  spec.dwell = 0.5;  // a longer stop adds nothing new
   spec.both_ways = both_ways;
   return moves_with_stops(spec);
 }
 
-// 20 mm at 40 mm/s and 100 mm at 200 mm/s take as long.
+// 20 mm at 40 mm/s and 100 mm at 200 mm/s take equally long.
 Motion reach(const ReachShape& shape, double peak_speed) {
   return reaches(shape, {0.5 * peak_speed * kAll, peak_speed * kAll.norm()});
 }
@@ -69,7 +69,7 @@ PredictionRow row(std::string id, std::string title, std::function<Motion(std::u
   return made;
 }
 
-// The same with stamps that are wrong: the latency is believed to be another than it is.
+// The row with wrong stamps: the assumed latency differs from the true one.
 void add_wrong_stamps(std::vector<PredictionRow>& rows, const PredictionRow& right) {
   for (const double error : {3e-3, -3e-3}) {
     PredictionRow made = right;
@@ -82,8 +82,9 @@ void add_wrong_stamps(std::vector<PredictionRow>& rows, const PredictionRow& rig
   }
 }
 
-// One way, along +, the registration error opposes the lag (sources/tracking 6): the paper's Table 1. There
-// and back it is as often with the lag as against it, so a wrong latency costs as much as it does on average.
+// The paper's Table 1 moves one way, along +, where the registration error opposes the lag (sources/tracking
+// 6). A motion there and back has the error as often with the lag as against it, so a wrong latency has its
+// average cost.
 void add_paper(std::vector<PredictionRow>& rows, double acceleration, const Table1& paper) {
   const auto moves = [acceleration](double speed, bool both_ways) {
     return [=](std::uint64_t) { return paper_moves(speed, acceleration, both_ways); };
@@ -162,8 +163,8 @@ void add_faults(std::vector<PredictionRow>& rows) {
   rows.push_back(loss);
 }
 
-// acceleration: of the machine that makes the paper's moves, m/s^2; paper: what the rows of its moves are
-// compared with.
+// acceleration: of the machine that makes the paper's moves, m/s^2; paper: the reference of the rows with
+// those moves.
 std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& paper) {
   std::vector<PredictionRow> rows;
   add_paper(rows, acceleration, paper);
@@ -177,7 +178,7 @@ constexpr auto kPacketName = kWords<sim::Packets>;
 constexpr std::array kName{"hold", "cv", "ca"};
 constexpr std::array kLongName{"hold", "constant velocity", "constant acceleration"};
 
-// One row with one kind of packets: of each prediction, over the seeds.
+// One row with one kind of packets: errors of each prediction, over the seeds.
 struct Outcome {
   std::array<std::vector<double>, 3> at_packets, at_ticks, peak, step;  // m
 };
@@ -255,7 +256,7 @@ std::vector<Figure> figures_of(const Trials& trials) {
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
       const Outcome& cell = trials.cells[r][p];
       for (std::size_t k = 0; k < kName.size(); ++k) {
-        if (!row.in_figures && (k != 1 || p != 0)) continue;  // the rest is in the tables
+        if (!row.in_figures && (k != 1 || p != 0)) continue;  // the other rows are in the tables only
         const bool bound = k == 1 && p == row.bound_on;
         const std::vector<double>& of = row.peak ? cell.peak[k] : cell.at_packets[k];
         Figure figure =
@@ -328,7 +329,7 @@ Plot named_plot(std::string id, std::string title, std::string x_label, std::str
   return plot;
 }
 
-// Of all rows the table tells; the plot has room for these.
+// The rows in the plot; the table has all rows.
 struct Shown {
   const char *id, *name;
 };
@@ -393,8 +394,7 @@ Plot time_plot(const Trials& trials, const BenchContext& context, const std::str
   return plot;
 }
 
-// ---- what it costs and what it buys in the whole loop
-// --------------------------------------------------------
+// ---- cost and benefit in the whole loop ---------------------------------------------------------------
 
 // step() with each prediction, interleaved; ns, median of the runs' medians.
 std::array<double, 3> step_costs(const models::Setup& setup, const BenchContext& context, double& simulated) {

@@ -85,7 +85,7 @@ TravelErrors Group::all() const {
   return sum;
 }
 
-// Stops as long as it takes to tell them from moves; under --full as long as the paper's.
+// Stops are just long enough to separate them from moves; under --full they are as long as the paper's.
 Group travels_at(const BenchContext& context, int speed, const char* ways,
                  const std::vector<std::string>& more, std::size_t seeds) {
   Group group;
@@ -113,7 +113,7 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
       for (std::size_t axis = 0; axis < 3; ++axis) jobs.push_back({group, seed, axis, {}});
   const auto work = [&](std::size_t i) {
     Job& job = jobs[i];
-    // Every axis has its own phase of tracker and server, as experiments one after another have.
+    // Every axis has its own phase of tracker and server, like successive experiments.
     job.errors =
         run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
   };

@@ -1,6 +1,6 @@
 // Table 1 [VHMR 4.1], in m: of the paper, of the twin and over devices. Scene `tracking` runs through the
-// whole loop; the error counts whenever a new packet has come (trial/travel/travel_measure.h). How it is
-// measured, its bounds, its figures and its pictures are all in table1.cpp.
+// whole loop; the error counts at each new packet (trial/travel/travel_measure.h). table1.cpp has the method,
+// bounds, figures and plots.
 #pragma once
 
 #include <array>
@@ -23,11 +23,11 @@ using trial::PacketError;
 
 struct TravelErrors : trial::TravelSums {
   double simulated = 0.0;  // s
-  std::string held{};      // a run did: when and why
+  std::string held{};      // time and reason of a hold of the run
   void add(const TravelErrors& other);
 };
 
-// Runs the travel of the set-up once; `base` as scenes.h has it.
+// Runs the travel of the set-up once; `base` as in scenes.h.
 [[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
                                       const trial::TrialOptions& base = {});
 
@@ -55,7 +55,7 @@ inline constexpr std::array<const char*, 3> kSides{"opposes", "adds", "both_ways
 
 [[nodiscard]] Table1 table1_of(const Reference& reference);
 void fill_norm(Column& column);  // quadrature of the three axes
-// Unset where an axis was not travelled.
+// Unset for an axis that was not travelled.
 [[nodiscard]] Column resting_column(const TravelErrors& errors);
 [[nodiscard]] Column moving_column(const TravelErrors& errors, BiasSide side = BiasSide::opposes);
 [[nodiscard]] Table1 table_of(const TravelErrors& slow, const TravelErrors& fast,
@@ -67,7 +67,7 @@ struct Group {
   std::vector<TravelErrors> seeds;
   [[nodiscard]] TravelErrors all() const;
 };
-// At a speed (mm/s), one way or both ways; `more` settings come after the benchmark's own.
+// Travels at a speed (mm/s), one way or both ways; `more` settings come after the benchmark's own.
 [[nodiscard]] Group travels_at(const BenchContext& context, int speed, const char* ways,
                                const std::vector<std::string>& more, std::size_t seeds);
 void run_all(const std::vector<Group*>& groups, const BenchContext& context, double& simulated);
@@ -86,6 +86,6 @@ void add_table_figures(BenchResult& result, const Table1& paper, const SpannedTa
                                const SpannedTable& predicted);
 
 [[nodiscard]] std::string fine_mm(double metres);
-[[nodiscard]] std::string percent(double ratio);  // by which a ratio is off 1
+[[nodiscard]] std::string percent(double ratio);  // deviation of a ratio from 1
 
 }  // namespace enc::bench::tracking

@@ -1,6 +1,6 @@
-// Table 1, Fig 6 [VHMR 4.1]: the machine carries a clamped tool past the tracker. Three questions: what does
-// the twin print in that table (table1.cpp); what do the columns at rest and at 20 mm/s alone say about 40
-// mm/s; and on which side of the lag is the registration's bias?
+// Table 1, Fig 6 [VHMR 4.1]: the machine moves a clamped tool past the tracker. Three parts: the twin's
+// version of that table (table1.cpp); the prediction of 40 mm/s from the columns at rest and at 20 mm/s
+// alone; and the side of the lag on which the registration's bias lies.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,10 +32,10 @@ struct Fits {
 struct Pictures {
   const Table1& paper;
   const SpannedTable& twin;  // the default rig, bias opposing
-  const Candidate& theory;   // of the default rig
+  const Candidate& theory;   // theory for the default rig
   const Fits& fits;
   const std::vector<Candidate>& open;
-  Table1 twin_from_20, twin_adds;           // whole loop with the best chains of the two
+  Table1 twin_from_20, twin_adds;           // whole loop with the best chains of the two fits
   Table1 twin_back, twin_both;              // the default rig, motion along -, and both ways
   const std::vector<PacketError>& packets;  // one seed at 40 mm/s
   ChainSpec chain;
@@ -194,8 +194,8 @@ void add_plots(BenchResult& result, const Pictures& pictures) {
   result.plots.push_back(predictive_plot(pictures));
 }
 
-// Table 1 over the devices of a rig, real ones or fakes. What the twin of the same rig file says, without
-// wires, with the same settings and seeds, stands beside it.
+// Table 1 over the devices of a rig, real ones or fakes. The twin of that rig file, in one process, with
+// equal settings and seeds, stands beside it.
 
 // One column of the table.
 struct RigTravel {
@@ -216,7 +216,7 @@ RigTravel planned_travel(const BenchContext& context, int speed) {
 
 void run_travels(Bench& bench, std::vector<RigTravel>& travels) {
   constexpr double kSpare =
-      3.0;  // s: a machine that does not stand at its zero has a longer way to the start
+      3.0;  // s: a machine that does not stand at its zero needs a longer way to the start
   const BenchContext& context = bench.context;
   const std::vector<std::uint64_t> seeds = bench.seeds(context.count(1, 1));
   double done = 0.0, all = 0.0;  // s
@@ -246,7 +246,7 @@ void run_travels(Bench& bench, std::vector<RigTravel>& travels) {
   for (const RigTravel& travel : travels) bench.result.simulated += travel.twin.simulated;
 }
 
-// The axes that were travelled, and their norm where all were.
+// The travelled axes, and their norm if all were travelled.
 std::vector<std::size_t> table_rows(const std::string& axes) {
   std::vector<std::size_t> rows;
   for (std::size_t a = 0; a < 3; ++a)
@@ -255,9 +255,8 @@ std::vector<std::size_t> table_rows(const std::string& axes) {
   return rows;
 }
 
-// In lockstep two programs are one computation, and only rounding on the wires is between the rig and the
-// twin. On the wall clock they take the processor from each other; and what real devices do was promised by
-// nobody.
+// In lockstep two programs are one computation: rig and twin differ only by rounding in the protocol. On the
+// wall clock they compete for the processor; and real devices have no specified error.
 Bounds bounds_of(const BenchContext& context, double twin) {
   constexpr double kShare = 0.1, kStep = 0.01;  // mm
   if (!context.fakes || !context.lockstep) return {};
@@ -271,7 +270,7 @@ void add_column(Bench& bench, int speed, const std::vector<std::size_t>& rows, c
                                           kTableSpeeds.begin());
   const Column measured = speed > 0 ? moving_column(rig) : resting_column(rig);
   const Column simulated = speed > 0 ? moving_column(twin) : resting_column(twin);
-  // What the fakes stand for was chosen by this table; of a real rig nothing was.
+  // The fakes' properties were chosen by this table; those of a real rig were not.
   const Role role = bench.context.fakes ? Role::calibrated : Role::predicted;
   for (const std::size_t a : rows) {
     for (const auto& [name, id, what] : kStatistics)
@@ -287,7 +286,7 @@ void add_column(Bench& bench, int speed, const std::vector<std::size_t>& rows, c
 
 using Set = std::vector<std::string>;
 
-// What the theory says of a set-up: rig, truth and scene, whoever set them.
+// The theory's result for a set-up: rig, truth and scene, whatever their source.
 Candidate theory_of(const models::Setup& setup) {
   const ToolSpec& tool = setup.scene.tools.front();
   const sim::TrackerTruth t = sim::with_tool_known(setup.twin.tracker, tool.markers, tool.tip);
@@ -306,7 +305,7 @@ Set settings_of(const Candidate& c, const models::Setup& base) {
           fmt::format("rig.manipulator.acceleration_m_s2={}", most)};
 }
 
-// Everything zero that Table 1 is made of. What remains is rounding.
+// Sets all error sources of Table 1 to zero. Rounding remains.
 double exact_error(const BenchContext& context, double& simulated) {
   const Set set{"travel.speed_mm_s=40",
                 "travel.dwell_s=0.1",
@@ -336,16 +335,16 @@ Sizes sizes_of(const BenchContext& context) {
   return {seeds, 6, context.full ? 6000UL : 2000UL};
 }
 
-// Every run of the benchmark, made at once.
+// Every run of the benchmark, computed at once.
 struct Experiment {
-  Group slow, fast;                  // 20 and 40 mm/s, one way, as the rig is
+  Group slow, fast;                  // 20 and 40 mm/s, one way, with the rig unchanged
   Group slow_both, fast_both;        // both ways
-  Group slow_from_20, fast_from_20;  // with what columns 0 and 20 alone give
-  Group slow_adds, fast_adds;        // with the best of the other hypothesis, both ways
+  Group slow_from_20, fast_from_20;  // with the chain fitted to columns 0 and 20 alone
+  Group slow_adds, fast_adds;        // with the best chain of the second hypothesis, both ways
   Group later, crawl;                // 40 mm/s with 5 ms more; 5 mm/s
 };
 
-// Row 1: nothing of column 40 was used.
+// Row 1 uses no number of column 40.
 void add_prediction_figures(Bench& bench, const Table1& paper, const Predicted40& prediction) {
   int inside = 0;
   for (std::size_t a = 0; a < kTableAxes.size(); ++a)

@@ -29,7 +29,7 @@ std::vector<double> waited(const std::vector<double>& density, double width) {
   const double cells = width / kCell;
   const auto whole = static_cast<std::size_t>(cells);
   std::vector<double> sum(density.size() + whole + 2, 0.0);
-  // The last cell of the window counts by its part.
+  // The last cell of the window counts by its covered part.
   const double part = cells - static_cast<double>(whole);
   double window = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i) {
@@ -41,7 +41,7 @@ std::vector<double> waited(const std::vector<double>& density, double width) {
   return sum;
 }
 
-// Of the exponential delay of the packets that no later one overtakes.
+// Distribution of the exponential delay of packets that no later one overtakes.
 std::vector<double> delays(double mean, double period) {
   if (!(mean > 0.1 * kCell)) return {1.0};
   std::vector<double> density;
@@ -70,7 +70,7 @@ AgeDensity age_density(const ChainSpec& chain) {
   const double wait = 1.0 / std::max(chain.rate, chain.server_rate);
   const double period = 1.0 / std::min(chain.rate, chain.server_rate);
   AgeDensity ages{waited(waited(delays(chain.jitter, period), wait), chain.tick), 0.0};
-  // Discretised sums are off by part of a cell: the mean is known, so it is put right.
+  // Discretised sums are off by part of a cell. The mean is known, so this corrects it.
   double mean = 0.0;
   double exponential = 0.0;
   for (std::size_t i = 0; i < ages.share.size(); ++i) mean += ages.share[i] * ages.at(i);
@@ -275,7 +275,7 @@ MovesSpec moves_of(const models::Setup& setup) {
 std::array<AxisError, 3> axis_errors(const Table1& paper) {
   std::array<AxisError, 3> axes;
   for (std::size_t a = 0; a < axes.size(); ++a) {
-    const Cell& rest = paper[0][a];  // the bias is several times the noise: the mean size is the bias
+    const Cell& rest = paper[0][a];  // the bias is several times the noise, so the mean size is the bias
     axes[a] = {rest.mae, std::sqrt(std::max(0.0, rest.rmse * rest.rmse - rest.mae * rest.mae))};
   }
   return axes;
@@ -338,7 +338,7 @@ Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, Bi
     return judged(a, paper, side, judge) < judged(b, paper, side, judge);
   };
   Candidate found = *std::min_element(candidates.begin(), candidates.end(), better);
-  double size = 0.1;  // of the whole range, to each side
+  double size = 0.1;  // share of the whole range, to each side
   for (int closer = 0; closer < 4; ++closer, size *= 0.35) {
     std::vector<Asked> asked;
     for (std::size_t i = 0; i < 50; ++i) {
@@ -359,7 +359,7 @@ Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, Bi
 
 Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& paper, BiasSide side,
                        std::uint64_t seed) {
-  constexpr int kFigures = 6;  // that decide: rmse and mae of three axes at 20 mm/s
+  constexpr int kFigures = 6;  // the deciding figures: rmse and mae of three axes at 20 mm/s
   constexpr std::size_t kDraws = 4000;
   std::vector<double> sum(candidates.size());
   std::vector<double> size(candidates.size());

@@ -1,5 +1,6 @@
-// Which chain of delays fits Table 1 [VHMR 4.1]? The theory is asked for thousands of chains, spread evenly;
-// each is as likely as its misfit says. Bias and noise of each axis are those of the column at rest.
+// Fits chains of delays to Table 1 [VHMR 4.1]. The theory is evaluated for thousands of chains, spread
+// evenly; the misfit of a chain gives its likelihood. Bias and noise of each axis are those of the column at
+// rest.
 #pragma once
 
 #include <array>
@@ -20,17 +21,17 @@ namespace enc::bench::tracking {
 
 struct ChainSpec {
   double rate = 120.0, server_rate = 100.0;  // Hz, free-running
-  double fixed = 0.0;                        // s, from exposure to server and in its application
+  double fixed = 0.0;                        // s, from exposure to server, including its application
   double jitter = 0.0;                       // s, mean of the exponential part
   double tick = 1e-3;                        // s, of the core
 };
 
-// `count` ages, s, each as likely as the others: means of equal parts of their distribution. A packet that is
-// overtaken by a later one never counts.
+// `count` equally likely ages, s: means of equal parts of their distribution. A packet that a later one
+// overtakes never counts.
 [[nodiscard]] std::vector<double> likely_ages(const ChainSpec& chain, std::size_t count = 16);
 [[nodiscard]] double mean_age(const ChainSpec& chain);
 
-// One way along an axis from stop to stop, as the machine's servo makes it of the commanded trapezoids.
+// One way along an axis from stop to stop: the servo's response to the commanded trapezoids.
 struct MovesSpec {
   std::vector<double> stops{0.0, 0.005, 0.010, 0.020, 0.040};  // m
   double speed = 0.020;                                        // m/s
@@ -45,7 +46,7 @@ using trial::kMoving;
 
 [[nodiscard]] Errors at_stops(double bias, double noise);
 
-// Where the tool was an age ago less where it is, over all moving ticks and ages.
+// Place of the tool one age ago less its present place, over all moving ticks and ages.
 class Lag {
  public:
   Lag(const std::vector<double>& ages, const MovesSpec& moves);
@@ -60,49 +61,49 @@ class Lag {
   double mean_ = 0.0, square_ = 0.0;
 };
 
-// What rig, truth and scene of a set-up say to the theory.
+// The chain that rig, truth and scene of a set-up define.
 [[nodiscard]] ChainSpec chain_of(const models::Setup& setup);
 [[nodiscard]] MovesSpec moves_of(const models::Setup& setup);
 
 struct AxisError {
   double bias = 0.0, noise = 0.0;  // m
 };
-// Whose mean size and root mean square the column at rest prints.
+// Axes with the mean size and root mean square of the column at rest.
 [[nodiscard]] std::array<AxisError, 3> axis_errors(const Table1& paper);
 
 struct Candidate {
   double fixed = 0.0, jitter = 0.0, acceleration = 0.0;  // s, s, m/s^2
-  std::array<Table1, 3> table{};                         // by the theory, for each BiasSide
+  std::array<Table1, 3> table{};                         // theory's table, for each BiasSide
 };
 [[nodiscard]] Candidate candidate_of(const ChainSpec& chain, const MovesSpec& moves,
                                      const std::array<AxisError, 3>& axes);
 
 struct Misfit {
   double moving20 = 0.0;  // rms of the relative differences of the six figures at 20 mm/s
-  double moving = 0.0;    // of the twelve at 20 and 40 mm/s
-  double worst = 0.0;     // largest difference, in units of what is asked: 13 % each, 6 % the norm
+  double moving = 0.0;    // rms over the twelve figures at 20 and 40 mm/s
+  double worst = 0.0;     // largest difference, in units of the required accuracy: 13 % each, 6 % the norm
 };
 [[nodiscard]] Misfit misfit(const Table1& table, const Table1& paper);
 
 // `count` candidates over fixed delay 2 to 30 ms, jitter 0 to 6 ms, acceleration 0.2 to 5 m/s^2 (even in its
-// logarithm). Where `acceleration` is set it stays.
+// logarithm). A given `acceleration` stays fixed.
 [[nodiscard]] std::vector<Candidate> spread(const ChainSpec& chain, const MovesSpec& moves,
                                             const std::array<AxisError, 3>& axes, std::size_t count,
                                             double acceleration);
-// The best by `judge` (smaller is better), then looked for more closely around it.
+// The best by `judge` (smaller is better), refined by a finer search around it.
 enum class Judge : std::uint8_t { moving20, worst };
 [[nodiscard]] Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, BiasSide side,
                              Judge judge, const ChainSpec& chain, const MovesSpec& moves,
                              bool acceleration_free);
 
-// What columns 0 and 20 alone leave open about column 40.
+// The range of column 40 that columns 0 and 20 leave open.
 struct Predicted40 {
   Table1 low{}, median{}, high{};  // 5, 50 and 95 % of each figure
   std::vector<double> norm_rmse;   // m, of column 40, in order
-  std::vector<std::size_t> drawn;  // candidates, as often as they are likely
+  std::vector<std::size_t> drawn;  // candidates, drawn by their likelihood
 };
-// The size of the model's error and of one repetition's scatter is not known: it is judged by the misfit
-// itself (Student's t).
+// The size of the model's error and of one repetition's scatter is unknown: the misfit itself estimates it
+// (Student's t).
 [[nodiscard]] Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& paper,
                                      BiasSide side, std::uint64_t seed);
 

@@ -10,16 +10,15 @@ namespace enc::bench {
 
 class Reference {
  public:
-  // `models`: the models folder, which stands beside benchmarks. Throws Error with the place of what is
-  // wrong.
+  // `models`: the models folder, which stands beside benchmarks. Throws Error with the place of the error.
   static Reference load(const std::string& models, const std::string& name);
   static Reference parse(std::string_view text, const std::string& name);
 
   [[nodiscard]] std::size_t rows() const { return cells_.size(); }
-  [[nodiscard]] const std::string& source() const { return source_; }  // the lines about it
+  [[nodiscard]] const std::string& source() const { return source_; }  // the lines about the source
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view column) const;
   [[nodiscard]] double number(std::size_t row, std::string_view column) const;
-  // The row in which each given column has the given text; throws where there is none.
+  // The row in which each given column has the given text; throws if there is no such row.
   struct Where {
     std::string_view column, is;
   };

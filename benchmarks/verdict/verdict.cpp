@@ -13,10 +13,10 @@
 namespace enc::bench {
 namespace {
 
-constexpr double kHalfDigit = 0.5e-4;  // the tables are printed to four decimals
-constexpr double kHalfTenth = 0.5e-1;  // the figure's means to one
+constexpr double kHalfDigit = 0.5e-4;  // the tables have four decimals
+constexpr double kHalfTenth = 0.5e-1;  // the figure's means have one decimal
 
-// [VHMR Table 1], mm: the last row of each column says that it is the norm of the three above.
+// [VHMR Table 1], mm: the last row of each column is labelled as the norm of the three above.
 void norms(const Reference& table, std::vector<Contradiction>& list) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (table.text(i, "axis") != "norm") continue;
@@ -30,7 +30,7 @@ void norms(const Reference& table, std::vector<Contradiction>& list) {
       const double z = of("z");
       const double printed = table.number(i, column);
       const double norm = std::hypot(x, y, z);
-      // How far the printed digits let either side be.
+      // Largest deviation that the printed digits allow.
       const double room = kHalfDigit * ((x + y + z) / norm + 1.0);
       if (std::abs(printed - norm) <= room) continue;
       list.push_back({fmt::format("table1.{}.norm.{}", statistic, speed),
@@ -70,7 +70,7 @@ void force_errors(const Reference& table, std::vector<Contradiction>& list) {
   }
 }
 
-// [VHMR 4.4]: the text tells what everybody answered to item 10, [VHMR Fig 14] has the mean.
+// [VHMR 4.4]: the text lists the answers to item 10, [VHMR Fig 14] has the mean.
 void questionnaire(const Reference& figure, const Reference& text, std::vector<Contradiction>& list) {
   const double printed = figure.number(figure.row({{"item", "10"}}), "mean");
   double sum = 0.0;
@@ -90,13 +90,13 @@ void questionnaire(const Reference& figure, const Reference& text, std::vector<C
                   fmt::format("these answers have the mean {:.1f}", sum / people)});
 }
 
-constexpr double kLeastDrawn = 0.01;  // error over threshold: what is less still is a point, at the edge
+constexpr double kLeastDrawn = 0.01;  // error over threshold: smaller values are drawn at the edge
 
 [[noreturn]] void refuse(const std::string& name, std::size_t row, const std::string& what) {
   throw Error(fmt::format("{}: row {}: {}", name, row + 1, what));
 }
 
-// A share of the size at which the error happens [Weber], with a floor below which the share does not hold.
+// A share of the size at which the error occurs [Weber], with a floor below which the share does not hold.
 void fill_share(const Reference& table, std::size_t row, Threshold& t) {
   const auto number = [&](const char* column) { return table.number(row, column); };
   const double floor = number("floor");
@@ -195,7 +195,8 @@ std::vector<Threshold> load_thresholds(const std::string& models) {
   return thresholds_of(Reference::load(models, name), name);
 }
 
-// Each '*' takes as little as it can; where the rest then does not fit, the last one takes one more.
+// Each '*' matches as little as possible; if the rest then does not fit, the last one takes one more
+// character.
 bool matches(const std::string& pattern, const std::string& id) {
   std::size_t p = 0;
   std::size_t star = std::string::npos;

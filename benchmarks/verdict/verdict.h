@@ -1,5 +1,5 @@
-// Felt or not: errors of the twin, and of the paper, beside what a person can tell [sources/hand 6]. The
-// thresholds stand in benchmarks/reference/thresholds.csv with their sources; nothing else knows a number.
+// Perceptible or not: errors of the twin and of the paper beside perception thresholds [sources/hand 6]. The
+// thresholds and their sources stand in benchmarks/reference/thresholds.csv; no other file has these numbers.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,29 @@
 
 namespace enc::bench {
 
-// Where the paper [VHMR] contradicts itself. The report lists these; no benchmark has one as its target.
+// Contradictions within the paper [VHMR]. The report lists these; no benchmark has one as its target.
 
 struct Contradiction {
   std::string id;       // "table2.A.release"
   std::string where;    // in the paper
-  std::string printed;  // as it stands there
-  std::string found;    // what the printed numbers give when computed with
+  std::string printed;  // the printed text
+  std::string found;    // the result computed from the printed numbers
 };
 
 // Computed from the printed numbers (benchmarks/reference), each time. `models`: the models folder.
 [[nodiscard]] std::vector<Contradiction> contradictions(const std::string& models);
 
-// A threshold is a range: `least` is what the most sensitive of studies, people or places asks for, `most`
-// the least sensitive. All three are in the unit of the figure.
+// A threshold is a range: `least` is that of the most sensitive studies, people or places, `most` that of the
+// least sensitive. All three are in the unit of the figure.
 struct Threshold {
-  std::string figure;      // id of what it is for; '*' stands for any characters
+  std::string figure;      // id of its figure; '*' stands for any characters
   int sign = 0;            // +1, -1: errors of this sign alone; 0: their size
-  bool strictest = false;  // of a comparison that nobody makes so: above it nothing is known
-  std::string compares;    // what a person holds against what; or why nobody can
+  bool strictest = false;  // threshold of a comparison stricter than real use: an error above it has no
+                           // verdict
+  std::string compares;    // the comparison that a person makes; or why none is possible
   double value = kUnset, least = kUnset, most = kUnset;  // unset: not comparable
   std::string unit;
-  std::string rule;  // in words: "7 % of 5 N, at least 0.1 N"
+  std::string rule;  // rule in words: "7 % of 5 N, at least 0.1 N"
   std::string source, confidence;
 };
 
@@ -45,7 +46,7 @@ struct Judged {
   double over = kUnset, paper_over = kUnset;  // size of the error over the threshold's value
 };
 
-// Throws Error with the row of what is wrong.
+// Throws Error with the row of the error.
 [[nodiscard]] std::vector<Threshold> load_thresholds(const std::string& models);
 [[nodiscard]] std::vector<Threshold> parse_thresholds(const std::string& text, const std::string& name);
 
@@ -55,9 +56,9 @@ struct Judged {
 [[nodiscard]] std::vector<Judged> judged(const std::vector<BenchResult>& results,
                                          const std::vector<Threshold>& thresholds);
 
-// Without rows where nothing was judged.
+// Empty if no figure was judged.
 [[nodiscard]] Table verdict_table(const std::vector<Judged>& all);
-// What stands behind it: each threshold once.
+// The sources of the verdict: each threshold once.
 [[nodiscard]] Table threshold_table(const std::vector<Judged>& all);
 // The worst error of each threshold.
 [[nodiscard]] Plot verdict_plot(const std::vector<Judged>& all);

@@ -1,5 +1,5 @@
-// Is the haptic device gone from the user's view, is the hand still there, and are virtual objects where they
-// belong? And what is an arm that crosses the picture to the tracker?
+// Removal of the haptic device from the user's view: whether the device is gone, the hand still there, and
+// virtual objects in place. Also the effect on the tracker of an arm that crosses the picture.
 #include <algorithm>
 #include <cmath>
 
@@ -20,14 +20,15 @@ namespace {
 using namespace staged;
 
 constexpr std::size_t kLearning = 10;  // frames, of the background
-constexpr double kHidden = 0.1;        // of the cap: more is hidden
+constexpr double kHidden = 0.1;        // share of the cap: a larger share counts as hidden
 
 struct Named {
   const char* id;
   const char* words;
   Belief belief;
 };
-// m, along each axis: what a registration is off by (docs/guide/registration.md), and a head that was hit.
+// m, along each axis: a typical registration error (docs/guide/registration.md), and the shift of a head that
+// was hit.
 constexpr double kRegistration = 0.3e-3, kHit = 5e-3;
 const std::array<Named, 3> kBeliefs{
     {{"shipped", "as shipped: the rig believes what is true", {}},
@@ -41,7 +42,8 @@ struct Removal {
   std::vector<double> known, filled;             // grey levels, of a frame
   std::vector<double> overlay;                   // px, of an edge
   std::vector<double> seconds;
-  std::size_t unknown = 0, taken = 0;  // pixels that were replaced from what lies around, of all
+  std::size_t unknown = 0, taken = 0;  // pixels that were replaced from their surroundings; all replaced
+                                       // pixels
 };
 struct Seen {
   std::size_t frames = 0, found = 0, elsewhere = 0, nobody = 0, mistaken = 0;
@@ -49,9 +51,9 @@ struct Seen {
 };
 struct Cell {
   std::array<Removal, kBeliefs.size()> removal;
-  std::array<Seen, 2> seen;          // with the arm, without it
+  std::array<Seen, 2> seen;          // results with the arm, without it
   std::array<Seen, 2> meets;         // the prop under the fingertip
-  std::array<Seen, 2> open, hidden;  // by how much of the cap the arm hides
+  std::array<Seen, 2> open, hidden;  // by the share of the cap that the arm hides
   std::vector<Image> picture;
 };
 
@@ -89,9 +91,8 @@ void judge(const AugmentedView& view, const sim::PixelTruth& truth, const Image&
   if (counted[1] > 0) removal.filled.push_back(off[1] / static_cast<double>(counted[1]));
 }
 
-// In the picture: by how much each edge of the square that the wall is drawn as lies beside the place where
-// it truly is, px, in the mean along the edge. Pixels that only the picture or only the truth has count for
-// the edge next to them.
+// Distance in the picture between each edge of the drawn square of the wall and its true place, px, mean
+// along the edge. Pixels that only the picture or only the truth has count for the nearest edge.
 void judge_overlay(const ArmPlay& play, const models::Setup& setup, const AugmentedSpec& spec,
                    const Object& object, const AugmentedView& view, Removal& removal) {
   const Rectifier rectifier(spec.camera);
@@ -131,7 +132,7 @@ void judge_overlay(const ArmPlay& play, const models::Setup& setup, const Augmen
   }
 }
 
-// Of the skin that shows the cap where nothing is before it: what the arm hides.
+// Share of the unobstructed cap's skin that the arm hides.
 double hidden_share(const sim::PixelTruth& with, const sim::PixelTruth& without) {
   const double r = without.radius;
   const auto span = [&](double middle) {
@@ -205,7 +206,7 @@ Cell measure(const Asked& asked) {
     for (std::size_t b = 0; b < views.size(); ++b) {
       const double start = thread_seconds();
       views[b]->see(frame.pair.left.view(), frame.moment);
-      if (i + 1 == kLearning)  // nobody is there who could cover a part of it
+      if (i + 1 == kLearning)  // no person is there yet to cover a part of the background
         judge_overlay(play, setup, specs[b], scene.objects.front(), *views[b], cell.removal[b]);
       if (learning) continue;
       cell.removal[b].seconds.push_back(thread_seconds() - start);
@@ -214,7 +215,7 @@ Cell measure(const Asked& asked) {
     const Time t(from_seconds(0.05 * static_cast<double>(i)));
     for (std::size_t a = 0; a < 2; ++a) {
       const Pair& pair = a == 0 ? frame.pair : bare;
-      trackers[a].forget();  // each frame by itself: nothing helps that was seen before
+      trackers[a].forget();  // each frame alone: earlier frames do not help
       static_cast<void>(trackers[a].see({pair.left.view(), pair.right.view()}, t));
       if (learning) continue;
       note(trackers[a], frame.shown, pair.truth, cell.seen[a]);

@@ -26,14 +26,14 @@ namespace enc::bench::vishap {
 namespace {
 
 constexpr double kMeets = 0.6, kNobody = 0.1;  // shares of frames
-constexpr double kTilt = 0.5;                  // rad: how a prop may face, about the wall's normal
+constexpr double kTilt = 0.5;                  // rad: largest tilt of a prop about the wall's normal
 constexpr double kOutOfPlane = staged::Draw{}.tilt, kTowards = 0.4;
-// rad rms: a finger that is believed 2 mm beside where it is turns the normal of a ball of 40 mm by so much.
+// rad rms: error of the normal of a 40 mm ball for a finger that is estimated 2 mm beside its true place.
 constexpr double kFacingOff = 0.05;
 
 double between(sim::Stream& stream, double low, double high) { return low + (high - low) * stream.uniform(); }
 
-// What the encoders say of the joints.
+// The joint angles that the encoders measure.
 PerJoint measured(const sim::ArmTruth& arm, const PerJoint& q) {
   PerJoint said{};
   for (std::size_t i = 0; i < said.size(); ++i) {
@@ -43,17 +43,17 @@ PerJoint measured(const sim::ArmTruth& arm, const PerJoint& q) {
   return said;
 }
 
-// The experiment of [VisHap 3] as a whole: camera, fingertip, world, PHANToM. A finger comes with an even
-// speed, meets the prop, presses, slides and leaves, and what is felt is drawn over the distance that vision
-// sees (Fig 5).
+// The experiment of [VisHap 3] as a whole: camera, fingertip, world, PHANToM. A finger comes with a constant
+// speed, meets the prop, presses, slides and leaves. The rendered force is drawn over the distance that
+// vision measures (Fig 5).
 
 struct Walked {
   std::string scene;
   std::vector<std::string> set;
   double seconds = kUnset;
-  std::int64_t reaches = 0;  // random ones, instead of what the scene's user does
+  std::int64_t reaches = 0;  // random reaches that replace the scene's programme
   std::uint64_t seed = 1;
-  bool frames = false;  // a second core says what each picture changes
+  bool frames = false;  // a second core measures the change by each picture
 };
 
 struct Ran {
@@ -63,13 +63,13 @@ struct Ran {
   std::vector<reaching::ReachOutcome> reaches;
   double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
   double step = 0.0;  // N: of Lambda f along the normal, from tick to tick in contact
-  std::vector<trial::FrameForce::Change> frames;  // what each picture changed of it
+  std::vector<trial::FrameForce::Change> frames;  // change by each picture
   std::vector<double> seen, felt;                 // m, N: of each picture in contact
-  std::vector<double> off;                        // m: of a told place from the true one at its exposure
+  std::vector<double> off;                        // m: arrived place less the true place at its exposure
   std::vector<double> off_normal;                 // m: along the surface's normal
 };
 
-// What was true and felt at the exposures that are still to be told.
+// True and rendered values at exposures whose pictures are still to arrive.
 struct Felt {
   Time t{};
   Point<'W'> tip;
@@ -156,7 +156,7 @@ Ran run_one(const BenchContext& context, const Walked& asked) {
   return ran;
 }
 
-// Presses and slides once for each speed, mm/s, as often as asked.
+// Presses and slides once for each speed, mm/s, `repeats` times.
 std::vector<std::string> strokes(const std::string& speeds, std::size_t repeats) {
   return {"user.approach_mm_s=[" + speeds + "]",
           "user.press_s=0.6",
@@ -394,7 +394,7 @@ void ArmPlay::next(Frame& frame) {
   frame.shown.hand = frame.meets || stream_.uniform() > kNobody / (1.0 - kMeets);
   frame.shown.look.skin = skin_;
   const double radius = 0.5 * frame.shown.look.finger_width;
-  // A finger that comes to the wall, as far out of the image's plane as where fingertips are judged.
+  // A finger that comes to the wall, as far out of the image's plane as the judged fingertips.
   Vec<'C'> along;
   do {
     const double side = between(stream_, 0.0, 2.0 * M_PI), tilt = between(stream_, -kOutOfPlane, kOutOfPlane);

@@ -13,9 +13,9 @@
 namespace enc::bench::vishap {
 
 // Frames of an arm that comes to meet a finger, before the twin's stereo head: the arm anywhere, often with
-// its prop under the fingertip. The truth, and what a rig believes of it.
+// its prop under the fingertip. Ground truth, and a rig's estimate of it.
 
-// How far a belief is from the truth.
+// Difference of an estimate from the ground truth.
 struct Belief {
   Vec<'C'> camera_off = Vec<'C'>::zero();
 };
@@ -31,9 +31,9 @@ class ArmPlay {
     AugmentedMoment moment;
     bool meets = false;  // the prop is just under the fingertip
   };
-  void rest(Frame& frame);  // the arm where it starts, nobody there
+  void rest(Frame& frame);  // the arm at its start, no person
   void next(Frame& frame);
-  // The frame again without the arm.
+  // Draws the frame again without the arm.
   void without_arm(const Frame& frame, staged::Pair& pair);
   [[nodiscard]] Image empty();  // the room alone, without noise
 
@@ -53,13 +53,13 @@ class ArmPlay {
   Pose<'C', 'W'> X_CW_;
   Pose<'W', 'R'> X_WR_;
   Vec<'W'> normal_;                 // of the wall
-  Quat facing_ = Quat::Identity();  // of the prop's front, q_WN
+  Quat facing_ = Quat::Identity();  // attitude of the prop's front, q_WN
   sim::Rgb skin_;
   std::uint64_t frames_ = 0;
 };
 
-// The haptic device taken out of the left image, objects put in its place, and what an arm in view is to the
-// tracker.
+// The haptic device removed from the left image, objects put in its place, and the effect of an arm in view
+// on the tracker.
 void add_device_removal(Bench& bench);
 
 }  // namespace enc::bench::vishap

@@ -14,9 +14,9 @@ namespace enc::bench::workspace {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kHalf = 0.12;  // m: of the box that is searched, more than any such machine travels
+constexpr double kHalf = 0.12;  // m: of the searched box, larger than the travel of any such machine
 
-// Of f over (-kHalf, kHalf) in two numbers: a grid, then ever shorter steps.
+// Largest f over (-kHalf, kHalf) in two numbers: a grid, then ever shorter steps.
 double largest(const std::function<double(double, double)>& f) {
   constexpr double kGrid = 4e-3;
   double best = -kNever, bx = 0.0, by = 0.0;
@@ -44,7 +44,7 @@ double largest(const std::function<double(double, double)>& f) {
 ReachVolume::Column ReachVolume::column(double x, double y) const {
   const HexapodGeometry& g = machine_.geometry();
   const double shortest = machine_.zero_length() - g.stroke, longest = machine_.zero_length() + g.stroke;
-  const double zero = g.height + g.tip_height;  // of H over the base joints
+  const double zero = g.height + g.tip_height;  // height of H over the base joints
   Column out{-kNever, kNever};
   for (int leg = 0; leg < 6; ++leg) {
     const Vec3 arm = machine_.platform_joint(leg) - machine_.base_joint(leg);
@@ -66,7 +66,7 @@ double ReachVolume::straight(double step) const {
 
 ReachVolume::Extents ReachVolume::extents() const {
   Extents out;
-  // How far to a side: the largest x where some y still has a height.
+  // Extent to a side: the largest x where some y still has a height.
   const auto side = [&](bool along_x, double sign) {
     double in = 0.0, outside = kHalf;
     const auto open = [&](double at) {
@@ -102,7 +102,7 @@ double ReachVolume::slack(const Vec3& p, const Vec3& turn) const {
   const ReachLimit limit = machine_.limit(X_RH);
   if (limit == ReachLimit::tilt || limit == ReachLimit::yaw) return -kNever;
   const double worst = (machine_.inverse(X_RH).array() - machine_.zero_length()).abs().maxCoeff();
-  // limit() tells stroke before tilt and yaw: those have to be looked at as well.
+  // limit() reports stroke before tilt and yaw, so those must be checked as well.
   const Mat3 R = X_RH.q().toRotationMatrix();
   const bool allowed =
       R(2, 2) >= std::cos(g.tilt_limit) && std::abs(std::atan2(R(1, 0), R(0, 0))) <= g.yaw_limit;

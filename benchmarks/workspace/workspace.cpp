@@ -1,5 +1,5 @@
-// What the machine can be asked for: box and true volume of its travel, the tracker's reach, and from which
-// directions the ball can be pressed (from below it cannot, and why) [VHMR 2, 5].
+// Workspace of the machine: box and true volume of its travel, the tracker's reach, and the directions from
+// which the ball can be pressed (not from below, with the reason) [VHMR 2, 5].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ void add(BenchResult& result, const std::string& id, double paper, double twin, 
   result.figures.push_back(std::move(figure));
 }
 
-// The paper's box was used to find the machine's geometry (sources/hexapod 2), so it is no prediction.
+// The paper's box determined the machine's geometry (sources/hexapod 2), so it is no prediction.
 void add_box(BenchResult& result, const ReachVolume& reach) {
   constexpr std::array<double, 3> kPaper{160.0, 140.0, 50.0};  // mm [VHMR 2]
   const ReachVolume::Extents e = reach.extents();
@@ -39,7 +39,7 @@ void add_box(BenchResult& result, const ReachVolume& reach) {
       "product of the three: a box around the reach, most of which is not reached");
 }
 
-// Halving the step tells how far the last value may still be off.
+// Halving the step estimates the remaining error of the last value.
 template <class Volume>
 std::array<double, 3> converged(Table& table, const char* what, double step, int halvings, Volume volume) {
   double before = kUnset, now = volume(step);
@@ -172,10 +172,10 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
   add(result, "polar.machine.max", kUnset, steepest / kDegree, "deg", Role::ours, kUnset, kUnset,
       "from there on the stem is in the tool's way, wherever the ball is");
 
-  // Not the reach alone: were the ball higher, the tip would get to its lower side.
+  // The reach alone is not the reason: with a higher ball, the tip would get to its lower side.
   const Point<'W'> raised(centre.xyz[0], centre.xyz[1], 0.5 * scene.objects.front().radius);
   std::vector<Direction> below = directions(scene, raised, step);
-  constexpr double kDrawn = 7.5;  // deg: points that can be told apart
+  constexpr double kDrawn = 7.5;  // deg: spacing at which drawn points stay distinct
   add_map(result, directions(scene, centre, kDrawn), "workspace_directions",
           "From where can the ball be pressed?",
           "The ball of the scene, pressed to its limit along its radius. From the side and from below its "
