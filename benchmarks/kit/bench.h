@@ -92,8 +92,8 @@ struct BenchContext {
   }
 };
 
-// The table of benchmarks. Each benchmark registers itself by one line in its own file: const Entry
-// kEntry{"speed", "tennis_ball", "step(), times real time", run};
+// The table of benchmarks. Each benchmark registers itself by one line in its own file:
+//   const Entry kEntry{"speed", "tennis_ball", "step(), times real time", run};
 
 class Bench;
 

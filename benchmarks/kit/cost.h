@@ -18,8 +18,7 @@ class Race {
  public:
   Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up = 1,
        std::uint64_t seed = 1);
-  [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // quantile: `share` of the rounds
-                                                                            // are below it
+  [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // `share` of the rounds are below
   // Median over the rounds of `way`'s time over that of `over`; the second form takes `over` from another
   // race with as many rounds.
   [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }

@@ -47,7 +47,7 @@ struct Plot {
   std::string title, x_label, y_label;  // labels with their unit
   bool log_x = false, log_y = false;
   std::vector<Series> series{};
-  std::string caption{};               // tells the reader the point of the plot
+  std::string caption{};               // points out the result
   std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
   bool equal = false;                  // one unit of x is as long as one of y (maps)
   std::vector<std::string> y_names{};  // beside y = 0, 1, 2, ... from the top down, in place of numbers

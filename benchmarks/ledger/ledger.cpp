@@ -26,8 +26,7 @@ using C = trial::ContactLedger;
 constexpr double C::*kTerms[] = {&C::hand,   &C::carried,      &C::kinetic, &C::spring,
                                  &C::weight, &C::joints,       &C::law,     &C::sampling,
                                  &C::delay,  &C::quantisation, &C::limits};
-constexpr double kAccuracy = 0.005;  // share of the largest term, chosen: half of the bound on a ledger's
-                                     // closure
+constexpr double kAccuracy = 0.005;  // share of the largest term, chosen: half of the closure's bound
 
 // Adds the terms of a contact to those of others.
 void add_terms(const C& one, C& all) {

@@ -36,7 +36,7 @@ struct Form {
 [[nodiscard]] Form load_form(const std::string& models, const std::string& name);
 [[nodiscard]] Form parse_form(const std::string& text, const std::string& path);
 
-// What people answered to a form: one row for each of them in a CSV file that only ever grows.
+// The answers to a form: one row for each of them in a CSV file that only ever grows.
 //
 //   participant,force_feedback,vr_mr,visuo_haptics,item_1,...,item_11[,date]
 //   1,yes,no,no,6,4,6,6,5,5,5,4,6,6,5

@@ -33,11 +33,9 @@ struct IdealSpec {
 };
 
 struct Ideal {
-  Eigen::Vector2d place{kUnset, kUnset};  // mean of the best place of a prop, if the tip touches at a given
-                                          // time
+  Eigen::Vector2d place{kUnset, kUnset};  // best place of a prop for a touch at a given time; mean
   double within = 0.0;                    // probability of a touch within 2 mm of it, by the predictor itself
-  double evidence = -HUGE_VAL;  // logarithm of the density of that time; without the factor that all times
-                                // share
+  double evidence = -HUGE_VAL;            // logarithm of the density of that time, without a common factor
 };
 // Uses the pictures that had arrived by `told`, for a tip that touches at `touches`, s.
 [[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches);

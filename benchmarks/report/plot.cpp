@@ -30,8 +30,7 @@ std::string first_complaint(const std::string& text) {
 
 // Colours that colour-blind readers can distinguish [Okabe and Ito 2008]; the paper is black.
 constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5195"};
-constexpr std::array kFields{"#BFE0EE", "#F2DC8C", "#CC6677", "#DDDDDD"};  // colours of map fields; lines are
-                                                                           // drawn over them
+constexpr std::array kFields{"#BFE0EE", "#F2DC8C", "#CC6677", "#DDDDDD"};  // map fields, under lines
 constexpr std::array kPoints{7, 5, 9, 13, 11, 15, 3};  // gnuplot's numbers of filled shapes
 constexpr double kTop = 0.975;                         // place of failures, as a share of the axis
 

@@ -176,8 +176,7 @@ void write_report(const std::string& folder, const Report& report) {
   }
   write_whole(at / "REPORT.md", report_markdown(report));
   write_whole(at / "report.html", report_html(report));
-  write_whole(at / "results.json", results_json(report));  // last: a program that waits for it finds all
-                                                           // other files
+  write_whole(at / "results.json", results_json(report));  // last: the other files are then complete
 }
 
 }  // namespace enc::bench

@@ -21,8 +21,7 @@ namespace enc::bench::stability {
 
 // Predictions beside outcomes. A place counts as predicted only if both are known.
 struct Agreement {
-  double places = 0.0, rest = 0.0, same = 0.0;  // rest: predicts whether it rests; same: also distinguishes
-                                                // limit cycles
+  double places = 0.0, rest = 0.0, same = 0.0;  // rest: yes or no; same: limit cycles as well
   void see(certificate::Rest told, certificate::Rest seen);
 };
 

@@ -60,10 +60,7 @@ class Loop {
   [[nodiscard]] bool touching() const { return touching_; }
   [[nodiscard]] const Slide& slide() const { return slide_; }
   [[nodiscard]] double contact() const { return contact_; }  // J, true, of the present or last one
-  [[nodiscard]] double given() const {
-    return given_;
-  }  // J, true: largest output of any contact
-     // contact
+  [[nodiscard]] double given() const { return given_; }      // J, true: largest output of any contact
 
  private:
   [[nodiscard]] double surface() const {

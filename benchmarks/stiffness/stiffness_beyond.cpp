@@ -195,7 +195,7 @@ Series series_of(const std::vector<BeyondLevel>& levels, const std::string& name
   return s;
 }
 
-// The lowest stable stiffness, with all tested ones above it stable, N/m; infinite if there is none.
+// The lowest stable stiffness, with all tested ones above it stable, N/m; infinite if all are unstable.
 double boundary_of(const std::vector<BeyondLevel>& levels) {
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = levels.size(); i-- > 0 && levels[i].way.most <= kWander;) lowest = levels[i].stiffness;

@@ -339,8 +339,8 @@ Sizes sizes_of(const BenchContext& context) {
 struct Experiment {
   Group slow, fast;                  // 20 and 40 mm/s, one way, with the rig unchanged
   Group slow_both, fast_both;        // both ways
-  Group slow_from_20, fast_from_20;  // with the chain fitted to columns 0 and 20 alone
-  Group slow_adds, fast_adds;        // with the best chain of the second hypothesis, both ways
+  Group slow_from_20, fast_from_20;  // chain fitted to columns 0 and 20 alone
+  Group slow_adds, fast_adds;        // best chain of the second hypothesis; both ways
   Group later, crawl;                // 40 mm/s with 5 ms more; 5 mm/s
 };
 

@@ -13,7 +13,7 @@
 
 namespace enc::bench::tracking {
 
-// What a chain of delays makes of a motion: the errors of Table 1 to be expected, from the numbers of the
+// The expected errors of Table 1 for a chain of delays and a motion, from the numbers of the
 // chain alone and without a simulator. A packet that reaches the core at a tick shows the tool where it was
 // one age ago:
 //   age = fixed delay + wait for the next server tick + exponential delay + wait for the next tick of the

@@ -42,8 +42,7 @@ struct Removal {
   std::vector<double> known, filled;             // grey levels, of a frame
   std::vector<double> overlay;                   // px, of an edge
   std::vector<double> seconds;
-  std::size_t unknown = 0, taken = 0;  // pixels that were replaced from their surroundings; all replaced
-                                       // pixels
+  std::size_t unknown = 0, taken = 0;  // pixels replaced from their surroundings; all replaced pixels
 };
 struct Seen {
   std::size_t frames = 0, found = 0, elsewhere = 0, nobody = 0, mistaken = 0;
@@ -53,7 +52,7 @@ struct Cell {
   std::array<Removal, kBeliefs.size()> removal;
   std::array<Seen, 2> seen;          // results with the arm, without it
   std::array<Seen, 2> meets;         // the prop under the fingertip
-  std::array<Seen, 2> open, hidden;  // by the share of the cap that the arm hides
+  std::array<Seen, 2> open, hidden;  // results by the share of the cap that the arm hides
   std::vector<Image> picture;
 };
 
