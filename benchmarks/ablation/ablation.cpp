@@ -36,8 +36,8 @@ namespace {
 // The parts that a scene can leave out, each with its own cost.
 enum class Part : std::uint8_t {
   display,   // a device: the headset, and the surface that it draws
-  camera,    // images and vision beside the tracker that the scene has: a device, buffers and libraries
-  pictures,  // elements of the physics: the bodies, meshes and lights that are only looked at
+  camera,    // images and vision in addition to the scene's tracker: a device, buffers and libraries
+  pictures,  // elements of the physics: bodies, meshes and lights that are only displayed
   features,  // physics: contacts and constraints where nothing can touch
   counts,    // counters of `run`: presses, touches, the energy ledger
   record,    // each tick into a file
@@ -97,7 +97,7 @@ bool among(const std::vector<Part>& parts, Part part) {
 // Islands are left on: without them MuJoCo solves an arm's contacts in another order, which gives other bits.
 constexpr int kFeatures = mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
 
-// A camera's scene is run for some seconds only: its finger comes from nearby.
+// A scene with a camera runs only for some seconds: its finger comes from nearby.
 std::vector<std::string> soon_touched(const std::string& scene) {
   if (!scene.starts_with("camera/")) return {};
   return {"user.approach_from_mm=20", "user.approach_mm_s=[50]"};
@@ -167,7 +167,7 @@ bool Form::works(Part part, const Form& minimal) const {
       return elements() > minimal.elements();
     case Part::features:
       return (trial_->world().physics().model()->opt.disableflags & kFeatures) == 0;
-    case Part::counts:  // a contact is booked when it is over
+    case Part::counts:  // a contact is counted when it ends
       return trial_->result().contacts < 2 || !counts_->ledger.contacts().empty() ||
              !counts_->presses.presses().empty() || !counts_->pushes.pushes().empty();
     case Part::record: {
@@ -226,14 +226,14 @@ struct Costs {
   int elements = 0, all_elements = 0;      // of the physics
   std::size_t equal = 0, forms = 0;        // felt as by the minimal form
   std::string idle{};                      // parts that did nothing
-  bool seen = false;                       // the scene has a camera: beside its pictures no part shows
-  std::int64_t touched = 0;                // ticks, of the minimal form
+  bool seen = false;         // the scene has a camera: its pictures hide the cost of the other parts
+  std::int64_t touched = 0;  // ticks, of the minimal form
   // Sum of the costs of all parts but the camera, measured one at a time, over their cost together; its
   // standard error.
   double explained = kUnset, doubt = kUnset;
 };
 
-// Raw mj_step of the same model, from where the physics stands half way.
+// Raw mj_step of the scene's model, from the state of the physics half-way through the run.
 double raw_over(const BenchContext& context, const std::string& scene, double seconds) {
   Form form(context, scene, {}, seconds);
   sim::Physics& physics = form.world().physics();

@@ -265,7 +265,7 @@ bool is_default(const trial::BenchOptions& options) {
          options.set.empty() && options.rig.empty();
 }
 
-// Columns one beside the other; the last one as long as it is.
+// Columns side by side; the last one keeps its own width.
 void print_table(const Table& table) {
   std::vector<std::size_t> width;
   for (const std::string& column : table.columns) width.push_back(column.size());

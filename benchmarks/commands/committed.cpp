@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kFile = "figures.csv";
 constexpr double kDigits = 1e-3;  // the rounding of a value kept with four digits
 
-// Within the span of the other run, which may be a single value.
+// Within the span of the second run, which may be a single value.
 bool within(double value, double single, double least, double most) {
   const double low = std::isfinite(least) ? least : single, high = std::isfinite(most) ? most : single;
   const double room = kDigits * std::max(std::abs(low), std::abs(high));

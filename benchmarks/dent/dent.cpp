@@ -70,7 +70,7 @@ struct Straight {
 
 constexpr int kUpdates = 20;
 
-// Ours, ours with a dent so wide that no vertex is skipped, straight: kUpdates each.
+// Ours; ours with a dent so wide that no vertex is skipped; straight: kUpdates each.
 Race race(const Mesh& ball, const Surface& surface, const DentSample& dent, std::size_t rounds) {
   Cloud cloud(ball);
   Straight straight(ball);

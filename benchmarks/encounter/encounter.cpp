@@ -1,5 +1,5 @@
-// Is the haptic-tip there when the tool arrives? Miss at first touch over approach speed, many hands for each
-// speed.
+// Miss at first touch over approach speed, many hands for each speed: is the haptic-tip there when the tool
+// arrives?
 #include <array>
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
 
 struct Meeting {
-  double miss = kUnset, delay = kUnset;  // m, s: of a hand that touched
+  double miss = kUnset, delay = kUnset;  // m, s: values of a hand that touched
   double simulated = 0.0;                // s
 };
 

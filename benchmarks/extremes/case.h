@@ -50,7 +50,7 @@ inline constexpr double kInfinite = HUGE_VAL;
 
 // A measured number with the bounds that are the criterion; without bounds it is informative only.
 struct Number {
-  std::string what;  // last tokens of its id, behind those of the case
+  std::string what;  // last tokens of its id, after those of the case
   double value = kUnset;
   const char* unit = "";
   Bounds bounds{};
@@ -63,7 +63,7 @@ struct Found {
   std::string did, criterion;  // the table's text: the action and the criterion
   std::vector<Number> numbers{};
   double simulated = 0.0;  // s
-  std::string words{};     // beside the verdict; such as what physics does not allow
+  std::string words{};     // beside the verdict, such as a physical limit
 };
 
 [[nodiscard]] inline double time_of(const trial::Glance& glance) {  // s
@@ -76,7 +76,7 @@ struct Case {
 };
 using Cases = std::vector<Case>;
 
-// A run with a judge, which takes the trial's hook `watch`; `also` looks on, too.
+// A run with a judge, which takes the trial's hook `watch`; `also` is an additional observer.
 struct Run {
   trial::TrialResult result;
   Judge judge;

@@ -1,5 +1,4 @@
-// Cases of contact: walls of any stiffness, touches that come too fast, and places where no contact should
-// be.
+// Cases of contact: walls of any stiffness, touches at too high a speed, and contacts at unusual places.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +17,7 @@ namespace {
 // Walls from 10^2 to 10^6 N/m on both machines.
 
 constexpr double kPush = 4.0;   // N, of the finger
-constexpr double kStill = 1.0;  // mm, peak to peak: what goes farther is not rendered
+constexpr double kStill = 1.0;  // mm, peak to peak: a larger swing counts as not rendered
 
 // m, peak to peak along z: the tip's swing while it is watched.
 class Swing {
@@ -140,7 +139,7 @@ Found deep_tip(const BenchContext& context) {
     }
     outside = std::max(outside, g.truth.tip_radius - depth);
   });
-  constexpr double kStep = 3e-6;  // m: what the machine's own step may take it back
+  constexpr double kStep = 3e-6;  // m: retreat that the machine's own step may cause
   found.numbers = {
       {"start.value", first * kMmPerM, "mm", between(19.9, 20.1), "depth of the tip's centre"},
       {"back.max", back * 1e6, "um", at_most(2e6 * kStep), "deeper than it has been before"},

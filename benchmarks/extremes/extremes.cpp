@@ -1,5 +1,4 @@
-// Extreme cases: each done to a whole trial, with the criterion that it has to meet
-// (docs/reference/extremes.md).
+// Extreme cases: each runs in a whole trial and must meet its criterion (docs/reference/extremes.md).
 #include <algorithm>
 #include <array>
 #include <cmath>

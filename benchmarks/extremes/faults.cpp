@@ -1,4 +1,4 @@
-// The faults, and the cases of inputs and links that they make.
+// The fault injectors, and the cases of inputs and links that use them.
 #include "benchmarks/extremes/faults.h"
 
 #include <algorithm>
@@ -157,7 +157,7 @@ struct Link {
   std::uint64_t hash = 0;
   Run run;
 };
-// A way of 16 mm: the hand goes back at 40 mm/s, too.
+// A path of 16 mm, because the hand returns at 40 mm/s, too.
 Link link_of(const BenchContext& context, const Network::Faults& faults) {
   Link link;
   Network network(faults, context.seed);

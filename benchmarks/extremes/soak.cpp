@@ -13,7 +13,7 @@
 namespace enc::bench::extremes {
 namespace {
 
-// Presses without an end, in both scenes; seconds of them.
+// The scene with endless presses on either machine; length in seconds.
 models::Setup endless(const BenchContext& context, bool arm, double length) {
   if (arm) return load_scene(context, "keypad", {fmt::format("user.repeats={:.0f}", length / 6.0 + 2.0)});
   return load_scene(context, "session",
@@ -80,7 +80,7 @@ Found storm(const BenchContext& context, bool arm, double length) {
   return found;
 }
 
-// MiB that the program has in memory.
+// MiB of the program's memory.
 double resident() {
   std::ifstream in("/proc/self/statm");
   double size = 0.0, pages = kUnset;

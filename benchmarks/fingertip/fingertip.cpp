@@ -69,7 +69,7 @@ Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::
   int rays = 0;
   for (int i = -kRays; i <= kRays; ++i) {
     const double angle = ahead + std::numbers::pi / 90.0 * i;
-    double far = 0.5 * round;  // farther in a finger that points away is before its cap
+    double far = 0.5 * round;  // farther inside the image of a finger that points away is before its cap
     Seen what = Seen::cap;
     for (; what == Seen::cap && far < 2.0 * round; far += kStep)
       what = seen(tangent, shot, truth, tangent.image({far * std::cos(angle), far * std::sin(angle)}));
@@ -336,7 +336,7 @@ void judge_gross(Bench& bench, const std::vector<Found>& shots, const std::strin
                fmt::format("of {} with an error in disparity beyond {:g} px", errors.size(), kGross));
 }
 
-// Z^2 sigma / (f B), with the sigma that the disparity turned out to have.
+// Z^2 sigma / (f B), with the measured sigma of the disparity.
 void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& shots) {
   const double fb = rig.left.focal_x * rig.X_CD.p().x();
   const double sigma = rms(known(shots, &Found::disparity));

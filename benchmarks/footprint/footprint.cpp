@@ -24,7 +24,7 @@ struct Row {
   std::size_t libraries = 0;
   int threads = 0, elements = 0;
   double memory = kUnset;  // MiB
-  double start = kUnset;   // CPU time of the whole process over that of one that does nothing
+  double start = kUnset;   // CPU time of the whole process over that of an empty one
 };
 
 // One tick of a scene, and an empty process right after it, so that other load on the machine affects both.

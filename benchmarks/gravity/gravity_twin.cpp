@@ -145,7 +145,7 @@ constexpr double kMostStep = 6.0;  // yardsticks: measured 3.1, on a busy machin
 constexpr double kSample = 0.004;  // s: every time step divides it
 const Motion kStart{{-0.2, 0.35, 0.30}, {4.0, -1.5, 2.0}};
 
-// The tip's path while the joints stay within their limits, sampled.
+// The tip's path while the joints stay within their limits, in samples.
 std::vector<Vec3> reference(const Laden& laden, int samples) {
   constexpr int kSteps = 100;  // steps of 40 us in a sample
   std::vector<Vec3> path;

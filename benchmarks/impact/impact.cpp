@@ -14,7 +14,7 @@ namespace enc::bench::impact {
 namespace {
 
 constexpr const char* kStill = "truth.hand.drift_mm=0";  // makes the touch equal in each run
-constexpr double kFine = 5e-6;                           // s: half of it changes the force by 0.1 %
+constexpr double kFine = 5e-6;                           // s: half of this step changes the force by 0.1 %
 
 // N/m and damping ratio for the tool's mass: the converged result does not depend on them.
 Law law_of(const models::Setup& setup, double stiffness) {

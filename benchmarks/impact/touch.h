@@ -43,7 +43,7 @@ struct Watched {
   std::string failure{};    // error of the run; empty: none occurred
 };
 
-// Runs until the window is over, or to the end.
+// Runs until the window ends, or to the end of the run.
 [[nodiscard]] Watched watch_touch(const models::Setup& setup, std::uint64_t seed);
 
 // A contact law: k d^exponent (1 + c v), where v is the closing speed; it never pulls. Dry friction by

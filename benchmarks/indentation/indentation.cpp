@@ -103,7 +103,7 @@ std::vector<double> binned(const Branch& branch, double limit, const Response* m
   return sum;
 }
 
-// The greatest difference between runs at equal deflection, press and release apart.
+// The largest difference between runs at equal deflection, press and release apart.
 RunSpread spread_of(const std::vector<IndentRun>& runs, Reading reading) {
   RunSpread spread;
   for (const bool press : {true, false}) {
@@ -233,7 +233,7 @@ void add_energy_stop(const IndentStudy& study, Bench& bench) {
 // Checks that the ball's force does not depend on the time step: equal hands at the shipped step and at a
 // converged one.
 
-// RMSE of the true force at the step that ships over that at a converged one.
+// RMSE of the true force at the shipped step over that at a converged one.
 void add_converged(const IndentStudy& study, BenchResult& result) {
   if (study.context.quick) return;
   const std::size_t hands = 3, which = study.context.full ? indentations().size() : 1;

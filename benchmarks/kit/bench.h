@@ -29,7 +29,7 @@ struct Figure {
   Role role = Role::ours;
   double low = kUnset, high = kUnset;  // bounds, both sides; unset: none
   std::string note;
-  double least = kUnset, most = kUnset;  // over seeds or repeats, where there are several
+  double least = kUnset, most = kUnset;  // over seeds or repeats, if there are several
   bool absent = false;  // not measurable here, such as the ground truth of a real machine: no bounds apply
   bool cost = false;    // a time, a ratio of times or memory: it depends on the machine, and informs
   [[nodiscard]] bool ok() const;
@@ -75,8 +75,8 @@ struct BenchContext {
   bool quick = false;
   bool full = false;  // also the parts that take minutes: switch-off tables, work-precision
   std::vector<std::string> set;
-  std::function<void(double)> progress;  // share done; any thread may call it
-  // Loads a module of the program by name; null where it was not built.
+  std::function<void(double)> progress;  // receives the share done; any thread may call it
+  // Loads a module of the program by name; null if it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
   // Rig whose devices run (scenes.h); empty: in the twin.
   std::string rig{};

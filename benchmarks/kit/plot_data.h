@@ -30,9 +30,9 @@ struct Series {
   std::vector<double> x{}, y{};
   std::vector<double> low{}, high{};
   Mark mark = Mark::line;
-  bool paper = false;                        // the paper's own values: drawn alike in every plot
+  bool paper = false;                        // the paper's own values: one look in every plot
   std::size_t panel = 0;                     // index of its panel in Plot::panels
-  void add(double at, const Value& value) {  // a point, with a bar where the value has one
+  void add(double at, const Value& value) {  // adds a point, with a bar if the value has one
     x.push_back(at);
     y.push_back(value.middle);
     if (std::isnan(value.least) && low.empty()) return;

@@ -114,7 +114,7 @@ struct Point {
   double step;
   double error = kUnset, cpu = kUnset;  // m; s for each second
   double yards = kUnset;                // yardsticks for each tick
-  double spread = kUnset;               // the greatest over the least of its runs
+  double spread = kUnset;               // the largest over the least of its runs
   std::string failure{};
   [[nodiscard]] bool good(double accuracy) const { return failure.empty() && error <= accuracy; }
 };

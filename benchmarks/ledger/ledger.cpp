@@ -151,7 +151,7 @@ void run(Bench& bench) {
                           pair.controlled ? mj(pair.controlled->surplus) : "nothing"});
     bench.figure("closure." + pair.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
                  "of the largest term, of contacts above 0.05 mJ");
-    // A prop that leaps under a finger gives more in 3 of 1,784 contacts: at most 0.22
+    // In 3 of 1,784 contacts a leaping prop under the finger gives out more: at most 0.22
     // (docs/reference/ledger.md).
     const double most = pair.scene == "reaching" ? 0.25 : 0.1;
     if (pair.controlled) {

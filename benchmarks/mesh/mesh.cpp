@@ -93,7 +93,7 @@ void run(Bench& bench) {
   bench.progress(0.5);
   std::vector<trial::TrialResult> runs;
   runs.reserve(trials.size());
-  for (const auto& trial : trials) runs.push_back(trial->run());  // one after the other, on this thread
+  for (const auto& trial : trials) runs.push_back(trial->run());  // in turn on this thread
   const trial::TrialResult& run = runs.front();
   bench.result.simulated = run.simulated;
 

@@ -54,7 +54,7 @@ Curve sampled(const PressTrace& trace) {
 // holds alone, by two integrators.
 
 constexpr double kLeap = 20e-3;  // m
-// At home the tip is lightest along x; 30 mm farther back it is 2.5 times as heavy along y.
+// The tip is lightest along x at home; 30 mm farther back it is 2.5 times as heavy along y.
 struct Way {
   Vec3 from, along;
 };
@@ -174,7 +174,7 @@ double side_share(const PressTrace& trace) {
   return 100.0 * side / normal;
 }
 
-// Half the width of the loop that pressing and releasing make, N: friction and damping.
+// Half the width of the loop of pressing and releasing, N: friction and damping.
 double loop_width(const PressTrace& trace) {
   const Line down = line_of(trace, Phase::press, Depth::truth, 5e-3, 7e-3);
   double press = 0.0, release = 0.0, n = 0.0, m = 0.0;

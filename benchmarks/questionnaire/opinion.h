@@ -37,7 +37,7 @@ struct Opinion {
 
 [[nodiscard]] Table opinion_table(const Form& form, const std::vector<ItemReference>& items,
                                   const std::vector<Answer>& rows);
-// Means of people with and without each experience.
+// Means of people with and of people without each experience.
 [[nodiscard]] Table experience_table(const Form& form, const std::vector<Answer>& rows);
 [[nodiscard]] Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
                                 const std::vector<Answer>& rows);

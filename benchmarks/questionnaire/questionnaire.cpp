@@ -207,7 +207,7 @@ class LockedFile {
       models::note_input(path_);  // no other output of this command may overwrite it
       return;
     }
-    if (!S_ISREG(kind.st_mode)) errno = EINVAL;  // a device or a pipe keeps nothing
+    if (!S_ISREG(kind.st_mode)) errno = EINVAL;  // a device or a pipe does not keep the data
     const int why = errno;
     close(fd_);
     errno = why;
@@ -279,7 +279,7 @@ bool in_file(const Answers& answers, const std::string& participant) {
                      [&](const Answer& a) { return a.participant == participant; });
 }
 
-// 1 more than the largest number among the participants.
+// One more than the largest participant number.
 std::string next_participant(const Answers& answers) {
   std::int64_t largest = 0;
   for (const Answer& a : answers.rows) {

@@ -21,7 +21,7 @@ struct SeenReach {
   };
   std::vector<Picture> pictures;          // pictures in the order of time
   double met = kUnset;                    // s
-  Eigen::Vector2d where{kUnset, kUnset};  // x and y of the tip then
+  Eigen::Vector2d where{kUnset, kUnset};  // x and y of the tip at the touch
 };
 
 struct IdealSpec {

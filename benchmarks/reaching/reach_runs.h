@@ -24,7 +24,7 @@ struct ReachOutcome {
   std::int32_t felt = -1;      // the first object that the core renders while the finger touches the prop
   double felt_after = kUnset;  // s: since the finger met the surface
   double felt_depth = kUnset;  // m: depth of the finger below the surface then
-  double prepared = kUnset;    // s of experiment: the last "prepare" before
+  double prepared = kUnset;    // s of experiment: the last "prepare" before the touch
   double arrived = kUnset;     // s: since then the prop has stayed where they meet; unset: it is not there
   double met = kUnset;         // s
   double speed = kUnset;       // m/s, speed of the finger when they meet

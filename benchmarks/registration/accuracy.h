@@ -15,7 +15,7 @@ namespace enc::bench::registration {
 // One number of pairs and of frames; vectors are over seeds. Errors along W's axes, m.
 struct Accuracy {
   std::size_t pairs = 8, frames = 20;
-  std::vector<Vec3> residual;        // mean |error| left over at the pairs
+  std::vector<Vec3> residual;        // mean residual |error| at the pairs
   std::vector<Vec3> held_out;        // mean |error| of the registration at the targets
   std::vector<Vec3> position;        // |error| of the camera's position
   std::vector<double> turn;          // rad

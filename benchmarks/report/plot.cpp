@@ -190,7 +190,7 @@ class Parts {
                        look_.dash, look_.point, look_.size));
     if (curve && (s.mark == Mark::line || s.mark == Mark::band))
       part(fmt::format("1:2 with lines lc rgb '{}' lw {} dt {}", look_.colour, look_.width, look_.dash));
-    // Arrows with blunt heads, because gnuplot's error bars wipe what is under their points.
+    // Arrows with blunt heads, because gnuplot's error bars erase the lines under their points.
     if (with_bars(s) && s.mark != Mark::band && s.mark != Mark::crosses)
       part(fmt::format("1:3:(0):($4-$3) with vectors heads size graph 0.007,90 lc rgb '{}' lw 1.4",
                        s.mark == Mark::bars ? "#222222" : look_.colour));
@@ -445,7 +445,8 @@ Drawing draw(const Plot& plot) {
 
 std::string plot_script(const Plot& plot) {
   if (!plot.panels.empty()) return panels_script(plot);
-  const bool names = !plot.y_names.empty();  // they take their room from the plot, under which the legend is
+  const bool names = !plot.y_names.empty();  // the names take their room from the plot, and the legend is
+                                             // under the plot
   const std::size_t columns = legend_columns(plot, names ? 340 : 590);
   const std::size_t rows = (plot.series.size() + columns - 1) / columns;
   return plot_head(names ? 900 : 640, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows) +
@@ -459,7 +460,7 @@ std::string svg_for_page(const std::string& svg, const std::string& plot_id) {
   std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
   std::string prefix = plot_id;
   std::replace(prefix.begin(), prefix.end(), '.', '_');
-  const std::string title = "<title>Gnuplot</title>";  // a page shows it under the pointer
+  const std::string title = "<title>Gnuplot</title>";  // browsers show it as a tooltip
   if (const std::size_t i = text.find(title); i != std::string::npos) text.erase(i, title.size());
   // Renames each definition and each use of a name of gnuplot.
   for (const std::string found :

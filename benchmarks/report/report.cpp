@@ -15,7 +15,7 @@
 namespace enc::bench {
 namespace {
 
-// One line each: what it is, its value.
+// One line each: a label and its value.
 struct Fact {
   std::string name, value;
 };

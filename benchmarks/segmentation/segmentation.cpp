@@ -262,8 +262,8 @@ void race(Bench& bench, const Place& place) {
 
 using namespace staged;
 
-// Light of an office: a lamp more or less, a cloud, a blind; gain of all light and how far it comes from a
-// side.
+// Light of an office: a lamp more or less, a cloud, a blind. Gain of all light, and the share that comes from
+// a side.
 constexpr std::array<sim::Light, 6> kOffice{{{.gain = 0.8, .side = 0.0},
                                              {.gain = 1.25, .side = 0.0},
                                              {.gain = 0.9, .side = 0.2},

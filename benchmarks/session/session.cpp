@@ -327,7 +327,7 @@ void Figures::add_change() {
   std::int64_t mistaken = 0;
   for (const SessionRun& run : runs_) {
     mistaken += run.change.mistaken;
-    if (std::isnan(run.change.taken_at)) continue;  // too short, or the scene has no other tool
+    if (std::isnan(run.change.taken_at)) continue;  // the run is too short, or the scene has no second tool
     late.push_back(std::isnan(run.change.shown_at) ? trial::kInfinite
                                                    : 1e3 * (run.change.shown_at - run.change.taken_at));
     if (!std::isnan(run.change.miss)) miss.push_back(1e3 * run.change.miss);

@@ -20,7 +20,7 @@ struct SessionPress {
   double peak_force = 0.0, over_limit = -trial::kInfinite;  // N, m: PressFigures
   std::int32_t contacts = 0;                                // of the core
   std::int32_t bounces = 0,
-               long_bounces = 0;  // contact lost and regained within 0.2 s; lost for 20 ms or more
+               long_bounces = 0;  // losses of contact regained within 0.2 s; losses of 20 ms or more
 };
 
 // The change of the tool, judged by the tool that is truly in the hand.
@@ -28,7 +28,7 @@ struct ToolChange {
   double taken_at = kUnset;   // s: the hand holds the new tool
   double shown_at = kUnset;   // s: the overlay shows the new tool
   double miss = kUnset;       // m, of the first press with the new tool: PressFigures
-  std::int64_t mistaken = 0;  // ticks of touch in which the overlay shows another tool than the hand holds
+  std::int64_t mistaken = 0;  // ticks of touch in which the overlay's tool differs from the hand's
 };
 
 class SessionMeasure {

@@ -30,7 +30,8 @@ struct Rendered {
   Device device;
   Wall wall;
   bool controlled = false, limited = true;
-  double wave = 0.0;  // m, of the surface under a finger that slides along it at 100 mm/s, 40 mm long
+  double wave = 0.0;  // m, amplitude of the surface, 40 mm long, under a finger that slides along it at 100
+                      // mm/s
 };
 
 class Loop {
@@ -59,7 +60,7 @@ class Loop {
   }
   [[nodiscard]] bool touching() const { return touching_; }
   [[nodiscard]] const Slide& slide() const { return slide_; }
-  [[nodiscard]] double contact() const { return contact_; }  // J, true, of the present or last one
+  [[nodiscard]] double contact() const { return contact_; }  // J, true, of the present or last contact
   [[nodiscard]] double given() const { return given_; }      // J, true: largest output of any contact
 
  private:

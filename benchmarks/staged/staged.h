@@ -24,13 +24,13 @@ inline constexpr std::uint64_t kTraining = 1000, kTest = 2000, kNeverSeen = 1'00
 // The module that draws. Throws Error if it was not built.
 [[nodiscard]] const sim::CameraModule& camera(const BenchContext& context);
 
-// A rectified head of a size, with the field of view of the default one.
+// A rectified head of this width, with the field of view of the default head.
 [[nodiscard]] StereoRig head(int width);
 
 struct Draw {
   double near = 0.300, far = 0.900;    // m, depth of the tip
   double thin = 0.010, thick = 0.025;  // m, width of the finger
-  double tilt = 0.6;                   // rad, the finger out of the image's plane, either way
+  double tilt = 0.6;                   // rad, largest tilt of the finger out of the image's plane, either way
 };
 // m, finger width of one of `persons`: evenly from thin to thick, as in Draw.
 [[nodiscard]] double finger_width(std::size_t person, std::size_t persons);

@@ -278,7 +278,7 @@ void add_motion_plot(const BenchContext& context, const Extent& extent, BenchRes
   result.plots.push_back(std::move(plot));
 }
 
-// Error bars over the levels that were rendered.
+// Error bars over the rendered levels.
 Series bars_of(const std::vector<Level>& levels, double Push::*felt, const char* name) {
   Series s{.name = name, .mark = Mark::both};
   for (const Level& level : levels) {

@@ -363,7 +363,7 @@ void add_price(const BenchContext& context, BenchResult& result) {
                             "with the damper over without"});
 }
 
-// Each part of the controller and of the sensor left out alone, soft pusher.
+// Each part of the controller and of the sensor switched off alone, with the soft pusher.
 void add_parts(const BenchContext& context, const BeyondExtent& extent, BenchResult& result) {
   struct Part {
     const char* name;

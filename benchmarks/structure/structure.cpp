@@ -97,7 +97,7 @@ void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
   mjs_setString(tie->name1, "platform");
   mjs_setString(tie->name2, (name + "_upper").c_str());
   set3(tie->data, machine.platform_joint(leg));
-  tie->solref[0] = 0.001;  // s: as hard as a step of 0.5 ms allows
+  tie->solref[0] = 0.001;  // s: the stiffest that a step of 0.5 ms allows
   tie->solimp[0] = tie->solimp[1] = 0.9999;
   // The tendon's spring and damper on the slide, whose zero is the leg's length at zero.
   auto* drive = mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));

@@ -27,7 +27,7 @@ double correlation(const Signal& earlier, const Signal& later, Eigen::Index most
 }
 
 constexpr double kLongestLag = 0.1;  // s
-constexpr double kPeriod = 1e-3;     // s, at which signals are compared for their lag
+constexpr double kPeriod = 1e-3;     // s, sample period for the lag of signals
 
 double seconds_of(Time t) { return seconds(t.time_since_epoch()); }
 

@@ -29,7 +29,7 @@ struct SyncSample {
   double truth = 0.0;   // depth of the true tool tip below the undeformed surface
   double force = 0.0;   // true force of the tool on the haptic-tip, N
   bool contact = false;  // the core's mode: this sample counts
-  bool news = false;     // a new packet of the display has come
+  bool news = false;     // a new packet of the display has arrived
 };
 
 struct SyncErrors {

@@ -41,7 +41,7 @@ struct StopsSpec {
 };
 [[nodiscard]] Motion moves_with_stops(const StopsSpec& spec);
 
-// The shape of a reach: way and speed from 0 to 1 in unit time, and its highest speed.
+// The shape of a reach: path and speed from 0 to 1 in unit time, and its highest speed.
 struct ReachShape {
   const char* name;
   double peak;

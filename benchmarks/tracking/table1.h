@@ -48,8 +48,7 @@ struct Statistic {
 inline constexpr std::array<Statistic, 2> kStatistics{
     {{"RMSE", "rmse", &Cell::rmse}, {"MAE", "mae", &Cell::mae}}};
 
-// The two named hypotheses of sources/tracking 6, and a third reading: motion along + of W, or along -, or
-// both.
+// The two named hypotheses of sources/tracking 6, and a third: motion along + of W, or along -, or both.
 enum class BiasSide : std::uint8_t { opposes, adds, both_ways };
 inline constexpr std::array<const char*, 3> kSides{"opposes", "adds", "both_ways"};
 
@@ -81,7 +80,7 @@ struct SpannedTable {
 void add_table_figures(BenchResult& result, const Table1& paper, const SpannedTable& twin,
                        const Table1& theory);
 [[nodiscard]] Table table1_table(const Table1& paper, const SpannedTable& twin, const Table1& theory);
-// `predicted`: column 40 out of the two others.
+// `predicted`: column 40 from the two others.
 [[nodiscard]] Plot table1_plot(const Statistic& statistic, const Table1& paper, const SpannedTable& twin,
                                const SpannedTable& predicted);
 

@@ -36,7 +36,7 @@ struct Pictures {
   const Fits& fits;
   const std::vector<Candidate>& open;
   Table1 twin_from_20, twin_adds;           // whole loop with the best chains of the two fits
-  Table1 twin_back, twin_both;              // the default rig, motion along -, and both ways
+  Table1 twin_back, twin_both;              // the default rig, motion along -, and motion both ways
   const std::vector<PacketError>& packets;  // one seed at 40 mm/s
   ChainSpec chain;
   double bias_x = 0.0;  // m
@@ -105,7 +105,7 @@ Table directions(const Pictures& p) {
   return table;
 }
 
-// One move of the paper's, from 20 to 40 mm along x.
+// One of the paper's moves, from 20 to 40 mm along x.
 Plot move_plot(const Pictures& p) {
   constexpr double kBefore = 0.0205, kAfter = 0.0395, kAround = 0.15;  // m, m, s
   double from = INFINITY;

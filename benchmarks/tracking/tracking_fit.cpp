@@ -24,7 +24,7 @@ double mean_size(double mean, double deviation) {
 
 constexpr double kCell = 1e-4;  // s, of the distribution of ages
 
-// The distribution plus an independent wait that is even over `width`.
+// Adds to the distribution an independent wait that is even over `width`.
 std::vector<double> waited(const std::vector<double>& density, double width) {
   const double cells = width / kCell;
   const auto whole = static_cast<std::size_t>(cells);
@@ -117,7 +117,7 @@ constexpr double kShortest = 2e-3, kLongest = 30e-3;  // s, of the fixed delay
 constexpr double kMostJitter = 6e-3;                  // s
 constexpr double kSlowest = 0.2, kQuickest = 5.0;     // m/s^2
 
-// Even over (0, 1) in every number of dimensions with different bases (Halton).
+// Even over (0, 1) in any number of dimensions, with different bases (Halton).
 double spread_out(std::size_t index, std::size_t base) {
   double value = 0.0;
   double share = 1.0;

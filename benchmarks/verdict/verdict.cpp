@@ -41,9 +41,9 @@ void norms(const Reference& table, std::vector<Contradiction>& list) {
   }
 }
 
-// [VHMR Table 2], N. |mean e| <= mean |e| <= rms. And with m the mean of |e| and r the rms: samples with |e|
-// up to t make up at most t m of the mean square, so at least half of it comes from samples beyond
-// t = r^2 / 2m, which are at most the share m / t = 2 (m / r)^2.
+// [VHMR Table 2], N. |mean e| <= mean |e| <= rms. Let m be the mean of |e| and r the rms. Samples with |e| up
+// to t make up at most t m of the mean square. So at least half of it comes from samples beyond t = r^2 / 2m,
+// and their share is at most m / t = 2 (m / r)^2.
 void force_errors(const Reference& table, std::vector<Contradiction>& list) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const std::string& indentation = table.text(i, "indentation");

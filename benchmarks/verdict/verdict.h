@@ -19,7 +19,8 @@ struct Contradiction {
   std::string found;    // the result computed from the printed numbers
 };
 
-// Computed from the printed numbers (benchmarks/reference), each time. `models`: the models folder.
+// Computes the contradictions from the printed numbers (benchmarks/reference), each time. `models`: the
+// models folder.
 [[nodiscard]] std::vector<Contradiction> contradictions(const std::string& models);
 
 // A threshold is a range: `least` is that of the most sensitive studies, people or places, `most` that of the

@@ -64,7 +64,7 @@ struct Ran {
   double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
   double step = 0.0;  // N: of Lambda f along the normal, from tick to tick in contact
   std::vector<trial::FrameForce::Change> frames;  // change by each picture
-  std::vector<double> seen, felt;                 // m, N: of each picture in contact
+  std::vector<double> seen, felt;                 // m, N: values at each picture in contact
   std::vector<double> off;                        // m: arrived place less the true place at its exposure
   std::vector<double> off_normal;                 // m: along the surface's normal
 };
@@ -169,7 +169,7 @@ std::vector<std::string> strokes(const std::string& speeds, std::size_t repeats)
           fmt::format("user.repeats={}", repeats)};
 }
 
-// Half of the width and height, and of the focal length.
+// Half the width and height, and half the focal length.
 std::vector<std::string> quarter_size() {
   std::vector<std::string> set;
   for (const char* of : {"rig", "truth"})
@@ -268,7 +268,7 @@ void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
   bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
 }
 
-// Three springs: before it gives way, while it does, and on the board below [VisHap Fig 4].
+// Three springs: before the button gives way, while it gives way, and on the board below [VisHap Fig 4].
 void tell_button(Bench& bench, const Ran& ran) {
   const Scene scene = trial::prepare_setup(load_scene(bench.context, "camera/button"));
   const InteractionSpec& does = scene.objects.front().interaction;
@@ -285,7 +285,7 @@ void tell_button(Bench& bench, const Ran& ran) {
   bench.figure("button.board.max", board, "N", "and on the board");
 }
 
-// A finger that the camera sees meets the prop: miss, force, time, and Fig 5.
+// The camera sees a finger, which meets the prop: miss, force, time, and Fig 5.
 void add_whole_stack(Bench& bench) {
   const BenchContext& context = bench.context;
   const std::size_t repeats = context.quick ? 1 : context.full ? 10 : 3;

@@ -22,7 +22,7 @@ struct Belief {
 
 class ArmPlay {
  public:
-  // Scenery, hands and poses by seed; the skin is that of the scene's user.
+  // Scenery, hands and poses come from the seed; the skin is that of the scene's user.
   ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, std::uint64_t seed);
 
   struct Frame {

@@ -12,7 +12,7 @@ class ReachVolume {
   explicit ReachVolume(const Hexapod& machine) : machine_(machine) {}
 
   // Straight axes. Each strut holds the tip between two spheres, so over (x, y) the tip's heights are one
-  // interval, in closed form; empty where low > high.
+  // interval, in closed form; empty if low > high.
   struct Column {
     double low = 0.0, high = 0.0;
     [[nodiscard]] double height() const { return high > low ? high - low : 0.0; }

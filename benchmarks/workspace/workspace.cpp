@@ -243,7 +243,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
     Series edge{fmt::format("z = {:g} mm", z * kMmPerM)};
     for (int degree = 0; degree <= 360; degree += 2) {
       const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
-      double in = 0.0;  // the slice is one piece around the axis: walk out until it ends
+      double in = 0.0;  // the slice is one piece around the axis: step outwards until it ends
       while (in < 0.12) {
         const auto c = reach.column((in + 0.25e-3) * out.x(), (in + 0.25e-3) * out.y());
         if (z < c.low || z > c.high) break;
