@@ -69,7 +69,7 @@ void check_participant(const std::string& code) {
                     models::quoted(code)));
 }
 
-// Checks the output of write_pictures() before the first question, so that a bad path fails early.
+// Checks the files of write_pictures() in advance, so that a refusal comes before the first question.
 void check_pictures(const trial::QuestionnaireOptions& o, const questionnaire::Form& form,
                     const std::vector<questionnaire::ItemReference>& items) {
   if (o.out.empty()) return;

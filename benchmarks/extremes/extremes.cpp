@@ -134,7 +134,7 @@ Outcome run_once(const Study& study, const BenchContext& context, const Stepped&
   return found;
 }
 
-// % of the converged run's; NaN with the reason if the run failed.
+// % of the converged run's; NaN with the reason if the run failed, or if just one of the two rings.
 double error_of(const Study& study, const Outcome& converged, Outcome& found) {
   if (!found.failure.empty()) return kUnset;
   if (study.compared == Compared::swing) {

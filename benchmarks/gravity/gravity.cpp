@@ -21,8 +21,8 @@
 namespace enc::bench::gravity {
 namespace {
 
-// The 13 x 18 x 25 cm of [VisHap 1] in front of the arm, placed in x and z so that most of it is within the
-// limits, and the joints at its grid points. No source gives the axes of its sides; here x is the shortest, y
+// The 13 x 18 x 25 cm of [VisHap 1] in front of the arm, and the joints at its grid points. Its place in x
+// and z keeps most of it within the limits. No source gives the axes of its sides; here x is the shortest, y
 // (sideways) the longest.
 struct ArmBox {
   static constexpr std::array<double, 3> kSize{0.13, 0.25, 0.18};  // m

@@ -1,5 +1,5 @@
 // A hand repeats the test rig's indentations A, B and C on the virtual ball [VHMR 4.2]. The error is the
-// force that the haptic loop works with less the reference curve at the deflection that the machine reports
+// force in the haptic loop less the reference curve at the deflection that the machine reports
 // (docs/notes/indentation.md gives the reason for this force).
 #include "benchmarks/indentation/indentation.h"
 

@@ -23,8 +23,8 @@ class Race {
   // race with as many rounds.
   [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }
   [[nodiscard]] double ratio(std::size_t way, const Race& race, std::size_t over) const;
-  // Difference of the summed times, s per round. Leaves out the tenth of the rounds in which the two were
-  // farthest apart in either direction.
+  // Mean of the differences of round times, `way` less `over`, s per round. Leaves out the tenth of the
+  // rounds in which the two were farthest apart, half of them at either end.
   [[nodiscard]] double more(std::size_t way, std::size_t over) const;
   [[nodiscard]] double spent(std::size_t way, std::size_t round) const { return seconds_.at(way).at(round); }
   [[nodiscard]] const std::vector<double>& all(std::size_t way) const { return seconds_.at(way); }

@@ -8,7 +8,7 @@
 namespace enc::bench {
 namespace {
 
-// The first entry creates the table, because the order of initialisation between files is undefined.
+// The first entry creates the table, because the order of initialisation between files is not specified.
 std::vector<Benchmark>& table() {
   static std::vector<Benchmark> all;
   return all;

@@ -12,8 +12,8 @@
 namespace enc::bench {
 
 // Largest error of the force, N rms. Chosen: three counts of the hexapod's sensor, and a force that the arm's
-// friction hides anyway. If two converged runs differ by more, the bound is twice their difference: both of
-// them judge all settings.
+// friction hides anyway. If two converged runs differ by more than half of it, the bound is twice their
+// difference: both of them judge all settings.
 inline constexpr double kForceAccuracy = 0.06;
 [[nodiscard]] double accuracy_of(const trial::Precision& all, double wanted = kForceAccuracy);
 
@@ -35,7 +35,7 @@ struct ForceStudy {
 struct PrecisionNorm {
   std::string of = "the force", unit = "N";
   double scale = 1.0;  // factor from the study's unit to `unit`
-  // Accuracy in the study's unit; larger if half the difference of two converged runs exceeds it.
+  // Accuracy in the study's unit; larger if two converged runs differ by more than half of it.
   double accuracy = kForceAccuracy;
   trial::QuantitiesOf quantities{};
 };

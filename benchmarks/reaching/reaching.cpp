@@ -126,7 +126,7 @@ void steps_part(const BenchContext& context, BenchResult& result) {
   result.plots.push_back(std::move(plot));
 }
 
-// The remote arm stays at rest for every friction and onset.
+// The arm stays at rest while the finger is far away, for every friction and onset.
 
 // Friction: zero; the equivalent of 0.04 N at the tip [PHANToM sheet]; the estimate of the published model;
 // twice that. Its onset: as sharp as the time step allows, up to the constraint's own 20 ms.
@@ -290,7 +290,7 @@ void random_part(Bench& bench) {
       far = std::max(far, one.far_speed);
       bench.result.simulated += one.simulated;
     }
-    // The bound is a quarter below the measured value for 60 random reaches.
+    // The bound for vision is a quarter below the measured value, because 60 random reaches scatter.
     bench.figure(key_of(how) + "lead_percent", 100.0 * in_time(joined(ran)), "%",
                  at_least(context.quick       ? kUnset
                           : how == Seen::live ? 95.0
@@ -449,7 +449,7 @@ void add_reaching_full(const BenchContext& context, BenchResult& result) {
   steps_part(context, result);
 }
 
-// Motion of the remote tip at rest, over the friction of the joints.
+// Motion of the tip while the finger is far away, over the friction of the joints.
 void add_rest(Bench& bench) {
   const BenchContext& context = bench.context;
   const std::vector<Friction> all = frictions(context);

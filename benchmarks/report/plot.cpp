@@ -445,8 +445,7 @@ Drawing draw(const Plot& plot) {
 
 std::string plot_script(const Plot& plot) {
   if (!plot.panels.empty()) return panels_script(plot);
-  const bool names = !plot.y_names.empty();  // the names take their room from the plot, and the legend is
-                                             // under the plot
+  const bool names = !plot.y_names.empty();  // the names reduce the width of the plot and its legend
   const std::size_t columns = legend_columns(plot, names ? 340 : 590);
   const std::size_t rows = (plot.series.size() + columns - 1) / columns;
   return plot_head(names ? 900 : 640, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows) +

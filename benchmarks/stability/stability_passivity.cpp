@@ -30,8 +30,7 @@ struct Rendered {
   Device device;
   Wall wall;
   bool controlled = false, limited = true;
-  double wave = 0.0;  // m, amplitude of the surface, 40 mm long, under a finger that slides along it at 100
-                      // mm/s
+  double wave = 0.0;  // m, amplitude of a 40 mm wave under a finger that slides at 100 mm/s
 };
 
 class Loop {

@@ -76,8 +76,8 @@ class StabilityMap {
   // Peak-to-peak paths, m, of each push at the grid point nearest to `stiffness`, N/m.
   const std::vector<double>& at(double stiffness);
   [[nodiscard]] double unstable_share(double stiffness);
-  // N/m: the lowest grid point above which all is stable; searched by halving between stable and unstable,
-  // starting from a guess. 0: stable however soft; infinite: never stable.
+  // N/m: the lowest grid point that is stable with all points above it; searched by halving between stable
+  // and unstable, starting from a guess. 0: stable however soft; infinite: never stable.
   double lowest_stable(double guess);
   [[nodiscard]] const std::map<std::int64_t, std::vector<double>>& seen() const { return seen_; }
   [[nodiscard]] double grid() const { return grid_; }
@@ -95,9 +95,9 @@ class StabilityMap {
 
 // s, duration of one push.
 [[nodiscard]] double push_time(const models::Setup& setup);
-// The true loop, with the pusher in place of the hand. The machine's delay grows by one cycle of the command
-// limiter (it goes half of the remaining way in each cycle), less half a cycle, by which a sampled filter
-// leads the continuous one. Speed and acceleration limits are left out.
+// The true loop, with the pusher in place of the hand. The command limiter adds one cycle to the machine's
+// delay: it goes half of the remaining way in each cycle. Half a cycle is subtracted, by which a sampled
+// filter leads the continuous one. Speed and acceleration limits are left out.
 [[nodiscard]] LoopModel pushed_loop(const models::Setup& setup);
 
 }  // namespace enc::bench::stiffness

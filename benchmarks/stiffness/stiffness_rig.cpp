@@ -47,8 +47,8 @@ RigLevel planned_level(const BenchContext& context, double stiffness) {
   std::vector<std::string> held{fmt::format("behaviour.{}.stiffness_N_per_mm={:g}",
                                             scene.behaviours[pushed_behaviour(scene)].name,
                                             stiffness / kNewtonPerMillimetre)};
-  // An unset value comes from the first row of the certificate, which is more exact. A value that the rig
-  // sets is kept.
+  // If the limit is unset, disable it: the first row of the certificate checks it and reports more. A limit
+  // that the rig sets is kept.
   if (std::isnan(any.setup.rig.contact.softest)) held.emplace_back("rig.contact.softest_N_per_mm=0");
   RigLevel level{stiffness, on_rig(context, "stiffness", own, held)};
   level.refused = certificate_refuses(level.on.setup);

@@ -185,7 +185,8 @@ void hit_balls(Bench& bench) {
   });
   Plot plot{"switching_restitution", "A ball that is hit in the twin", "restitution that is set",
             "restitution measured, mean over seeds"};
-  // If the ball is softer, one encoder count in the time of the speed's mean, 4 mm/s, is a fifth or more.
+  // Below this restitution, one encoder count in the speed's averaging time, 4 mm/s, is a fifth of the speed
+  // or more.
   constexpr double kSoft = 0.4;
   double worst = 0.0, off = 0.0, returned = 0.0;
   std::vector<Bounce> firm;

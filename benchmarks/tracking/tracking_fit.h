@@ -15,8 +15,7 @@ namespace enc::bench::tracking {
 
 // The expected errors of Table 1 for a chain of delays and a motion, from the numbers of the chain alone and
 // without a simulator. A packet that reaches the core at a tick shows the place of the tool one age ago:
-//   age = fixed delay + wait for the server's tick + exponential delay + wait for the core's tick
-//
+//   age = fixed delay + wait for the server's tick + exponential delay + wait for the core's tick,
 //   error = x(t - age) - x(t) + bias + noise
 
 struct ChainSpec {

@@ -1,5 +1,5 @@
-// Workspace of the machine: box and true volume of its travel, the tracker's reach, and the directions from
-// which the ball can be pressed (not from below, with the reason) [VHMR 2, 5].
+// Workspace of the machine: box and true volume of its travel, and the tracker's reach. Also the directions
+// from which the ball can be pressed (not from below, with the reason) [VHMR 2, 5].
 #include <algorithm>
 #include <array>
 #include <cmath>
