@@ -162,8 +162,8 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
   const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
   const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
   const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
-  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N): it must be
-  // usual among ten such groups.
+  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N). The paper's
+  // spread must be a usual one among ten such groups.
   const std::size_t count = study.context.quick ? runs.front().size() : 10 * paper_runs;
   const std::vector<IndentRun> a = indent_runs(
       indent_setup(study.context.models, indentations().front(), {}, study.context.set), study.seed, count);

@@ -390,7 +390,7 @@ models::Setup on_legs(const BenchContext& context, std::vector<std::string> more
   return load_scene(context, "tennis_ball", {}, more);
 }
 
-// A world of the scene in structural form, without a person; the test commands its machine directly.
+// A world of the scene in structural form, without a person; the benchmark commands its machine directly.
 struct Machine {
   explicit Machine(const BenchContext& context, const std::vector<std::string>& more)
       : setup(on_legs(context, more)) {

@@ -79,8 +79,8 @@ struct Sums {
   std::int64_t packet_count = 0, tick_count = 0;
 };
 
-// One core with the tracker as its only input, in follow: no hold occurs, so that it has to catch up after a
-// drop-out.
+// One core with the tracker as its only input, in follow: the tool never counts as away, so the core must
+// catch up after a drop-out.
 struct Watcher {
   Scene scene;
   State state;
