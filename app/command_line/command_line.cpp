@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,47 +28,48 @@ namespace {
 
 // Options of a view that draws into a file.
 void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* record) {
-  CLI::Option* shot = command->add_option("--shot", options.shot, "PNG file to write; no window is opened")
-                          ->check(unnamed)
-                          ->excludes(record);
+  CLI::Option* shot =
+      command->add_option("--shot", options.shot, "write a picture to this PNG file and open no window")
+          ->check(unnamed)
+          ->excludes(record);
   CLI::Option* video =
       command
           ->add_option("--video", options.video,
-                       "film of the run to write; no window is opened. .mp4, .webm, .gif, .mkv or .mov where "
-                       "ffmpeg is installed; without an ending, or without ffmpeg: a folder of PNGs")
+                       "write a film to this file and open no window: .mp4, .webm, .gif, .mkv or .mov with "
+                       "ffmpeg; without an ending, or without ffmpeg, a folder of PNGs")
           ->check(unnamed)
           ->excludes(record)
           ->excludes(shot);
   command
       ->add_option("--for-s", options.seconds,
-                   "of a film: length, s of experiment; default: until the user or the probe is done")
+                   "length of the film, s of experiment; default: until the user or the probe is done")
       ->needs(video);
   command->add_option(
       "--at-s", options.at,
-      "moment of the picture, s of experiment; default: the first press at its deepest, or 4 s through the "
-      "camera. Of a film: where it begins; default: 0");
+      "moment of the picture, s of experiment (default: the deepest point of the first press, or 4 s through "
+      "the camera); or start of the film (default: 0)");
   CLI::Option* close_up =
-      command->add_flag("--close-up", options.close_up, "the contact instead of the whole machine");
+      command->add_flag("--close-up", options.close_up, "show the contact instead of the whole machine");
   command
       ->add_option(
           "--through-camera", options.through_camera,
-          "of a picture: what the scene's left camera sees, not the world from beside: raw; removed, "
-          "without the arm; or augmented, with the virtual objects in its place")
+          "draw the view of the scene's left camera: raw; removed (without the arm); or augmented (with the "
+          "virtual objects in its place)")
       ->check(CLI::IsMember({"raw", "removed", "augmented"}))
       ->excludes(close_up);
 }
 
 CLI::App* add_view(CLI::App& app, ViewOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "view",
-      "run a scene in a window, where the mouse is the hand; or draw it into a file, as a picture or a film");
+      "view", "Run a scene in a window, where the mouse is the hand, or draw it into a file.");
+  command->footer("Example: encounter view tennis_ball");
   scene_options(command, options);
   command->get_option("scene")->required(false)->description(
-      "scene file, name of a shipped scene, or record; none: choose in the window");
+      "scene file, name of a shipped scene, or record; without one you choose in the window");
   CLI::Option* record =
       command
           ->add_option("--record", options.record,
-                       "of a window: write inputs and outputs of every tick, and the hand, to this file")
+                       "write inputs and outputs of every tick, and the hand, to this file (window only)")
           ->check(unnamed);
   drawing_options(command, options, record);
   device_options(command, options);
@@ -77,7 +79,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& options) {
 
 CLI::App* add_tour(CLI::App& app, TourOptions& options) {
   CLI::App* command =
-      app.add_subcommand("tour", "a film of each shipped scene, from a second before its first touch");
+      app.add_subcommand("tour", "Make a film of each shipped scene, from a second before its first touch.");
+  command->footer("Example: encounter tour --out films");
   command->add_option("--out", options.out, "folder for the films")->check(unnamed)->capture_default_str();
   command->add_option("--for-s", options.seconds, "length of each film, s of experiment")
       ->capture_default_str();
@@ -87,19 +90,19 @@ CLI::App* add_tour(CLI::App& app, TourOptions& options) {
 
 CLI::App* add_shadow(CLI::App& app, ShadowOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "shadow",
-      "feed a record to the twin: how far each channel is from what the twin says, with intervals and "
-      "bounds; exit 1 where one diverges");
+      "shadow", "Compare a record with the twin, channel by channel; exit code 1 if one diverges.");
+  command->footer("Example: encounter shadow press.encrec");
   command->add_option("record", options.record, "file written by run --record")->required();
   command->add_option("--set", options.set,
-                      "override of the record's own set-up: the twin, e.g. truth.tracker.latency_ms=3.5");
-  command->add_flag("--partial", options.partial, "what a cut-off record still holds");
+                      "override the record's own set-up, for example truth.tracker.latency_ms=3.5");
+  command->add_flag("--partial", options.partial, "read the complete part of a cut-off record");
   json_option(command, options.json);
   return command;
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
-  CLI::App* command = app.add_subcommand("run", "run a scene and say what happened");
+  CLI::App* command = app.add_subcommand("run", "Run a scene and report what happened.");
+  command->footer("Example: encounter run tennis_ball --record press.encrec");
   scene_options(command, options);
   command->add_option("--pace", options.pace, "free, wall, or seconds of experiment per second of wall time")
       ->capture_default_str();
@@ -109,11 +112,11 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->check(unnamed);
   command
       ->add_option("--frames", options.frames,
-                   "keep what the scene's camera sees in this new folder, as PNG images")
+                   "write the images of the scene's camera to this new folder (PNG)")
       ->check(unnamed);
   command
       ->add_option("--hand", options.hand,
-                   "record of a view: the hand that was steered there moves, for as long as it did")
+                   "repeat the hand of this record of a view, for as long as it moved")
       ->check(unnamed);
   json_option(command, options.json);
   device_options(command, options);
@@ -124,98 +127,103 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
 CLI::App* add_check(CLI::App& app, CheckOptions& options) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "read a scene and its rig, find their mistakes, and say what will be built, what is left out and why, "
-      "where each frame is, how hard and how soft an object may be, what it costs; no device moves (the twin "
-      "runs for 0.25 s)");
+      "Check a scene and its rig without moving anything: mistakes, parts, frames, stability, cost.");
+  command->footer("Example: encounter check tennis_ball --rig laboratory");
   scene_options(command, options);
   CLI::Option* resolved = command->add_flag(
-      "--resolved", options.resolved, "print the scene with only what it builds, as a scene file that runs");
+      "--resolved", options.resolved, "print a scene file that runs alone, with only what the scene builds");
   CLI::Option* advise = command->add_flag(
       "--advise", options.advise,
-      "also run it at several time steps and integrators of its twin (about a minute) and name the "
-      "cheapest that errs by no more than --error-N, --error-um");
+      "also run the twin at several time steps and integrators (about a minute) and name the "
+      "cheapest whose error is at most --error-N, --error-um");
   advise->excludes(resolved);
   command
       ->add_option("--error-N", options.error_N,
-                   "of --advise: error of the true force, N rms while something touches")
+                   "for --advise: error of the true force, N rms during contact")
       ->needs(advise);
-  command->add_option("--error-um", options.error_um, "of --advise: error of the tip's path, um rms")
+  command->add_option("--error-um", options.error_um, "for --advise: error of the tip's path, um rms")
       ->needs(advise);
   return command;
 }
 
 CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "fake",
-      "stand in for the devices of a rig: serve their wires from one simulated world, until it is told "
-      "to end");
+      "fake", "Stand in for the devices of a rig on their real protocols, from one simulated world.");
+  command->footer("Example: encounter fake fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
-  command->add_option("--scene", options.scene, "what happens there; default: the tennis ball")
+  command->add_option("--scene", options.scene, "scene of the simulated world; default: the tennis ball")
       ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
-  command->add_option("--seed", options.seed, "of all noise")->check(bad_seed);
+  command->add_option("--seed", options.seed, "seed of all noise")->check(bad_seed);
   command->add_flag("--lockstep", options.lockstep,
-                    "time goes on by a period with each set-point, and not by itself (run --lockstep)");
+                    "advance time by one period with each set-point (run --lockstep)");
   command->add_option("--fault", options.faults,
-                      "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
-                      "after somebody came, and for how long; again for more. Faults: " +
-                          fault_examples() + ". The same on a line of standard input: now; 'heal' ends all");
+                      "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: which fault, how long "
+                      "after a client connects, and for how long; repeatable. Faults: " +
+                          fault_examples() +
+                          ". A line of standard input injects one at once; 'heal' ends all");
   return command;
 }
 
 CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "devices",
-      "ask the devices of a rig: what answers, how often, how regularly and how late; nothing moves");
+      "devices", "Ask the devices of a rig how often and how late they answer; nothing moves.");
+  command->footer("Example: encounter devices fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
-  command->add_option("--scene", options.scene, "whose devices; default: the tennis ball's")->check(unnamed);
+  command->add_option("--scene", options.scene, "scene whose devices are asked; default: the tennis ball")
+      ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
-  command->add_option("--for-s", options.seconds, "how long each is read")->capture_default_str();
+  command->add_option("--for-s", options.seconds, "time for which each device is read, s")
+      ->capture_default_str();
   return command;
 }
 
 CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
   CLI::App* command =
-      app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
+      app.add_subcommand("replay", "Compute a record again; exit code 1 if any output differs.");
+  command->footer("Example: encounter replay press.encrec");
   command->add_option("record", options.record, "file written by run --record")->required();
   command
       ->add_option("--frames", options.frames,
-                   "folder of run --frames: vision looks at it again; exit 1 where it tells something else")
+                   "folder of run --frames: compute vision again, too; exit code 1 if it differs")
       ->check(unnamed);
-  command->add_flag("--partial", options.partial, "replay what a cut-off record still holds");
+  command->add_flag("--partial", options.partial, "replay the complete part of a cut-off record");
   return command;
 }
 
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "export",
-      "a record as a table (CSV) or, with --mcap, as a file for viewers; or a scene as MuJoCo has it");
+  CLI::App* command =
+      app.add_subcommand("export", "Write a record as a table or for a viewer, or a scene for MuJoCo.");
+  command->footer("Example: encounter export press.encrec --csv press.csv");
   command->add_option("record", options.record, "file written by run --record, or a scene")->required();
-  command->add_option("xml", options.xml, "of a scene: file to write, MJCF, which MuJoCo's simulate opens")
+  command->add_option("xml", options.xml, "MJCF file to write (scene only); MuJoCo's simulate opens it")
       ->check(unnamed);
-  command->add_option("--csv", options.csv, "of a record: file to write; default: -, standard output")
+  command->add_option("--csv", options.csv, "CSV file to write (record only); default: -, standard output")
       ->check(unnamed);
-  command->add_option("--mcap", options.mcap, "of a record: MCAP file to write, for Foxglove")
+  command->add_option("--mcap", options.mcap, "MCAP file to write, for Foxglove (record only)")
       ->check(unnamed);
-  command->add_option("--rig", options.rig, "of a scene: rig, as for run")->check(unnamed);
-  command->add_option("--set", options.set, "of a scene: override, as for run");
-  command->add_flag("--partial", options.partial, "of a record: export what a cut-off one still holds");
+  command->add_option("--rig", options.rig, "rig, as for run (scene only)")->check(unnamed);
+  command->add_option("--set", options.set, "override, as for run (scene only)");
+  command->add_flag("--partial", options.partial, "export the complete part of a cut-off record");
   command->add_flag("--ledger", options.ledger,
-                    "of a record: the energy of each contact instead of its ticks");
+                    "write the energy balance of each contact instead of the ticks");
   force_option(command, options.force);
   return command;
 }
 
 CLI::App* add_params(CLI::App& app, ParamsOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("params", "every name that --set takes: unit, value, source, confidence (CSV)");
+  CLI::App* command = app.add_subcommand(
+      "params", "List every name that --set takes: unit, value, source, confidence (CSV).");
+  command->footer("Example: encounter params tennis_ball");
   scene_options(command, options);
   command->add_flag("--json", options.json, "JSON instead of CSV");
   return command;
 }
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
-  CLI::App* command = app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
+  CLI::App* command =
+      app.add_subcommand("bench", "Run benchmarks; exit code 1 if a figure is out of bounds.");
+  command->footer("Example: encounter bench paper-2020 --out out");
   command->add_option("names", options.names,
                       "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
   command
@@ -226,48 +234,48 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
   command->add_option("--repeats", options.repeats, "seeds per row; default: the benchmark's own")
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--set", options.set, "override, as for run");
-  command->add_flag("--quick", options.quick, "fewer repeats; all of them in about a minute");
+  command->add_flag("--quick", options.quick, "fewer repeats; all benchmarks take about a minute");
   command->add_flag("--full", options.full,
-                    "also what takes minutes: what each part does, error against run time");
+                    "also the parts that take minutes: share of each part, error against run time");
   command
       ->add_option("--rig", options.rig,
                    "measure over the devices of this rig in place of the twin: a name in models/rigs, or a "
                    "file; tracking and stiffness can")
       ->check(unnamed);
   device_options(command, options);
-  command->add_flag("--fakes", options.fakes,
-                    "`encounter fake` stands in for the devices of --rig; it is begun and ended here");
-  command->add_flag("--list", options.list, "only print the benchmarks and what they show");
+  command->add_flag("--fakes", options.fakes, "start and stop `encounter fake` for the devices of --rig");
+  command->add_flag("--list", options.list, "only list the benchmarks");
   force_option(command, options.force);
   return command;
 }
 
 CLI::App* add_fit(CLI::App& app, FitOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "fit", "turn a measured loop (CSV) into a response file, or into the ball behind it");
+      "fit", "Turn a measured loop (CSV) into a response file, or find the ball behind it.");
+  command->footer("Example: encounter fit loop.csv --out models/responses/foam.toml");
   command->add_option("loop", options.loops, "CSV with time_s, deflection_mm, force_N, repeat")->required();
   command->add_option("--out", options.out, "response file to write, models/responses/NAME.toml")
       ->check(unnamed);
-  command->add_option("--limit-mm", options.limit_mm, "deflection up to which the response holds")
+  command->add_option("--limit-mm", options.limit_mm, "deflection up to which the response is valid")
       ->capture_default_str();
-  command->add_option("--rig", options.rig, "rig that will render it: sets how soft it may be")
+  command->add_option("--rig", options.rig, "rig that will render it; sets the minimum stiffness")
       ->capture_default_str();
   command->add_option(
       "--ceiling-N-per-mm", options.ceiling,
-      "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
+      "largest stiffness of the stops; a lower one is quieter at rest and less exact where motion turns");
   command->add_flag("--ball", options.ball,
-                    "the numbers of the ball that was pressed, with intervals; takes several loops");
-  command->add_option("--hold", options.hold, "of the ball: NAME or NAME=VALUE that is known");
-  command->add_option("--free", options.free, "of the ball: NAME to be found that is held otherwise");
-  command->add_flag("--json", options.json, "of the ball: one JSON object instead of text");
+                    "find the parameters of the pressed ball, with intervals; takes several loops");
+  command->add_option("--hold", options.hold, "with --ball: hold parameter NAME, or NAME=VALUE");
+  command->add_option("--free", options.free, "with --ball: fit parameter NAME, which is held otherwise");
+  command->add_flag("--json", options.json, "with --ball: one JSON object instead of text");
   force_option(command, options.force);
   return command;
 }
 
 CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "nearest",
-      "signed distance, nearest surface point and normal for each point of a CSV file (x_m,y_m,z_m)");
+      "nearest", "Print signed distance, nearest surface point and normal of each point of a CSV file.");
+  command->footer("Example: encounter nearest models/meshes/hare.glb points.csv");
   command->add_option("surface", options.what, "mesh file, points in its axes; or SCENE#object, points in W")
       ->required();
   command->add_option("points", options.points, "CSV file with the header x_m,y_m,z_m")->required();
@@ -275,22 +283,26 @@ CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
 }
 
 CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
-  CLI::App* command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
+  CLI::App* command =
+      app.add_subcommand("mesh", "Write a closed mesh to try things with (.glb, .obj or .stl).");
+  command->footer("Example: encounter mesh ball --fine 71 --out ball.glb");
   command->add_option("name", options.name, "ball, cube, hare, knot or turned_part")->required();
   command->add_option("--out", options.out, "file")->required()->check(unnamed);
-  command->add_option("--fine", options.fine, "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
+  command->add_option("--fine", options.fine, "3 to 400, fineness; a ball has 20 n^2 triangles");
   force_option(command, options.force);
   return command;
 }
 
 CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "questionnaire", "ask a person what the paper asked, keep the answers, show mean, range and counts");
+      "questionnaire", "Ask a person the paper's questions, keep the answers, show mean, range and counts.");
+  command->footer("Example: encounter questionnaire vhmr_2020 --store answers.csv");
   command->add_option("form", options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
-  command->add_option("--store", options.store, "CSV file that the answers are added to; what is in it stays")
+  command->add_option("--store", options.store, "CSV file to add the answers to; it keeps its content")
       ->check(unnamed);
-  command->add_option("--answers", options.answers, "CSV file with answers of many, in place of asking")
+  command
+      ->add_option("--answers", options.answers, "CSV file with answers of many people, in place of asking")
       ->check(unnamed);
   command->add_option("--participant", options.participant, "number or code; default: the next number");
   command->add_option("--out", options.out, "folder for picture and tables")->check(unnamed);
@@ -298,11 +310,33 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
       ->add_option("--results", options.results,
                    "results.json of a bench run: shows its figures beside the items")
       ->check(unnamed);
-  command->add_flag("--date", options.date, "keep the date, too");
+  command->add_flag("--date", options.date, "store the date, too");
   json_option(command, options.json);
   force_option(command, options.force);
   return command;
 }
+
+// A line of help, broken at 80 columns; the rest stands under the first word of its column.
+std::string wrapped_line(const std::string& line) {
+  constexpr std::size_t kWidth = 80, kColumn = 30;  // CLI11's column of descriptions
+  const std::size_t start = line.find_first_not_of(' ');
+  if (line.size() <= kWidth || start == std::string::npos) return line + "\n";
+  const bool described = line.size() > kColumn && line[kColumn] != ' ' && line[kColumn - 1] == ' ';
+  const std::size_t indent = described ? kColumn : start;
+  const std::size_t space = line.rfind(' ', kWidth);
+  if (space == std::string::npos || space <= indent) return line + "\n";
+  return line.substr(0, space) + "\n" + wrapped_line(std::string(indent, ' ') + line.substr(space + 1));
+}
+
+class Help final : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) text += wrapped_line(line);
+    return text;
+  }
+};
 
 // Adds a subcommand with its options, which live as long as the command line.
 template <class Options>
@@ -339,9 +373,12 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   add(app, add_nearest, nearest, code);
   add(app, add_mesh, mesh, code);
   add(app, add_questionnaire, questionnaire, code);
-  CLI::App* scenes_command = app.add_subcommand("scenes", "the shipped scenes, a line each");
+  CLI::App* scenes_command = app.add_subcommand("scenes", "List the shipped scenes.");
+  scenes_command->footer("Example: encounter scenes");
   scenes_command->callback([&] { code = scenes(); });
-  CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
+  CLI::App* doctor_command =
+      app.add_subcommand("doctor", "Report whether this machine is ready, and what to do if not.");
+  doctor_command->footer("Example: encounter doctor");
   doctor_command->callback([&] { code = doctor(); });
   check_subcommand(app, argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});
@@ -369,6 +406,7 @@ int answered(CLI::App& app, int argc, char** argv) {
 int command_line(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is that file's error, not the end
   CLI::App app("Encounter: a digital twin of encounter-type haptic displays", "encounter");
+  app.formatter(std::make_shared<Help>());
   app.set_version_flag("--version", trial::program_words());
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* failed, const CLI::Error& e) {

@@ -20,11 +20,11 @@ std::string unnamed(const std::string& text) {
 }
 
 void force_option(CLI::App* command, bool& force) {
-  command->add_flag("--force", force, "replace files that are there");
+  command->add_flag("--force", force, "replace existing files");
 }
 
 void json_option(CLI::App* command, bool& json) {
-  command->add_flag("--json", json, "one JSON object instead of text");
+  command->add_flag("--json", json, "print one JSON object instead of text");
 }
 
 void scene_options(CLI::App* command, SceneOptions& options) {

@@ -1,5 +1,5 @@
 // Tools for writing a benchmark: its scene, runs over values and seeds, a line for each figure, plots.
-// docs/reference/report.md describes how; benchmarks/encounter is an example.
+// docs/guide/benchmark.md explains it; benchmarks/encounter is an example.
 #pragma once
 
 #include <string>
