@@ -295,7 +295,7 @@ void button_plots(const ButtonRuns& runs, const Law& law, const Law& wall, const
   force.paper = true;
   for (int i = 0; i < 300; ++i) {
     const double depth = i * 0.02e-3;
-    const Felt felt = felt_at(law.does, law.stiffness, law.free, depth);
+    const RenderedStiffness felt = felt_at(law.does, law.stiffness, law.free, depth);
     force.add(-1e3 * depth, felt.stiffness * (depth - felt.sunk));
     click.add(1e3 * depth, felt.stiffness / law.does.floor);
     slide.add(1e3 * depth, felt_at(wall.does, wall.stiffness, wall.free, depth).stiffness / wall.stiffness);
