@@ -34,8 +34,8 @@ void check_folder(const std::string& folder) {
 void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
       "tracker",
-      "find a tracker's bias, noise and latency, with intervals, from a log of a tool that the machine "
-      "carries");
+      "Find a tracker's bias, noise and latency, with intervals, from a log of a tool that the machine "
+      "carries.");
   command->footer("Example: encounter calibrate tracker log.csv --rate-Hz 1000");
   command
       ->add_option("log", options.log,
@@ -49,7 +49,7 @@ void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
 void add_tip(CLI::App& calibrate, TipOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
       "tip",
-      "find where a tool's tip is in its markers from a log of the tool while you swing it about its tip");
+      "Find where a tool's tip is in its markers from a log of the tool while you swing it about its tip.");
   command->footer("Example: encounter calibrate tip poses.csv");
   command
       ->add_option("log", options.log,
@@ -74,8 +74,8 @@ void check_camera(const CameraOptions& options) {
 void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
       "camera",
-      "find a camera's pose from pairs of points, or from a rig's simulated arm that is driven through the "
-      "camera's view");
+      "Find a camera's pose from pairs of points, or from a rig's simulated arm that is driven through the "
+      "camera's view.");
   command->footer("Example: encounter calibrate camera vishap --pairs 8 --out points.csv");
   command
       ->add_option(
@@ -131,8 +131,8 @@ int run_rig(const RigOptions& options) {
 void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
       "rig",
-      "find where a rig's tracker and force sensor are and what the sensor carries, from poses in which the "
-      "machine holds a clamped tool");
+      "Find where a rig's tracker and force sensor are and what the sensor carries, from poses in which the "
+      "machine holds a clamped tool.");
   command->footer("Example: encounter calibrate rig sim --out measured.toml");
   command->add_option("rig", options.rig, "rig with a hexapod: a name in models/rigs, or a file")->required();
   command
@@ -152,7 +152,7 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
 
 void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
   CLI::App* command =
-      calibrate.add_subcommand("stereo", "calibrate a stereo head from pairs of images of a chessboard");
+      calibrate.add_subcommand("stereo", "Calibrate a stereo head from pairs of images of a chessboard.");
   command->footer("Example: encounter calibrate stereo images --square-mm 25 --out head.toml");
   command->add_option("folder", options.folder, "folder with left01.png, right01.png, ...")->required();
   command->add_option("--square-mm", options.square_mm, "side of the board's squares; measure them");
@@ -169,7 +169,7 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
 
 void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
   CLI::App* command =
-      calibrate.add_subcommand("skin", "learn the colour of skin from images of hands and their masks");
+      calibrate.add_subcommand("skin", "Learn the colour of skin from images of hands and their masks.");
   command->footer("Example: encounter calibrate skin images --masks masks --out skin.toml");
   command->add_option("folder", options.folder, "folder with images of hands")->required();
   command
@@ -190,7 +190,7 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
 
 void add_calibrate(CLI::App& app, CalibrateWords& words, int& code) {
   CLI::App* command =
-      app.add_subcommand("calibrate", "calibrate one subject: tracker, tip, camera, rig, stereo or skin");
+      app.add_subcommand("calibrate", "Calibrate one subject: tracker, tip, camera, rig, stereo or skin.");
   command->require_subcommand(1);
   command->footer("Example: encounter calibrate tracker log.csv");
   add_tracker(*command, words.tracker, code);

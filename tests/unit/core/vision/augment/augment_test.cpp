@@ -237,7 +237,7 @@ TEST(Facets, EachShapeIsAsLargeAsItIs) {
 }
 
 TEST(Facets, TheNearestSurfaceIsSeenAndItsDepthIsExact) {
-  Seen seen(320, 240);
+  DepthPicture seen(320, 240);
   draw(facets_of(Surface(Sphere{0.04})), kPair, facing(0.5), seen);
   draw(facets_of(Surface(Plane{})), kPair, facing(0.5), seen);  // through its middle
   const auto depth = [&](int x, int y) {
@@ -252,7 +252,7 @@ TEST(Facets, TheNearestSurfaceIsSeenAndItsDepthIsExact) {
 }
 
 TEST(Facets, WhatIsNotInFrontIsNotDrawn) {
-  Seen seen(320, 240);
+  DepthPicture seen(320, 240);
   draw(facets_of(Surface(Plane{})), kPair, facing(-0.5), seen);
   draw(facets_of(Surface(Sphere{0.04})), kPair, facing(-0.05), seen);
   for (int i = 0; i < 320 * 240; i += 97) EXPECT_TRUE(std::isinf(seen.depth[static_cast<std::size_t>(i)]));

@@ -529,10 +529,10 @@ TEST(HandScene, AFingerNearerThanForeseenIsSeenAsWell) {
                       {.at = {at.column, at.row, expected}});
   };
   for (const double expected : {kUnset, 70.0, 81.0, 90.0}) {
-    const HandScene::Seen whole = look(true, expected);
+    const HandScene::HandFinding whole = look(true, expected);
     ASSERT_TRUE(whole.tip.found && whole.tip.fitted);
     EXPECT_NEAR(whole.disparity, 81.0, 0.3);
-    const HandScene::Seen seen = look(false, expected);
+    const HandScene::HandFinding seen = look(false, expected);
     ASSERT_TRUE(seen.tip.found) << expected;
     EXPECT_EQ(seen.tip.column, whole.tip.column) << expected;
     EXPECT_EQ(seen.tip.row, whole.tip.row) << expected;
