@@ -198,6 +198,34 @@ double unlike_tiles(Course& course, s::Tiles& tiles, TilePeer& peer) {
   return static_cast<double>(unlike) / static_cast<double>(all);
 }
 
+// The majority filter beside OpenCV's medianBlur, over the masks that the tiles give before the filter.
+void beside_median(Bench& bench, Course& course, s::Tiles& tiles, const s::Grid& grid, const s::Cut& cut) {
+  const OpenCv& opencv = *course.place.opencv;
+  const SegmentationSpec& spec = course.spec;
+  std::vector<Mask> rough;
+  for (std::size_t i = 0; i < kRing; ++i) {
+    tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
+    rough.push_back(course.found);
+  }
+  s::Majority majority(s::kernels(), spec.median, kWidth);
+  Mask own(kWidth, kHeight), theirs(kWidth, kHeight);
+  std::size_t unlike = 0;
+  for (const Mask& mask : rough) {
+    majority.filter(mask, mask.whole(), own);
+    opencv.median(mask, spec.median, theirs);
+    unlike += own.on == theirs.on ? 0U : 1U;
+  }
+  const Race filtered(
+      course.rounds,
+      {on_ring(course.frames, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); }),
+       on_ring(course.frames, [&](std::size_t i) { opencv.median(rough[i], spec.median, theirs); })});
+  bench.cost("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
+             fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
+                         filtered.seconds(1) * 1e3, filtered.seconds(0) * 1e3, spec.median));
+  bench.figure("median.unlike.count", static_cast<double>(unlike), "masks", exactly(0.0),
+               fmt::format("of {} that medianBlur filters to other bits", kRing));
+}
+
 void beside_parts(Bench& bench, Course& course) {
   const OpenCv& opencv = *course.place.opencv;
   const SegmentationSpec& spec = course.spec;
@@ -224,34 +252,11 @@ void beside_parts(Bench& bench, Course& course) {
              fmt::format("calcHist and compareHist of each tile, {:.1f} ms, over ours, {:.3f} ms, in which "
                          "skin is judged, too; from RGB both",
                          tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
-
-  std::vector<Mask> rough;  // masks before the filter, to show its effect
-  for (std::size_t i = 0; i < kRing; ++i) {
-    tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
-    rough.push_back(course.found);
-  }
-  s::Majority majority(s::kernels(), spec.median, kWidth);
-  Mask own(kWidth, kHeight), theirs(kWidth, kHeight);
-  std::size_t unlike = 0;
-  for (const Mask& mask : rough) {
-    majority.filter(mask, mask.whole(), own);
-    opencv.median(mask, spec.median, theirs);
-    unlike += own.on == theirs.on ? 0U : 1U;
-  }
-  const Race filtered(
-      course.rounds,
-      {on_ring(course.frames, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); }),
-       on_ring(course.frames, [&](std::size_t i) { opencv.median(rough[i], spec.median, theirs); })});
-  bench.cost("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
-             fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
-                         filtered.seconds(1) * 1e3, filtered.seconds(0) * 1e3, spec.median));
-  bench.figure("median.unlike.count", static_cast<double>(unlike), "masks", exactly(0.0),
-               fmt::format("of {} that medianBlur filters to other bits", kRing));
+  beside_median(bench, course, tiles, grid, cut);
 }
 
-// Time of a frame, beside OpenCV and beside a copy of the frame.
-
-// A hand that moves in the light of the background, in `place`.
+// A hand that moves in the light of the background, in `place`: time of a frame, beside OpenCV and beside a
+// copy of the frame.
 void race(Bench& bench, const Place& place) {
   Course course(place, bench.context.quick ? 16 : 64);
   beside_copy(bench, course);
