@@ -127,8 +127,7 @@ TEST(Shape, NothingIncludesWhatIsAboveIt) {
 
 // A tick has one sequence of steps for every task and every machine.
 TEST(Shape, TheTickAsksForNoTask) {
-  static const std::regex kWords(
-      R"(\b(\w+Task|render|impedance|probe|travel|has_\w+)\b)");
+  static const std::regex kWords(R"(\b(\w+Task|render|impedance|probe|travel|has_\w+)\b)");
   for (const Source& source : sources())
     if (source.name == "core/control/step.cpp") expect_no_word(source, kWords, "the tick knows no task");
 }
@@ -143,7 +142,8 @@ TEST(Shape, TasksKnowNoOtherTask) {
   for (const Source& source : sources())
     for (const Include& include : includes(source)) {
       const std::string own = task_of(source.name), other = task_of(include.name);
-      EXPECT_TRUE(own.empty() || other.empty() || own == other || (own == "dynamic_object" && other == "impedance"))
+      EXPECT_TRUE(own.empty() || other.empty() || own == other ||
+                  (own == "dynamic_object" && other == "impedance"))
           << source.name << " includes " << include.name;
     }
 }
