@@ -48,8 +48,7 @@ void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
 
 void add_tip(CLI::App& calibrate, TipOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
-      "tip",
-      "Find where a tool's tip is in its markers from a log of the tool while you swing it about its tip.");
+      "tip", "Find a tool's tip in its markers from a log of its swing about the tip.");
   command->footer("Example: encounter calibrate tip poses.csv");
   command
       ->add_option("log", options.log,
@@ -132,7 +131,7 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
   CLI::App* command = calibrate.add_subcommand(
       "rig",
       "Find where a rig's tracker and force sensor are and what the sensor carries, from poses in which the "
-      "machine holds a clamped tool.");
+      "machine holds a clamped tool. With --armed the machine moves by itself for minutes.");
   command->footer("Example: encounter calibrate rig sim --out measured.toml");
   command->add_option("rig", options.rig, "rig with a hexapod: a name in models/rigs, or a file")->required();
   command

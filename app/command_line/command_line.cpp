@@ -106,8 +106,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   scene_options(command, options);
   command->add_option("--pace", options.pace, "free, wall, or seconds of experiment per second of wall time")
       ->capture_default_str();
-  command->add_option("--for-s", options.seconds,
-                      "length, s of experiment; default: until the user or the probe is done");
+  command->add_option(
+      "--for-s", options.seconds,
+      "length, s of experiment; default: until the user or the probe is done, 10 s if all devices are real");
   command->add_option("--record", options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
   command
@@ -147,8 +148,7 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
 }
 
 CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "fake", "Stand in for the devices of a rig on their real protocols, from one simulated world.");
+  CLI::App* command = app.add_subcommand("fake", "Answer for the devices of a rig on their real protocols.");
   command->footer("Example: encounter fake fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
   command->add_option("--scene", options.scene, "scene of the simulated world; default: the tennis ball")
@@ -161,7 +161,7 @@ CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
                       "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: which fault, how long "
                       "after a client connects, and for how long; repeatable. Faults: " +
                           fault_examples() +
-                          ". A line of standard input injects one at once; 'heal' ends all");
+                          ". A line of standard input injects one at once; 'heal' ends the active ones");
   return command;
 }
 
@@ -234,7 +234,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
   command->add_option("--repeats", options.repeats, "seeds per row; default: the benchmark's own")
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--set", options.set, "override, as for run");
-  command->add_flag("--quick", options.quick, "fewer repeats; all benchmarks take about a minute");
+  command->add_flag("--quick", options.quick, "fewer repeats; all benchmarks take some minutes");
   command->add_flag("--full", options.full,
                     "also the parts that take minutes: share of each part, error against run time");
   command

@@ -18,8 +18,9 @@ void json_option(CLI::App* command, bool& json);
 // The options of a command that may move real devices: armed, lockstep, yes, not_real_time.
 template <class Options>
 void device_options(CLI::App* command, Options& options) {
-  command->add_flag("--armed", options.armed,
-                    "send commands to real devices; without it they only go into the record");
+  command->add_flag(
+      "--armed", options.armed,
+      "send commands to real devices, so that the machine moves; without it they are only read");
   command->add_flag(
       "--lockstep", options.lockstep,
       "run against `encounter fake --lockstep`: each set-point advances time by one period, so runs are "

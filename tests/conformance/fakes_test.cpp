@@ -95,7 +95,7 @@ TEST(Fakes, WhatDoesNotFitIsSaid) {
   {
     const Laboratory there(true);
     EXPECT_THAT(run_program(there.words({"--armed", "--yes", "--for-s", "1"})).err,
-                HasSubstr("its time goes on with each set-point; add --lockstep"));
+                HasSubstr("its time goes on with each set-point; begin the fake without --lockstep"));
     EXPECT_THAT(run_program(there.words({"--lockstep"})).err,
                 HasSubstr("without --armed none is sent; add it"));
   }

@@ -61,9 +61,10 @@ GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, 
                     settings.place(), 1e3 * offer.rig.force.stale, 1e3 * settings.poll),
         {}, ErrorKind::device);
   if (machine_.found().lockstep)
-    throw Error(machine_.describe() +
-                    ": its time goes on with each set-point; add --lockstep, or begin the fake without",
-                {}, ErrorKind::device);
+    throw Error(
+        machine_.describe() +
+            ": its time goes on with each set-point; begin the fake without --lockstep, or run with it",
+        {}, ErrorKind::device);
   report_.X_RH = machine_.at_first();
   report_.velocity = Vec<'R'>::zero();
   report_.t = machine_.link().now();
