@@ -13,7 +13,7 @@ cpu() {
   local kind; kind=$(uname -m)
   if [[ $kind != x86_64 ]]; then
     [[ -n ${ENCOUNTER_MUJOCO:-} ]] || missing "MuJoCo for $kind: it is fetched for x86_64 only; install MuJoCo $mujoco_version and set ENCOUNTER_MUJOCO to its folder"
-  elif ! lscpu | grep -qwi avx; then
+  elif ! lscpu | grep -wi avx >/dev/null; then  # -q would end the pipe early
     missing "AVX: this processor has none, and MuJoCo's library needs it; use a processor of 2011 or later (in a virtual machine: pass the host's CPU through)"
   fi
   (($(nproc) >= 2)) || line note "1 core: builds take twice as long; hardware wants two cores"
@@ -58,10 +58,10 @@ packages() {
 
 # A tool that is installed, but is another one than Debian's.
 tools() {
-  local version
+  local version compiler; read -ra compiler <<<"${CXX:-g++}"
   if [[ -n ${CXX:-} ]] && ! command -v "${CXX%% *}" >/dev/null; then missing "CXX=$CXX does not exist: unset CXX"; fi
-  version=$(g++ -dumpversion 2>/dev/null || true)
-  [[ -z $version ]] || ((${version%%.*} >= 12)) || missing "g++ $version is too old: C++20 needs 12; apt-get install g++-12, then CXX=g++-12"
+  version=$("${compiler[@]}" -dumpversion 2>/dev/null || true)
+  [[ -z $version ]] || ((${version%%.*} >= 12)) || missing "${CXX:-g++} $version is too old: C++20 needs 12; apt-get install g++-12, then CXX=g++-12"
   version=$(cmake --version 2>/dev/null | awk 'NR == 1 { print $3 }' || true)
   if [[ -n $version ]] && ! printf '3.25\n%s\n' "$version" | sort -VC; then
     missing "cmake $version at $(command -v cmake) is too old: 3.25 is needed; Debian 12 has it, so take the other one out of PATH"
@@ -90,7 +90,8 @@ mujoco() {
 # Asked only where something has to be fetched.
 network() {
   $fetches || return 0
-  [[ -z ${http_proxy:-}${https_proxy:-}${PIP_INDEX_URL:-} ]] || return 0  # not ours to judge
+  [[ -z ${http_proxy:-}${https_proxy:-}${HTTP_PROXY:-}${HTTPS_PROXY:-}${PIP_INDEX_URL:-} &&
+    -z $(apt-config dump Acquire::http::Proxy 2>/dev/null || true) ]] || return 0  # not ours to judge
   local host
   # shellcheck disable=SC2016  # apt-get's own $(...)
   host=$(apt-get indextargets --format '$(URI)' 2>/dev/null | sed -nE '1s#^[a-z]+://([^/:]+).*#\1#p' || true)
@@ -101,14 +102,14 @@ earlier_build() {
   if [[ -e $build/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
     line note "$build was made in another folder: the next call deletes it and builds anew"
   elif [[ -e $build/.ninja_log && ! -x $build/encounter ]]; then line note "a build was cut off; the next call carries on from there"
-  elif [[ -x $build/encounter ]] && ldd "$build/encounter" 2>/dev/null | grep -q 'not found'; then
+  elif [[ -x $build/encounter ]] && ldd "$build/encounter" 2>/dev/null | grep 'not found' >/dev/null; then
     missing "$(ldd "$build/encounter" | awk '/not found/ { print $1; exit }'), which the program needs, is gone: rm $build/.ready-*, then give your command again; it installs what is missing"
   fi
 }
 
 # What a person may want and a build does not need.
 extras() {
-  ldconfig -p 2>/dev/null | grep -q 'libEGL\.so\.1' || line note "EGL for pictures: ./encounter view installs it"
+  PATH=$PATH:/usr/sbin:/sbin ldconfig -p 2>/dev/null | grep 'libEGL\.so\.1' >/dev/null || line note "EGL for pictures: ./encounter view installs it"
   command -v gnuplot >/dev/null || line note "gnuplot for the plots of a report: ./encounter bench installs it"
   [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] || line note "no screen here: view opens no window; --shot and --video draw without one"
   chrt -f 40 true 2>/dev/null || line note "real-time priority: not allowed here, and only real devices need it; 'rtprio 40' in /etc/security/limits.conf (in a container: --cap-add SYS_NICE --ulimit rtprio=40)"

@@ -321,7 +321,8 @@ std::string wrapped_line(const std::string& line) {
   constexpr std::size_t kWidth = 80, kColumn = 30;  // CLI11's column of descriptions
   const std::size_t start = line.find_first_not_of(' ');
   if (line.size() <= kWidth || start == std::string::npos) return line + "\n";
-  const bool described = line.size() > kColumn && line[kColumn] != ' ' && line[kColumn - 1] == ' ';
+  const bool described =
+      start > 0 && line.size() > kColumn && line[kColumn] != ' ' && line[kColumn - 1] == ' ';
   const std::size_t indent = described ? kColumn : start;
   const std::size_t space = line.rfind(' ', kWidth);
   if (space == std::string::npos || space <= indent) return line + "\n";

@@ -1,5 +1,5 @@
 // Table 1 [VHMR 4.1], in m: of the paper, of the twin and over devices. Scene `tracking` runs through the
-// whole loop; the error counts at each new packet (trial/travel/travel_measure.h). table1.cpp has the method,
+// whole loop; the error counts at each new packet (trial/measure/test_measures.h). table1.cpp has the method,
 // bounds, figures and plots.
 #pragma once
 
@@ -31,7 +31,7 @@ struct TravelErrors : trial::TravelSums {
 [[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
                                       const trial::TrialOptions& base = {});
 
-// Table 1 over the devices of the user's rig: tracking_rig.cpp.
+// Table 1 over the devices of the user's rig: tracking.cpp.
 void over_rig(Bench& bench);
 
 inline constexpr std::array<int, 3> kTableSpeeds{0, 20, 40};  // mm/s

@@ -52,7 +52,7 @@ class HapticArm : public Device {
  public:
   [[nodiscard]] virtual ArmAbility ability() const = 0;    // called once, before anything moves
   virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
-  // CommandState force of the tip on its surroundings, including gravity compensation; stays in force until
+  // Commanded force of the tip on its surroundings, including gravity compensation; stays in force until
   // the next command. The device converts it to joint torques (J^T F) and limits these to its motors.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
   virtual void stop() noexcept = 0;  // Ends all force and stops every driven part; see Manipulator.

@@ -95,7 +95,7 @@ TEST(Floors, OfCoreIncludeOnlyThoseBelow) {
     between += floor_of(arrow.from) != floor_of(arrow.to) ? 1 : 0;
     EXPECT_LE(height_of(arrow.to), height_of(arrow.from)) << arrow.from << " includes " << arrow.to;
   }
-  EXPECT_GT(between, 150U);
+  EXPECT_GT(between, 180U);
 }
 
 TEST(Floors, RecordAndVisionStandSideBySide) {

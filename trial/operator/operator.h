@@ -45,7 +45,7 @@ class Operator {
     signals_.begin();
     signals_.take_suspensions();
   }
-  // Call between begin() and listen(): asks (consent.h), until a signal comes.
+  // Call between begin() and listen(): asks, until a signal comes.
   [[nodiscard]] Answer confirm(const std::string& question);
   void listen() {
     listens_ = true;

@@ -42,7 +42,7 @@ struct HandWord {
   std::optional<Point<'W'>> place{};  // requested place of the tool's tip; unset: no change
   // The hand lays its tool down and takes the other one.
   bool changes_tool = false;
-  std::uint8_t faults = 0;  // bits of Fault (faults.h), from here on
+  std::uint8_t faults = 0;  // bits of Fault, from here on
 };
 
 // The requests of a steered run, with the ticks from which they hold.

@@ -144,9 +144,9 @@ bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Neare
   if (depth - length >= least) return true;  // depth changes no faster than position
   met = at(local(Point<'W'>(Vec3(brake.at.e() + way))));
   if (!(-met.distance >= least)) return false;
-  // the bound above, from both ends
+  // The same bound from both ends of the path.
   if (0.5 * (depth - met.distance - length) >= least) return true;
-  // all other shapes are convex
+  // Only a mesh can be hollow; all other shapes are convex.
   if (!std::holds_alternative<MeshSurface>(object_.surface.shape())) return true;
   // Check the path: first the position after this tick, where the command may still change, then steps so
   // short that no side can enter between them. At a hollow edge the allowed region ends in an arc of the

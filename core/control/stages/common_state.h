@@ -31,7 +31,7 @@ struct Contact {
   float steady_force = 0.0F;
   Time loaded{};         // last tick with force; the start of time: never
   Time began{}, left{};  // start of the contact, and of the tip's return
-  // Time for which the force has had no cause, s (force_is_drift in render/mode.cpp).
+  // Time for which the force has had no cause, s (force_is_drift in admittance/mode.cpp).
   double clear = 0.0;
 };
 

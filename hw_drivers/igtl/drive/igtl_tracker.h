@@ -51,7 +51,7 @@ class IgtlTracker final : public PoseTracker {
   IgtlTracker(const Offer& offer, const IgtlSettings& settings);
   IgtlTracker(const IgtlTracker&) = delete;
   IgtlTracker& operator=(const IgtlTracker&) = delete;
-  ~IgtlTracker() override;  // requests the server to stop
+  ~IgtlTracker() override;  // asks the server to stop
 
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool is_fake() const override { return fake_; }

@@ -6,7 +6,7 @@ import time
 sys.path.insert(0, sys.argv[1])
 import pynetft
 
-# As in netft_foreign_test.cpp: N and N m, counts of each, and 7 samples of the sensor in a record.
+# As in foreign_test.cpp: N and N m, counts of each, and 7 samples of the sensor in a record.
 FIRST = (1.234567, -23.456789, -123.456789, 0.345678, -4.567891, 9.876543)
 SECOND = (-7.654321, 31.415926, -60.5, -1.25, 2.718281, -8.000001)
 NOTHING = (0.0,) * 6

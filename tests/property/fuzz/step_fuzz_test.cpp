@@ -192,7 +192,7 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const bool same = std::abs(force - same_force_) <= 0.15 * scene.force.contact;
   if (!same) same_force_ = force;
   alone_ = !own && same ? alone_ + dt : 0.0;
-  // LoopDelay poses do not count, and their delay is unknown here: allow half as long again.
+  // Late poses do not count, and their delay is unknown here: allow half as long again.
   const double longest = elsewhere && force <= 3.0 * scene.force.contact ? 7.5 : 90.0;
   const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;

@@ -92,6 +92,9 @@ std::vector<Break> breaks() {
       {"no network", "getent", "exit 2", "", "packages.test, from which packages come, has no address"},
       {"no Debian", "", "", "rm $PATH/dpkg-query", "this is no Debian", 0},
       {"old compiler", "g++", "echo 9", "", "g++ 9 is too old: C++20 needs 12"},
+      {"old compiler, newer one beside it", "g++", "echo 11",
+       "printf '#!/bin/bash\necho 12' >$PATH/g++-12; chmod +x $PATH/g++-12; export CXX=g++-12",
+       "ready to build", 0},
       {"old CMake", "cmake", "echo cmake version 3.18.4", "", "cmake 3.18.4 at"},
       {"no such compiler", "", "", "export CXX=g++-99", "CXX=g++-99 does not exist: unset CXX"},
       {"flags that change bits", "", "", "export CXXFLAGS='-O2 -ffast-math'", "unset CXXFLAGS"},
@@ -128,7 +131,7 @@ TEST(DoctorScript, EachBrokenSystemGetsItsRemedy) {
   const std::string sound = BareSystem().doctor().out;
   for (const Break& one : breaks()) {
     SCOPED_TRACE(one.what);
-    EXPECT_THAT(sound, Not(HasSubstr(one.remedy)));
+    if (one.remedy != "ready to build") EXPECT_THAT(sound, Not(HasSubstr(one.remedy)));
     const BareSystem system;
     if (!one.tool.empty()) system.stand_in(one.tool, one.script);
     const Result r = system.doctor(one.shell);

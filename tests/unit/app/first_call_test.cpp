@@ -1,6 +1,7 @@
 // The script `encounter` in a clone that was never built, and the commit that a build records.
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -72,6 +73,28 @@ TEST_F(FirstCall, EachSubjectOfCalibrateInstallsWhatItNeeds) {
 TEST_F(FirstCall, TheHelpOfTheScriptIsThatOfTheProgram) {
   EXPECT_EQ(run_program({"--help"}).out, call("--help").out)
       << "build/release/encounter --help >app/command_line/help.txt makes it anew";
+}
+
+// Each subcommand: a sentence, an example, and no line beyond a terminal's 80 columns.
+TEST(Help, FitsATerminalAndShowsAnExample) {
+  std::istringstream all(run_program({"--help"}).out);
+  std::size_t commands = 0;
+  bool listed = false;
+  for (std::string line; std::getline(all, line);) {
+    EXPECT_LE(line.size(), 80U) << line;
+    listed = listed || line == "Subcommands:";
+    if (!listed || line.size() < 3 || !line.starts_with("  ") || line[2] == ' ') continue;
+    const std::string name = line.substr(2, line.find(' ', 2) - 2);
+    const std::string help = run_program({name, "--help"}).out;
+    EXPECT_TRUE(help.size() > 1 && help[0] >= 'A' && help[0] <= 'Z') << help.substr(0, 80);
+    EXPECT_THAT(help, HasSubstr("Example: encounter " + name));
+    EXPECT_NE(help.find_first_not_of(' ', help.find('\n') + 1), std::string::npos);
+    EXPECT_NE(help[help.find('\n') + 1], ' ') << name << ": the sentence goes on at column 0";
+    std::istringstream lines(help);
+    for (std::string one; std::getline(lines, one);) EXPECT_LE(one.size(), 80U) << name << ": " << one;
+    ++commands;
+  }
+  EXPECT_GT(commands, 15U);
 }
 
 TEST_F(FirstCall, TheCommitIsThatOfTheRepositoryAndSaysWhereCodeWasChanged) {

@@ -15,7 +15,7 @@ namespace enc {
 
 struct Outputs;
 
-// State of the passivity controller (render.cpp); unused without one.
+// State of the passivity controller (admittance_task.cpp); unused without one.
 struct RenderedEnergy {
   Passivity energy;  // energy of the present contact
   // N, along the normal, and tip position: both at the last tick.

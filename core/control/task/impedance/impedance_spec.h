@@ -65,7 +65,7 @@ struct ReachPredictionSpec {
   static constexpr double kPushedBack = 0.2;
 };
 
-// Valid samples, growth of damping with the mass, and the touched side (meet.cpp, impedance.cpp,
+// Valid samples, growth of damping with the mass, and the touched side (impedance_task.cpp, impedance.cpp,
 // control_law.cpp).
 struct MeetSpec {
   // m, m/s and rad: larger values of such an arm are invalid (assumed: well beyond the limits of motors and

@@ -57,7 +57,7 @@ TEST(Response, TurnsFromPressToReleaseAsByHand) {
   EXPECT_EQ(s.alpha, 0.0);
 }
 
-// ReleaseResult to 0.5 mm, pressed again to 1 mm: alpha = 500 (1 - 0.25) e-6 / 9e-3 = 0.0416667.
+// Released to 0.5 mm, pressed again to 1 mm: alpha = 500 (1 - 0.25) e-6 / 9e-3 = 0.0416667.
 TEST(Response, TurnsFromReleaseToPressAsByHand) {
   const Response r = lines();
   ResponseState s;

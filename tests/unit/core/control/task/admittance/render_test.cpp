@@ -1,4 +1,4 @@
-// AdmittanceState: each mode ends with its cause (mode.h); the damper; a tip that comes late; re-tare.
+// Rendering: each mode ends with its cause (mode.h); the damper; a tip that comes late; re-tare.
 #include <cmath>
 #include <numbers>
 
