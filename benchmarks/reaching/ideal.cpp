@@ -86,19 +86,27 @@ struct Task {
   double now;
 };
 
-// Nine unknowns: the start of the hand, its first movement, and the part of its way that is not predicted.
-Part solved(const Task& task, const Timing& t, const Mat9& prior) {
-  const double rest = 1.0 / task.spec.hand.primary_share - 1.0;
-  const double beyond = t.falls_short ? 1.0 / MinimumJerk(kCrosses).x : 0.0;
-  Mat9 information = prior;
+// The equations of nine unknowns: the start of the hand, its first movement, and the part of its way that is
+// not predicted.
+struct Equations {
+  Mat9 information;
   Vec9 right = Vec9::Zero();
   double squares = 0.0;
-  const auto see = [&](const Vec9& share, double value, double sigma) {
+
+  void see(const Vec9& share, double value, double sigma) {
     const double w = 1.0 / (sigma * sigma);
     information += w * share * share.transpose();
     right += w * value * share;
     squares += w * value * value;
-  };
+  }
+};
+
+// The way that is left after the first movement, over that movement.
+double rest_of(const Task& task) { return 1.0 / task.spec.hand.primary_share - 1.0; }
+
+void see_pictures(const Task& task, const Timing& t, Equations& equations) {
+  const double rest = rest_of(task);
+  const double beyond = t.falls_short ? 1.0 / MinimumJerk(kCrosses).x : 0.0;
   for (const SeenReach::Picture& picture : task.pictures) {
     const double age = task.now - picture.exposed;
     const double p = MinimumJerk((-age - t.begins) / t.first).x;
@@ -109,26 +117,31 @@ Part solved(const Task& task, const Timing& t, const Mat9& prior) {
       share[axis] = 1.0;
       share[3 + axis] = p + f * s * rest;
       share[6 + axis] = f * s;
-      see(share, picture.at[axis], task.spec.noise);
+      equations.see(share, picture.at[axis], task.spec.noise);
     }
   }
+}
+
+// The whole way ends at the surface, and a first movement that does not fall short crosses it now. Returns
+// what that adds to the weight of the timing.
+double see_touch(const Task& task, const Timing& t, Equations& equations) {
   Vec9 whole = Vec9::Zero();
   whole[2] = whole[8] = 1.0;
-  whole[5] = 1.0 + rest;
-  see(whole, 0.0, kExactly);
-  double more = 0.0;
-  if (!t.falls_short) {
-    Vec9 crosses = Vec9::Zero();
-    crosses[2] = 1.0;
-    crosses[5] = t.crossed;
-    see(crosses, 0.0, kExactly);
-    more = -std::log(kExactly) - 0.5 * std::log(2.0 * M_PI);
-  }
-  const Eigen::LLT<Mat9> factors(information);
-  const Vec9 mean = factors.solve(right);
-  Part part;
-  part.weight =
-      -0.5 * (squares - right.dot(mean)) - std::log(factors.matrixLLT().diagonal().prod()) + t.weight + more;
+  whole[5] = 1.0 + rest_of(task);
+  equations.see(whole, 0.0, kExactly);
+  if (t.falls_short) return 0.0;
+  Vec9 crosses = Vec9::Zero();
+  crosses[2] = 1.0;
+  crosses[5] = t.crossed;
+  equations.see(crosses, 0.0, kExactly);
+  return -std::log(kExactly) - 0.5 * std::log(2.0 * M_PI);
+}
+
+using Factors = Eigen::LLT<Mat9>;
+
+// Probability that a person makes the movements that were found.
+double probability(const Task& task, const Timing& t, const Vec9& mean, const Factors& factors) {
+  const double rest = rest_of(task);
   Vec9 down = Vec9::Zero();
   down[5] = -rest / MinimumJerk(kCrosses).x;
   down[8] = -1.0 / MinimumJerk(kCrosses).x;
@@ -137,21 +150,40 @@ Part solved(const Task& task, const Timing& t, const Mat9& prior) {
   constexpr double kAt[5]{-2.857, -1.3556, 0.0, 1.3556, 2.857},
       kWeight[5]{.01126, .2221, .5333, .2221, .01126};
   for (int i = 0; i < 5; ++i) share += kWeight[i] * takes(task.spec, t, middle + spread * kAt[i]);
-  part.first = mean.segment<3>(3);
-  const double peak = 1.875 * part.first.norm() / t.first;
+  const Vec3 first = mean.segment<3>(3);
+  const double peak = 1.875 * first.norm() / t.first;
   share *=
       std::max(1e-12, below((task.spec.fastest - peak) / 0.01) - below((task.spec.slowest - peak) / 0.01));
-  const double way = ((1.0 + rest) * part.first + mean.tail<3>()).norm();
+  const double way = ((1.0 + rest) * first + mean.tail<3>()).norm();
   share *= std::max(
       1e-12, below((task.spec.longest_way - way) / 0.003) - below((task.spec.shortest_way - way) / 0.003));
-  part.weight += std::log(std::max(share, 1e-300));
+  return share;
+}
+
+// The share of each unknown in the place of the hand now, along the surface.
+Eigen::Matrix<double, 9, 2> place_now(const Task& task, const Timing& t) {
   const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;
   Eigen::Matrix<double, 9, 2> place = Eigen::Matrix<double, 9, 2>::Zero();
   for (int axis = 0; axis < 2; ++axis) {
     place(axis, axis) = 1.0;
-    place(3 + axis, axis) = p + s * rest;
+    place(3 + axis, axis) = p + s * rest_of(task);
     place(6 + axis, axis) = s;
   }
+  return place;
+}
+
+Part solved(const Task& task, const Timing& t, const Mat9& prior) {
+  Equations equations{prior};
+  see_pictures(task, t, equations);
+  const double more = see_touch(task, t, equations);
+  const Factors factors(equations.information);
+  const Vec9 mean = factors.solve(equations.right);
+  Part part;
+  part.weight = -0.5 * (equations.squares - equations.right.dot(mean)) -
+                std::log(factors.matrixLLT().diagonal().prod()) + t.weight + more;
+  part.weight += std::log(std::max(probability(task, t, mean, factors), 1e-300));
+  part.first = mean.segment<3>(3);
+  const Eigen::Matrix<double, 9, 2> place = place_now(task, t);
   part.mean = place.transpose() * mean;
   part.covariance = place.transpose() * factors.solve(place);
   return part;

@@ -223,22 +223,16 @@ void random_figures(Bench& bench, const std::vector<ReachRan>& ran, Seen how, bo
   }
 }
 
-// Share of the reaches with the prop in time, beside that of an ideal predictor with the same pictures and
-// this arm (ideal.h).
-void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
-  const BenchContext& context = bench.context;
+// Whether the prop of an ideal predictor is there when a reach meets, by its kind of prop.
+struct Judged {
+  bool counts = false, reached = false, carried = false, followed = false;
+  double within = 0.0;
+};
+
+// The first `most` reaches, judged on all cores.
+std::vector<Judged> judged_by_ideal(const IdealSpec& spec, double acceleration,
+                                    const std::vector<ReachOutcome>& wall, std::size_t most) {
   constexpr double kSoon = 0.01;  // s: gives the best ideal predictor
-  const models::Setup setup = load_scene(context, "wall");
-  const bool reach = setup.rig.tracker.foresight == Foresight::reach;  // the scene's motion prediction
-  const double acceleration = reach ? setup.rig.arm.reach_acceleration : setup.rig.arm.acceleration;
-  IdealSpec spec;
-  spec.hand = setup.twin.hand;
-  spec.noise = setup.twin.tracker.noise.maxCoeff();
-  struct Judged {
-    bool counts = false, reached = false, carried = false, followed = false;
-    double within = 0.0;
-  };
-  const std::size_t most = context.quick ? std::min<std::size_t>(wall.size(), 4) : wall.size();
   std::vector<Judged> all(most);
   in_parallel(most, [&](std::size_t i) {
     const ReachOutcome& r = wall[i];
@@ -249,16 +243,40 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
     const auto there = [&](const Eigen::Vector2d& place) { return (place - r.seen.where).norm() < kThere; };
     all[i] = {true, there(at.place), there(carried), there(followed), at.within};
   });
+  return all;
+}
+
+// Numbers of reaches; `within` is the number that the predictor expects.
+struct IdealCounts {
   double counts = 0.0, reached = 0.0, carried = 0.0, followed = 0.0, within = 0.0, ours = 0.0;
-  for (std::size_t i = 0; i < most; ++i) {
+};
+IdealCounts counts_of(const std::vector<Judged>& all, const std::vector<ReachOutcome>& wall) {
+  IdealCounts sum;
+  for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].counts) continue;
-    ++counts;
-    reached += all[i].reached ? 1.0 : 0.0;
-    carried += all[i].carried ? 1.0 : 0.0;
-    followed += all[i].followed ? 1.0 : 0.0;
-    within += all[i].within;
-    ours += wall[i].lead() >= wall[i].travel() ? 1.0 : 0.0;
+    ++sum.counts;
+    sum.reached += all[i].reached ? 1.0 : 0.0;
+    sum.carried += all[i].carried ? 1.0 : 0.0;
+    sum.followed += all[i].followed ? 1.0 : 0.0;
+    sum.within += all[i].within;
+    sum.ours += wall[i].lead() >= wall[i].travel() ? 1.0 : 0.0;
   }
+  return sum;
+}
+
+// Share of the reaches with the prop in time, beside that of an ideal predictor with the same pictures and
+// this arm (ideal.h).
+void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
+  const BenchContext& context = bench.context;
+  const models::Setup setup = load_scene(context, "wall");
+  const bool reach = setup.rig.tracker.foresight == Foresight::reach;  // the scene's motion prediction
+  const double acceleration = reach ? setup.rig.arm.reach_acceleration : setup.rig.arm.acceleration;
+  IdealSpec spec;
+  spec.hand = setup.twin.hand;
+  spec.noise = setup.twin.tracker.noise.maxCoeff();
+  const std::size_t most = context.quick ? std::min<std::size_t>(wall.size(), 4) : wall.size();
+  const auto [counts, reached, carried, followed, within, ours] =
+      counts_of(judged_by_ideal(spec, acceleration, wall, most), wall);
   bench.figure("ideal.place_percent.wall", 100.0 * reached / counts, "%",
                fmt::format("of {:.0f} of these reaches: within 2 mm of where they meet is the best place "
                            "that an ideal predictor knows of by the same pictures, told when the finger "
@@ -281,6 +299,28 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
                at_least(context.full ? 90.0 : kUnset), "the same, of that ideal with an arm");
 }
 
+// Distribution of the time in which finger and prop come to where they meet.
+Plot lead_plot(const std::vector<ReachRan>& ran, Seen how) {
+  Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
+            std::string("From \"prepare\" until they meet; the finger is ") + name_of(how), "time (ms)",
+            "reaches (%)"};
+  for (std::size_t i = 0; i < kScenes.size(); ++i) {
+    std::vector<double> lead, travel;
+    for (const ReachOutcome& r : of_scene(ran, i)) {
+      lead.push_back(r.lead());
+      travel.push_back(r.travel());
+    }
+    plot.series.push_back(distribution(kScenes[i] + ": finger", lead));
+    plot.series.push_back(distribution(kScenes[i] + ": prop", travel));
+  }
+  plot.caption =
+      "Share of the reaches in which the finger has met the surface, and in which the prop has come within "
+      "2 mm of where they meet, over the time since the core began to prepare. Where a curve of the prop "
+      "ends below 100 %, it was farther in the others when they met. A prop at a wall goes along with a "
+      "finger that comes obliquely, and arrives with it; at a key it waits.";
+  return plot;
+}
+
 void random_part(Bench& bench) {
   const BenchContext& context = bench.context;
   double far = 0.0;
@@ -301,24 +341,7 @@ void random_part(Bench& bench) {
                      : "the same of a finger that vision sees at 20 Hz, 50 ms late");
     random_figures(bench, ran, how, !context.quick);
     if (how == Seen::vision) add_ideal(bench, of_scene(ran, 0));
-    Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
-              std::string("From \"prepare\" until they meet; the finger is ") + name_of(how), "time (ms)",
-              "reaches (%)"};
-    for (std::size_t i = 0; i < kScenes.size(); ++i) {
-      std::vector<double> lead, travel;
-      for (const ReachOutcome& r : of_scene(ran, i)) {
-        lead.push_back(r.lead());
-        travel.push_back(r.travel());
-      }
-      plot.series.push_back(distribution(kScenes[i] + ": finger", lead));
-      plot.series.push_back(distribution(kScenes[i] + ": prop", travel));
-    }
-    plot.caption =
-        "Share of the reaches in which the finger has met the surface, and in which the prop has come within "
-        "2 mm of where they meet, over the time since the core began to prepare. Where a curve of the prop "
-        "ends below 100 %, it was farther in the others when they met. A prop at a wall goes along with a "
-        "finger that comes obliquely, and arrives with it; at a key it waits.";
-    bench.result.plots.push_back(std::move(plot));
+    bench.result.plots.push_back(lead_plot(ran, how));
   }
   bench.figure("far_speed_mm_s", 1e3 * far, "mm/s", at_most(0.1),
                "of the tip, at most, while the finger is far, from a second after it went away");
@@ -361,6 +384,20 @@ Series over_speed(const std::string& name, const Speeds& speeds, double share, d
   return series;
 }
 
+// The miss at 50 to 200 mm/s.
+void add_miss_figures(Bench& bench, const Speeds& speeds, Seen how) {
+  for (std::size_t i = 0; i < speeds.each.size(); ++i) {
+    const double v = speeds.each[i];
+    if (v < 0.05 || v > 0.2) continue;
+    const Tail tail = tail_of(misses(speeds.reaches[i]), 0.95);
+    bench.figure(
+        fmt::format("miss_mm.{}{:.0f}.{}", key_of(how), 1e3 * v, tail.word), 1e3 * tail.value, "mm",
+        at_most(2.0),
+        fmt::format("sideways, of a finger that comes with {:.0f} mm/s, 0 to 40 deg from the normal, {}",
+                    1e3 * v, name_of(how)));
+  }
+}
+
 void speed_part(Bench& bench) {
   Plot miss{"reaching_miss",
             "Miss of a finger that comes with an even speed",
@@ -376,16 +413,7 @@ void speed_part(Bench& bench) {
               true};
   for (const Seen how : {Seen::vision, Seen::live}) {
     const Speeds speeds = steady(bench.context, bench.result, how);
-    for (std::size_t i = 0; i < speeds.each.size(); ++i) {
-      const double v = speeds.each[i];
-      if (v < 0.05 || v > 0.2) continue;
-      const Tail tail = tail_of(misses(speeds.reaches[i]), 0.95);
-      bench.figure(
-          fmt::format("miss_mm.{}{:.0f}.{}", key_of(how), 1e3 * v, tail.word), 1e3 * tail.value, "mm",
-          at_most(2.0),
-          fmt::format("sideways, of a finger that comes with {:.0f} mm/s, 0 to 40 deg from the normal, {}",
-                      1e3 * v, name_of(how)));
-    }
+    add_miss_figures(bench, speeds, how);
     const bool enough = models::has_percentile(misses(speeds.reaches.front()).size(), 0.95);
     for (const auto& [share, text] :
          {std::pair{0.5, "median"}, {enough ? 0.95 : 1.0, enough ? "p95" : "most"}})
@@ -449,23 +477,43 @@ void add_reaching_full(const BenchContext& context, BenchResult& result) {
   steps_part(context, result);
 }
 
-// Motion of the tip while the finger is far away, over the friction of the joints.
-void add_rest(Bench& bench) {
-  const BenchContext& context = bench.context;
-  const std::vector<Friction> all = frictions(context);
-  const int people = context.full ? 8 : 1;
+// Reaches for the wall with each friction, by `people` each.
+std::vector<ReachRun> rest_runs(const BenchContext& context, const std::vector<Friction>& all, int people) {
   std::vector<ReachRun> runs;
   for (const Friction& f : all)
     for (int i = 0; i < people; ++i)
       runs.push_back(
           random_reaches("wall", context.full ? 8 : 4, context.seed + static_cast<std::uint64_t>(i)) +
           seen(Seen::vision) + set_of(f));
-  const std::vector<ReachRan> ran = run_all(context, runs);
+  return runs;
+}
+
+struct FarTip {
+  double most = 0.0, none = kUnset;  // m/s: with friction, and without any
+  std::size_t reaches = 0;           // with friction
+};
+
+void add_far_figures(Bench& bench, const FarTip& tip) {
+  bench.figure("rest.reaches", static_cast<double>(tip.reaches), "",
+               "random reaches with other frictions than the rig's");
+  bench.figure("rest.far_speed_mm_s", 1e3 * tip.most, "mm/s", at_most(0.1),
+               "of the tip, at most, while the finger is far: joints with 0.0028 to 0.02 N m of friction, "
+               "which sets in within 2 to 20 ms (--full: from 0.1 ms on)");
+  if (!bench.context.quick)
+    bench.figure("rest.without_friction_mm_s", 1e3 * tip.none, "mm/s",
+                 "the same of joints without any: nothing holds what the law lets go");
+}
+
+// Motion of the tip while the finger is far away, over the friction of the joints.
+void add_rest(Bench& bench) {
+  const BenchContext& context = bench.context;
+  const std::vector<Friction> all = frictions(context);
+  const int people = context.full ? 8 : 1;
+  const std::vector<ReachRan> ran = run_all(context, rest_runs(context, all, people));
   Table table{"reaching_rest",
               "Speed of the far tip, over the friction of the joints and how it sets in",
               {"friction (N m)", "sets in (ms)", "time step (us)", "reaches", "at most (mm/s)"}};
-  double most = 0.0, none = kUnset;
-  std::size_t reaches = 0;
+  FarTip tip;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto from = ran.begin() + static_cast<std::ptrdiff_t>(i) * people;
     double here = 0.0;
@@ -475,10 +523,10 @@ void add_rest(Bench& bench) {
     }
     const std::size_t met = joined({from, from + people}).size();
     if (all[i].torque_Nm > 0.0) {
-      reaches += met;
-      most = std::max(most, here);
+      tip.reaches += met;
+      tip.most = std::max(tip.most, here);
     } else {
-      none = here;
+      tip.none = here;
     }
     table.rows.push_back({fmt::format("{:g}", all[i].torque_Nm), fmt::format("{:g}", all[i].time_ms),
                           fmt::format("{:g}", all[i].timestep_us), fmt::format("{}", met),
@@ -487,14 +535,7 @@ void add_rest(Bench& bench) {
   table.note =
       "From a second after the finger went away. Friction that sets in within 2 ms holds from 1 mm/s on.";
   bench.result.tables.push_back(std::move(table));
-  bench.figure("rest.reaches", static_cast<double>(reaches), "",
-               "random reaches with other frictions than the rig's");
-  bench.figure("rest.far_speed_mm_s", 1e3 * most, "mm/s", at_most(0.1),
-               "of the tip, at most, while the finger is far: joints with 0.0028 to 0.02 N m of friction, "
-               "which sets in within 2 to 20 ms (--full: from 0.1 ms on)");
-  if (!context.quick)
-    bench.figure("rest.without_friction_mm_s", 1e3 * none, "mm/s",
-                 "the same of joints without any: nothing holds what the law lets go");
+  add_far_figures(bench, tip);
 }
 
 void run(Bench& bench) {
