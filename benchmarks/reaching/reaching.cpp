@@ -275,28 +275,28 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   spec.hand = setup.twin.hand;
   spec.noise = setup.twin.tracker.noise.maxCoeff();
   const std::size_t most = context.quick ? std::min<std::size_t>(wall.size(), 4) : wall.size();
-  const auto [counts, reached, carried, followed, within, ours] =
-      counts_of(judged_by_ideal(spec, acceleration, wall, most), wall);
-  bench.figure("ideal.place_percent.wall", 100.0 * reached / counts, "%",
+  const IdealCounts sum = counts_of(judged_by_ideal(spec, acceleration, wall, most), wall);
+  bench.figure("ideal.place_percent.wall", 100.0 * sum.reached / sum.counts, "%",
                fmt::format("of {:.0f} of these reaches: within 2 mm of where they meet is the best place "
                            "that an ideal predictor knows of by the same pictures, told when the finger "
                            "touches, with a prop that is anywhere at once: no machine can do more",
-                           counts));
-  bench.figure("ideal.expected_percent.wall", 100.0 * within / counts, "%",
+                           sum.counts));
+  bench.figure("ideal.expected_percent.wall", 100.0 * sum.within / sum.counts, "%",
                "what that predictor expects of itself: the same, if it is ideal");
-  bench.figure("ideal.carried_percent.wall", 100.0 * carried / counts, "%",
+  bench.figure("ideal.carried_percent.wall", 100.0 * sum.carried / sum.counts, "%",
                fmt::format("the same if an arm carries the prop from picture to picture with {:.0f} m/s^2, "
                            "without any other delay",
                            acceleration));
-  bench.figure("ideal.followed_percent.wall", 100.0 * followed / counts, "%",
+  bench.figure("ideal.followed_percent.wall", 100.0 * sum.followed / sum.counts, "%",
                "the same of a predictor that is not told when it touches: the arm goes after the mean of "
                "what is still to come; how soon was chosen on other reaches");
-  bench.figure(
-      "vision.of_ideal_percent.wall", reached > 0.0 ? 100.0 * ours / reached : kUnset, "%",
-      fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches", 100.0 * ours / counts));
+  bench.figure("vision.of_ideal_percent.wall", sum.reached > 0.0 ? 100.0 * sum.ours / sum.reached : kUnset,
+               "%",
+               fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches",
+                           100.0 * sum.ours / sum.counts));
   // The bound applies only to a thousand reaches.
-  bench.figure("vision.of_carried_percent.wall", carried > 0.0 ? 100.0 * ours / carried : kUnset, "%",
-               at_least(context.full ? 90.0 : kUnset), "the same, of that ideal with an arm");
+  bench.figure("vision.of_carried_percent.wall", sum.carried > 0.0 ? 100.0 * sum.ours / sum.carried : kUnset,
+               "%", at_least(context.full ? 90.0 : kUnset), "the same, of that ideal with an arm");
 }
 
 // Distribution of the time in which finger and prop come to where they meet.
