@@ -177,24 +177,55 @@ struct Asked {
   std::size_t frames;
 };
 
-Cell measure(const Asked& asked) {
-  const models::Setup& setup = *asked.setup;
-  ArmPlay play(setup, *asked.camera, asked.seed);
-  const Scene scene = trial::prepare_setup(setup);
-  const VisionRig& vision = setup.rig.vision;
-  Cell cell;
+// One for each belief.
+struct Views {
   std::vector<AugmentedSpec> specs;
-  std::vector<std::unique_ptr<AugmentedView>> views;
-  views.reserve(kBeliefs.size());
+  std::vector<std::unique_ptr<AugmentedView>> all;
+};
+Views views_of(const ArmPlay& play, const Scene& scene) {
+  Views views;
+  views.all.reserve(kBeliefs.size());
   for (std::size_t b = 0; b < kBeliefs.size(); ++b) {
-    specs.push_back(play.believed(kBeliefs[b].belief));
-    views.push_back(std::make_unique<AugmentedView>(specs.back(), scene.objects));
+    views.specs.push_back(play.believed(kBeliefs[b].belief));
+    views.all.push_back(std::make_unique<AugmentedView>(views.specs.back(), scene.objects));
   }
+  return views;
+}
+
+// Two: for the pictures with the arm, and for those without it.
+std::vector<FingerTracker> trackers_of(const models::Setup& setup) {
+  const VisionRig& vision = setup.rig.vision;
   std::vector<FingerTracker> trackers;
   trackers.reserve(2);
   for (int i = 0; i < 2; ++i)
     trackers.emplace_back(setup.rig.camera, vision.segmentation, vision.fingertip, vision.track,
                           vision.match);
+  return trackers;
+}
+
+// Searches a frame with the arm and without it (`bare`). Frames from which the trackers learn do not count.
+void see_fingertips(std::vector<FingerTracker>& trackers, const ArmPlay::Frame& frame, const Pair& bare,
+                    Time t, bool learning, Cell& cell) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    const Pair& pair = a == 0 ? frame.pair : bare;
+    trackers[a].forget();  // each frame alone: earlier frames do not help
+    static_cast<void>(trackers[a].see({pair.left.view(), pair.right.view()}, t));
+    if (learning) continue;
+    note(trackers[a], frame.shown, pair.truth, cell.seen[a]);
+    if (!frame.shown.hand) continue;
+    if (frame.meets) note(trackers[a], frame.shown, pair.truth, cell.meets[a]);
+    const bool hidden = hidden_share(frame.pair.truth, bare.truth) > kHidden;
+    note(trackers[a], frame.shown, pair.truth, (hidden ? cell.hidden : cell.open)[a]);
+  }
+}
+
+Cell measure(const Asked& asked) {
+  const models::Setup& setup = *asked.setup;
+  ArmPlay play(setup, *asked.camera, asked.seed);
+  const Scene scene = trial::prepare_setup(setup);
+  Cell cell;
+  const Views views = views_of(play, scene);
+  std::vector<FingerTracker> trackers = trackers_of(setup);
   const Image empty = play.empty();
   ArmPlay::Frame frame;
   Pair bare;
@@ -202,29 +233,19 @@ Cell measure(const Asked& asked) {
     const bool learning = i < kLearning;
     learning ? play.rest(frame) : play.next(frame);
     play.without_arm(frame, bare);
-    for (std::size_t b = 0; b < views.size(); ++b) {
+    for (std::size_t b = 0; b < views.all.size(); ++b) {
       const double start = thread_seconds();
-      views[b]->see(frame.pair.left.view(), frame.moment);
+      views.all[b]->see(frame.pair.left.view(), frame.moment);
       if (i + 1 == kLearning)  // no person is there yet to cover a part of the background
-        judge_overlay(play, setup, specs[b], scene.objects.front(), *views[b], cell.removal[b]);
+        judge_overlay(play, setup, views.specs[b], scene.objects.front(), *views.all[b], cell.removal[b]);
       if (learning) continue;
       cell.removal[b].seconds.push_back(thread_seconds() - start);
-      judge(*views[b], frame.pair.truth, empty, cell.removal[b]);
+      judge(*views.all[b], frame.pair.truth, empty, cell.removal[b]);
     }
     const Time t(from_seconds(0.05 * static_cast<double>(i)));
-    for (std::size_t a = 0; a < 2; ++a) {
-      const Pair& pair = a == 0 ? frame.pair : bare;
-      trackers[a].forget();  // each frame alone: earlier frames do not help
-      static_cast<void>(trackers[a].see({pair.left.view(), pair.right.view()}, t));
-      if (learning) continue;
-      note(trackers[a], frame.shown, pair.truth, cell.seen[a]);
-      if (!frame.shown.hand) continue;
-      if (frame.meets) note(trackers[a], frame.shown, pair.truth, cell.meets[a]);
-      const bool hidden = hidden_share(frame.pair.truth, bare.truth) > kHidden;
-      note(trackers[a], frame.shown, pair.truth, (hidden ? cell.hidden : cell.open)[a]);
-    }
+    see_fingertips(trackers, frame, bare, t, learning, cell);
     if (frame.meets && i > kLearning + asked.frames / 2)
-      cell.picture = {frame.pair.left, views[0]->removed(), views[0]->augmented()};
+      cell.picture = {frame.pair.left, views.all[0]->removed(), views.all[0]->augmented()};
   }
   return cell;
 }

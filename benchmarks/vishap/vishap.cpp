@@ -183,10 +183,10 @@ std::vector<std::string> quarter_size() {
   return set;
 }
 
-void tell_wall(Bench& bench, const Ran& ran) {
+void tell_misses(Bench& bench, const std::vector<trial::FingerEncounter>& meetings) {
   for (const double v : {50.0, 100.0, 200.0, 300.0}) {
     double most = 0.0, n = 0.0;
-    for (const trial::FingerEncounter& m : ran.meetings) {
+    for (const trial::FingerEncounter& m : meetings) {
       if (std::isnan(m.touched) || std::abs(1e3 * m.approach_speed - v) > 1.0) continue;
       most = std::max(most, m.miss);
       ++n;
@@ -198,6 +198,10 @@ void tell_wall(Bench& bench, const Ran& ran) {
                              "{:.0f} mm/s; 640 x 480 at 20 Hz",
                              n, v));
   }
+}
+
+void tell_wall(Bench& bench, const Ran& ran) {
+  tell_misses(bench, ran.meetings);
   bench.figure("wall.slope", ran.slope, "N/m",
                "contact force over true depth, 2 to 5 mm, while pressed and slid");
   bench.figure("wall.believed_slope", ran.believed, "N/m", "the same over the depth that the core believes");
