@@ -392,46 +392,89 @@ models::Setup later(models::Setup setup) {
   return setup;
 }
 
-void run(Bench& bench) {
-  const BenchContext& context = bench.context;
-  const Sizes sizes = sizes_of(context);
-  BenchResult& result = bench.result;
-  const Table1 paper = table1_of(Reference::load(context.models, "table1.csv"));
-
-  const auto at = [&](int speed, const char* ways, const Set& more, std::size_t seeds) {
-    return travels_at(context, speed, ways, more, seeds);
-  };
+// Travels with the default rig, which the calibration begins with.
+Experiment default_travels(const BenchContext& context, const Sizes& sizes) {
   Experiment runs;
-  runs.slow = at(20, "one_way", {}, sizes.seeds);
-  runs.fast = at(40, "one_way", {}, sizes.seeds);
-  runs.slow_both = at(20, "both_ways", {}, sizes.few_seeds);
-  runs.fast_both = at(40, "both_ways", {}, sizes.few_seeds);
+  runs.slow = travels_at(context, 20, "one_way", {}, sizes.seeds);
+  runs.fast = travels_at(context, 40, "one_way", {}, sizes.seeds);
+  runs.slow_both = travels_at(context, 20, "both_ways", {}, sizes.few_seeds);
+  runs.fast_both = travels_at(context, 40, "both_ways", {}, sizes.few_seeds);
+  return runs;
+}
 
-  // Calibration, by the theory alone.
-  const models::Setup& base = runs.fast.setup[0];
+// Chains of delays that fit the paper's table, by the theory alone.
+struct Calibration {
+  ChainSpec chain;
+  std::vector<Candidate> open;  // with any acceleration
+  Fits fits;
+};
+Calibration calibration_of(const models::Setup& base, const Table1& paper, std::size_t candidates,
+                           std::uint64_t seed) {
   const ChainSpec chain = chain_of(base);
   const MovesSpec moves = moves_of(base);
   const std::array<AxisError, 3> axes = axis_errors(paper);
-  const std::vector<Candidate> open = spread(chain, moves, axes, sizes.candidates, kUnset);
-  const std::vector<Candidate> rig = spread(chain, moves, axes, sizes.candidates / 4, moves.acceleration);
-  Fits fits;
+  Calibration found{chain, spread(chain, moves, axes, candidates, kUnset), {}};
+  const std::vector<Candidate>& open = found.open;
+  const std::vector<Candidate> rig = spread(chain, moves, axes, candidates / 4, moves.acceleration);
+  Fits& fits = found.fits;
   for (std::size_t side = 0; side < fits.from_20.size(); ++side) {
     const auto which = static_cast<BiasSide>(side);
     fits.from_20[side] = best(open, paper, which, Judge::moving20, chain, moves, true);
     fits.all[side] = best(rig, paper, which, Judge::worst, chain, moves, false);
     fits.all_free[side] = best(open, paper, which, Judge::worst, chain, moves, true);
-    fits.prediction[side] = predict_40(open, paper, which, context.seed);
+    fits.prediction[side] = predict_40(open, paper, which, seed);
   }
+  return found;
+}
 
+// Adds travels with the best chains of two fits, at 5 mm/s, and with more latency.
+void add_other_travels(const BenchContext& context, const Fits& fits, std::size_t seeds, Experiment& runs) {
+  const models::Setup& base = runs.fast.setup[0];
   const Set from_20 = settings_of(fits.from_20[0], base);
   const Set adds = settings_of(fits.all[1], base);
-  runs.slow_from_20 = at(20, "one_way", from_20, sizes.few_seeds);
-  runs.fast_from_20 = at(40, "one_way", from_20, sizes.few_seeds);
-  runs.slow_adds = at(20, "both_ways", adds, sizes.few_seeds);
-  runs.fast_adds = at(40, "both_ways", adds, sizes.few_seeds);
-  runs.crawl = at(5, "one_way", {}, sizes.few_seeds);
+  runs.slow_from_20 = travels_at(context, 20, "one_way", from_20, seeds);
+  runs.fast_from_20 = travels_at(context, 40, "one_way", from_20, seeds);
+  runs.slow_adds = travels_at(context, 20, "both_ways", adds, seeds);
+  runs.fast_adds = travels_at(context, 40, "both_ways", adds, seeds);
+  runs.crawl = travels_at(context, 5, "one_way", {}, seeds);
   runs.later = runs.fast;
   for (models::Setup& setup : runs.later.setup) setup = later(setup);
+}
+
+void add_misfit_figures(Bench& bench, const Table1& paper, const Fits& fits) {
+  for (std::size_t side = 0; side < kSides.size(); ++side)
+    bench.figure(fmt::format("misfit.{}.20", kSides[side]),
+                 100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%",
+                 "rms of the six figures at 20 mm/s, best chain");
+}
+
+void add_pictures(BenchResult& result, const Table1& paper, const SpannedTable& twin, const Candidate& theory,
+                  const Calibration& found, const Experiment& runs) {
+  const Pictures pictures{paper,
+                          twin,
+                          theory,
+                          found.fits,
+                          found.open,
+                          twin_table(runs.slow_from_20, runs.fast_from_20, BiasSide::opposes).table,
+                          twin_table(runs.slow_adds, runs.fast_adds, BiasSide::adds).table,
+                          twin_table(runs.slow_both, runs.fast_both, BiasSide::adds).table,
+                          twin_table(runs.slow_both, runs.fast_both, BiasSide::both_ways).table,
+                          runs.fast.seeds.front().packets,
+                          found.chain,
+                          runs.fast.setup[0].twin.tracker.bias.x()};
+  add_tables(result, pictures);
+  add_plots(result, pictures);
+}
+
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  const Sizes sizes = sizes_of(context);
+  BenchResult& result = bench.result;
+  const Table1 paper = table1_of(Reference::load(context.models, "table1.csv"));
+  Experiment runs = default_travels(context, sizes);
+  const models::Setup& base = runs.fast.setup[0];
+  const Calibration found = calibration_of(base, paper, sizes.candidates, context.seed);
+  add_other_travels(context, found.fits, sizes.few_seeds, runs);
   run_all({&runs.slow, &runs.fast, &runs.slow_both, &runs.fast_both, &runs.slow_from_20, &runs.fast_from_20,
            &runs.slow_adds, &runs.fast_adds, &runs.later, &runs.crawl},
           context, result.simulated);
@@ -440,27 +483,10 @@ void run(Bench& bench) {
   const SpannedTable twin = twin_table(runs.slow, runs.fast, BiasSide::opposes);
   const Candidate theory = theory_of(base);
   add_table_figures(result, paper, twin, theory.table[0]);
-  add_prediction_figures(bench, paper, fits.prediction[0]);
+  add_prediction_figures(bench, paper, found.fits.prediction[0]);
   add_check_figures(bench, runs, twin, theory, exact);
-  for (std::size_t side = 0; side < kSides.size(); ++side)
-    bench.figure(fmt::format("misfit.{}.20", kSides[side]),
-                 100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%",
-                 "rms of the six figures at 20 mm/s, best chain");
-
-  const Pictures pictures{paper,
-                          twin,
-                          theory,
-                          fits,
-                          open,
-                          twin_table(runs.slow_from_20, runs.fast_from_20, BiasSide::opposes).table,
-                          twin_table(runs.slow_adds, runs.fast_adds, BiasSide::adds).table,
-                          twin_table(runs.slow_both, runs.fast_both, BiasSide::adds).table,
-                          twin_table(runs.slow_both, runs.fast_both, BiasSide::both_ways).table,
-                          runs.fast.seeds.front().packets,
-                          chain,
-                          base.twin.tracker.bias.x()};
-  add_tables(result, pictures);
-  add_plots(result, pictures);
+  add_misfit_figures(bench, paper, found.fits);
+  add_pictures(result, paper, twin, theory, found, runs);
   add_forensics(context, result);
   add_prediction(context, result);
   if (!context.quick)

@@ -111,7 +111,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "calibrate_rig.cpp: calibrate_rig",
     "calibrate_tracker.cpp: remarks_text",
     "contacts.cpp: leaves",
-    "device_removal.cpp: measure",
     "extremes.cpp: add_error_over_time",
     "extremes.cpp: studies",
     "fingertip.cpp: look_at",
@@ -150,8 +149,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "switching.cpp: timing",
     "tool_channel.cpp: see_carried",
     "tool_channel.cpp: see_pressing",
-    "tracking.cpp: run",
-    "vishap.cpp: tell_wall",
     "workspace.cpp: add_slices",
 });
 
