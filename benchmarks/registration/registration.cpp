@@ -289,8 +289,8 @@ struct Variant {
   std::function<void(trial::RegistrationRig&)> change;
 };
 
-// Sensitivity of the result: to the assumed noise, and to wrong assumptions.
-Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& base) {
+// Other assumptions about the noise, and wrong ones about the arm.
+std::vector<Variant> variants_of(const trial::RegistrationRig& rig) {
   const auto noise = [](double sim::CameraTruth::*what, double value) {
     return [what, value](trial::RegistrationRig& r) { r.camera.*what = value; };
   };
@@ -314,11 +314,16 @@ Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& ba
                           r.arm.machine.phantom.l1 *= 1.01;
                           r.arm.machine.phantom.l2 *= 1.01;
                         }});
+  return variants;
+}
+
+// Sensitivity of the result: to the assumed noise, and to wrong assumptions.
+Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& base) {
   Table table{"registration_doubts",
               "Registration of 8 pairs: what it depends on, median over seeds",
               {"rig", "left over x (mm)", "y (mm)", "z (mm)", "elsewhere x (mm)", "y (mm)", "z (mm)",
                "one frame: left over, worst axis (mm)", "size of camera's over device's set"}};
-  for (const Variant& variant : variants) {
+  for (const Variant& variant : variants_of(rig)) {
     trial::RegistrationRig other = rig;
     variant.change(other);
     AccuracyStudy study{{kPairs}, {1, kFrames}, base.seeds, base.first_seed};
@@ -359,13 +364,25 @@ Table table_of_pairs(const std::vector<Accuracy>& all) {
   return table;
 }
 
+// The paper's mean |error| of an axis, mm.
+double paper_error(const std::string& models) {
+  const Reference reference = Reference::load(models, "registration.csv");
+  return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
+}
+
+void add_cost(const std::vector<RegistrationCost>& costs, BenchResult& result) {
+  for (const RegistrationCost& cost : costs)
+    if (cost.pairs == kPairs && cost.frames == kFrames) {
+      result.figures.push_back({"registration.cpu_us", kUnset, cost.cpu * 1e6, "us", Role::ours, kUnset,
+                                kUnset, "averaging and registering 8 pairs of 20 frames, least of several"});
+      result.figures.back().cost = true;
+    }
+}
+
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;
-  const double paper = [&] {
-    const Reference reference = Reference::load(context.models, "registration.csv");
-    return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
-  }();
+  const double paper = paper_error(context.models);
   const std::string file = context.models + "/rigs/vishap.toml";
   const models::Setup setup = models::load_rig_setup(file, context.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
@@ -387,12 +404,7 @@ void run(Bench& bench) {
        Role::ours, kUnset, 1e-9,
        "random transforms, 4 to 20 pairs, no noise: position, and elements of the rotation"});
   const std::vector<RegistrationCost> costs = costs_of(rig, places, context.seed, context.quick);
-  for (const RegistrationCost& cost : costs)
-    if (cost.pairs == kPairs && cost.frames == kFrames) {
-      result.figures.push_back({"registration.cpu_us", kUnset, cost.cpu * 1e6, "us", Role::ours, kUnset,
-                                kUnset, "averaging and registering 8 pairs of 20 frames, least of several"});
-      result.figures.back().cost = true;
-    }
+  add_cost(costs, result);
   add_registration_plots(all, costs, places, paper, result);
   result.tables.push_back(table_of_pairs(all));
   result.tables.push_back(table_of_doubts(rig, study));
