@@ -278,7 +278,9 @@ const std::vector<Variant>& variants() {
   return kAll;
 }
 
-Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, std::size_t seeds) {
+// Results of each variant with `seeds` seeds, variant by variant.
+std::vector<Seen> seen_by_variants(Bench& bench, const Asked& base, const std::string& file,
+                                   std::size_t seeds) {
   std::vector<models::Setup> setups;
   for (const Variant& v : variants()) {
     std::vector<std::string> set = bench.context.set;
@@ -297,7 +299,31 @@ Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, 
       all.back().rod = variants()[i].rod;
       all.back().seed += s;
     }
-  const std::vector<Seen> seen = bench.each(all, registered);
+  return bench.each(all, registered);
+}
+
+std::vector<std::string> row_of(const Variant& variant, const std::vector<Seen>& seen) {
+  double frames = 0, found = 0;
+  std::size_t other = 0;
+  std::vector<double> bias;
+  for (const Seen& one : seen) {
+    frames += static_cast<double>(one.frames);
+    found += static_cast<double>(one.found);
+    other += one.other;
+    for (const PlaceSeen& place : one.places) bias.push_back(place.bias_px.z());
+  }
+  std::vector<std::string> row{variant.name, fixed(100.0 * found / frames, 1), fmt::format("{}", other)};
+  for (Vec3 Seen::*what : {&Seen::left_over, &Seen::elsewhere})
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      const double value = median(along(seen, what, a));
+      row.push_back(std::isnan(value) ? "none" : fixed(value, 3));
+    }
+  row.push_back(bias.empty() ? "none" : fixed(rms(bias), 3));
+  return row;
+}
+
+Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, std::size_t seeds) {
+  const std::vector<Seen> seen = seen_by_variants(bench, base, file, seeds);
   Table table{
       "doubts",
       "Registration through pictures, five frames at each place: what it depends on, median over seeds",
@@ -306,24 +332,7 @@ Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, 
   for (std::size_t i = 0; i < variants().size(); ++i) {
     const std::vector<Seen> some(seen.begin() + static_cast<std::ptrdiff_t>(i * seeds),
                                  seen.begin() + static_cast<std::ptrdiff_t>((i + 1) * seeds));
-    double frames = 0, found = 0;
-    std::size_t other = 0;
-    std::vector<double> bias;
-    for (const Seen& one : some) {
-      frames += static_cast<double>(one.frames);
-      found += static_cast<double>(one.found);
-      other += one.other;
-      for (const PlaceSeen& place : one.places) bias.push_back(place.bias_px.z());
-    }
-    std::vector<std::string> row{variants()[i].name, fixed(100.0 * found / frames, 1),
-                                 fmt::format("{}", other)};
-    for (Vec3 Seen::*what : {&Seen::left_over, &Seen::elsewhere})
-      for (Eigen::Index a = 0; a < 3; ++a) {
-        const double value = median(along(some, what, a));
-        row.push_back(std::isnan(value) ? "none" : fixed(value, 3));
-      }
-    row.push_back(bias.empty() ? "none" : fixed(rms(bias), 3));
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(row_of(variants()[i], some));
   }
   table.note =
       "None: fewer than four places show the ball in half of their frames, and nothing is registered.";
