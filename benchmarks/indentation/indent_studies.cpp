@@ -202,6 +202,31 @@ void add_lag(const IndentStudy& study, BenchResult& result) {
   for (const IndentRun& run : runs) result.simulated += run.simulated;
 }
 
+// Runs of all indentations with this press time, s.
+IndentRuns runs_with_time(const IndentStudy& study, double time, std::size_t each) {
+  IndentRuns runs;
+  for (const Indentation& which : indentations())
+    runs.push_back(indent_runs(
+        with_time(indent_setup(study.context.models, which, {}, study.context.set), time), study.seed, each));
+  return runs;
+}
+
+// A row of the table over the press time; adds a point to the line of each cell.
+std::vector<std::string> sweep_row(const IndentStudy& study, double time, const std::vector<Cell>& cells,
+                                   std::vector<Series>& lines) {
+  std::vector<std::string> row{fmt::format("{:g}", time)};
+  double misfit = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < kCells; ++i) {
+    lines[i].add(time, cells[i].rmse);
+    row.push_back(fixed(cells[i].rmse, 4));
+    if (!study.paper[i].consistent) continue;
+    misfit += std::pow(std::log(cells[i].rmse / study.paper[i].rmse), 2);
+    count += 1.0;
+  }
+  row.push_back(fixed(100.0 * std::sqrt(misfit / count), 1));
+  return row;
+}
+
 void add_sweep(const IndentStudy& study, BenchResult& result) {
   const std::vector<double> times =
       study.context.quick ? std::vector<double>{4.0} : std::vector<double>{3.0, 4.0, 6.0, 9.0, 13.5};
@@ -226,23 +251,8 @@ void add_sweep(const IndentStudy& study, BenchResult& result) {
   for (const PaperCell& cell : study.paper)
     lines.push_back({.name = fmt::format("{} {}", cell.indentation, cell.way), .mark = Mark::both});
   for (const double time : times) {
-    std::vector<std::vector<IndentRun>> runs;
-    for (const Indentation& which : indentations())
-      runs.push_back(
-          indent_runs(with_time(indent_setup(study.context.models, which, {}, study.context.set), time),
-                      study.seed, each));
-    const std::vector<Cell> cells = cells_of(runs, Reading::recorded);
-    std::vector<std::string> row{fmt::format("{:g}", time)};
-    double misfit = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < kCells; ++i) {
-      lines[i].add(time, cells[i].rmse);
-      row.push_back(fixed(cells[i].rmse, 4));
-      if (!study.paper[i].consistent) continue;
-      misfit += std::pow(std::log(cells[i].rmse / study.paper[i].rmse), 2);
-      count += 1.0;
-    }
-    row.push_back(fixed(100.0 * std::sqrt(misfit / count), 1));
-    table.rows.push_back(std::move(row));
+    const IndentRuns runs = runs_with_time(study, time, each);
+    table.rows.push_back(sweep_row(study, time, cells_of(runs, Reading::recorded), lines));
     for (const std::vector<IndentRun>& of : runs)
       for (const IndentRun& run : of) result.simulated += run.simulated;
   }

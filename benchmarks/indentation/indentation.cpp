@@ -158,16 +158,8 @@ void add_cells(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
   bench.result.tables.push_back(std::move(table));
 }
 
-void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
-  const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
-  const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
-  const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
-  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N). The paper's
-  // spread must be a usual one among ten such groups.
-  const std::size_t count = study.context.quick ? runs.front().size() : 10 * paper_runs;
-  const std::vector<IndentRun> a = indent_runs(
-      indent_setup(study.context.models, indentations().front(), {}, study.context.set), study.seed, count);
-  const std::size_t group = std::min(paper_runs, a.size());
+// Spread of equal presses at equal deflection, group by group.
+void add_repeatability(const std::vector<IndentRun>& a, std::size_t group, double within, Bench& bench) {
   const auto of_group = [&](std::size_t number, Reading reading) {
     const auto first = a.begin() + static_cast<std::ptrdiff_t>(number * group);
     return spread_of({first, first + static_cast<std::ptrdiff_t>(group)}, reading);
@@ -187,6 +179,9 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
                "of these groups, those whose runs lie within the paper's 0.2 N");
   bench.figure("sensor.repeatability_N", sensor.most, "N",
                "the same of the force before the filter: tremor is in it");
+}
+
+void add_peak(const std::vector<IndentRun>& a, Bench& bench) {
   Value peak{0.0, INFINITY, -INFINITY};
   for (const IndentRun& run : a) {
     peak.middle += run.force_at_limit / static_cast<double>(a.size());
@@ -196,6 +191,9 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
   bench.figure(
       "peak_N", peak, "N", between(11, 13),
       "A: true force when the true deflection first comes within 0.05 mm of 6 mm; 12 +- 1 N in Fig 8");
+}
+
+void add_overshoot(const IndentRuns& runs, Bench& bench) {
   double over = -INFINITY;
   std::int32_t contacts = 0, presses = 0;
   for (const std::vector<IndentRun>& of : runs)
@@ -209,6 +207,20 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
                "true deflection beyond the limit of 6 mm, the worst of all runs");
   bench.figure("contacts_per_press.ratio", static_cast<double>(contacts) / static_cast<double>(presses), "",
                exactly(1), "a press is one contact");
+}
+
+void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
+  const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
+  const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
+  const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
+  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N). The paper's
+  // spread must be a usual one among ten such groups.
+  const std::size_t count = study.context.quick ? runs.front().size() : 10 * paper_runs;
+  const std::vector<IndentRun> a = indent_runs(
+      indent_setup(study.context.models, indentations().front(), {}, study.context.set), study.seed, count);
+  add_repeatability(a, std::min(paper_runs, a.size()), within, bench);
+  add_peak(a, bench);
+  add_overshoot(runs, bench);
 }
 
 // The set-up with another law between the two curves.
