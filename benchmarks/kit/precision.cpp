@@ -211,6 +211,73 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
   }
 }
 
+// The points of a study, the compared quantity and the accuracy that the shipped setting shall hold.
+struct Compared {
+  const trial::Precision& all;
+  const PrecisionNorm& norm;
+  double accuracy;  // in the study's unit
+  [[nodiscard]] bool of_force() const { return !norm.quantities; }
+  [[nodiscard]] std::string told(double error) const {
+    return fmt::format("{:.4f} {}", error * norm.scale, norm.unit);
+  }
+};
+
+Table precision_table(const Compared& compared) {
+  const PrecisionNorm& norm = compared.norm;
+  Table table{"precision",
+              fmt::format("Error of {} against run time", norm.of),
+              {"integrator", "timestep_us", compared.of_force() ? "force_N" : "error_percent", "path_um",
+               "yardsticks a tick", "times_real_time", "ships", "failure"}};
+  for (const trial::PrecisionPoint& point : compared.all.points) {
+    const bool there = point.failure.empty();
+    table.add(point.integrator, fmt::format("{:g}", point.step * 1e6),
+              there ? fmt::format("{:.4f}", point.error * norm.scale) : "",
+              there ? fmt::format("{:.2f}", point.way * 1e6) : "", fmt::format("{:.2f}", point.yards),
+              fmt::format("{:.0f}", 1.0 / point.cpu), point.shipped ? "ships" : "", point.failure);
+  }
+  table.note = "orders found: " + orders_text(compared.all);
+  return table;
+}
+
+Plot precision_plot(const Compared& compared, const std::string& scene) {
+  const trial::Precision& all = compared.all;
+  const PrecisionNorm& norm = compared.norm;
+  std::vector<trial::PrecisionPoint> scaled = all.points;
+  for (trial::PrecisionPoint& point : scaled) point.error *= norm.scale;
+  return force_plot(
+      {.id = "precision",
+       .title = fmt::format("Error of {} against run time: {}", norm.of, scene),
+       .x_label = "CPU time of a tick over a fixed piece of work",
+       .y_label = fmt::format("error of {} ({})", norm.of, norm.unit == "N" ? "N rms" : norm.unit),
+       .caption =
+           fmt::format("{}, against a converged run of the same hand ({:g} s of it). Two converged runs "
+                       "differ by {}; {} is what this shall hold. What failed stands at the upper edge.",
+                       compared.of_force() ? "True force while something touches"
+                                           : "The greatest difference, over the greatest value",
+                       all.seconds, compared.told(all.second.error), compared.told(compared.accuracy))},
+      scaled, &trial::PrecisionPoint::yards);
+}
+
+// A curve for each form and integrator; adds each point to the table.
+std::vector<CostCurve> work_curves(const Extent& extent, const std::vector<Point>& points, Table& table) {
+  std::vector<CostCurve> curves;
+  for (const Form& form : extent.forms)
+    for (const std::string_view integrator : extent.integrators) {
+      CostCurve curve{fmt::format("{} {}", form.name, integrator)};
+      for (const Point& point : points) {
+        if (point.form != &form || point.integrator != integrator) continue;
+        const bool there = point.failure.empty();
+        curve.cost.push_back(point.yards);
+        curve.error.push_back(there ? point.error * 1e6 : kUnset);
+        table.add(form.name, integrator, fmt::format("{:g}", point.step * 1e6),
+                  there ? fmt::format("{:.3g}", point.error * 1e6) : "", fmt::format("{:.2f}", point.yards),
+                  fmt::format("{:.3g}", point.cpu), fmt::format("{:.0f}", 1.0 / point.cpu), point.failure);
+      }
+      curves.push_back(std::move(curve));
+    }
+  return curves;
+}
+
 }  // namespace
 
 double accuracy_of(const trial::Precision& all, double wanted) {
@@ -264,44 +331,17 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set, cons
   const ForceStudy study = force_study(bench.context, bench.result.scene, set, options);
   bench.result.simulated += study.simulated;
   const trial::Precision& all = study.all;
-  const double accuracy = accuracy_of(all, norm.accuracy);
-  const auto told = [&](double error) { return fmt::format("{:.4f} {}", error * norm.scale, norm.unit); };
-  const bool of_force = !norm.quantities;
-  Table table{"precision",
-              fmt::format("Error of {} against run time", norm.of),
-              {"integrator", "timestep_us", of_force ? "force_N" : "error_percent", "path_um",
-               "yardsticks a tick", "times_real_time", "ships", "failure"}};
-  for (const trial::PrecisionPoint& point : all.points) {
-    const bool there = point.failure.empty();
-    table.add(point.integrator, fmt::format("{:g}", point.step * 1e6),
-              there ? fmt::format("{:.4f}", point.error * norm.scale) : "",
-              there ? fmt::format("{:.2f}", point.way * 1e6) : "", fmt::format("{:.2f}", point.yards),
-              fmt::format("{:.0f}", 1.0 / point.cpu), point.shipped ? "ships" : "", point.failure);
-  }
-  table.note = "orders found: " + orders_text(all);
-  bench.table(std::move(table));
-  std::vector<trial::PrecisionPoint> scaled = all.points;
-  for (trial::PrecisionPoint& point : scaled) point.error *= norm.scale;
-  bench.plot(force_plot(
-      {.id = "precision",
-       .title = fmt::format("Error of {} against run time: {}", norm.of, study.scene),
-       .x_label = "CPU time of a tick over a fixed piece of work",
-       .y_label = fmt::format("error of {} ({})", norm.of, norm.unit == "N" ? "N rms" : norm.unit),
-       .caption =
-           fmt::format("{}, against a converged run of the same hand ({:g} s of it). Two converged runs "
-                       "differ by {}; {} is what this shall hold. What failed stands at the upper edge.",
-                       of_force ? "True force while something touches"
-                                : "The greatest difference, over the greatest value",
-                       all.seconds, told(all.second.error), told(accuracy))},
-      scaled, &trial::PrecisionPoint::yards));
+  const Compared compared{all, norm, accuracy_of(all, norm.accuracy)};
+  bench.table(precision_table(compared));
+  bench.plot(precision_plot(compared, study.scene));
   const trial::PrecisionPoint* shipped = trial::shipped(all.points);
   if (shipped == nullptr) return;
-  bench.figure(of_force ? "precision.error.rms" : "precision.error.max", shipped->error * norm.scale,
-               norm.unit.c_str(), at_most(accuracy * norm.scale),
+  bench.figure(compared.of_force() ? "precision.error.rms" : "precision.error.max",
+               shipped->error * norm.scale, norm.unit.c_str(), at_most(compared.accuracy * norm.scale),
                fmt::format("{} at what ships, {} at {:g} us; two converged runs differ by {}", norm.of,
-                           shipped->integrator, shipped->step * 1e6, told(all.second.error)));
+                           shipped->integrator, shipped->step * 1e6, compared.told(all.second.error)));
   if (!bench.context.full) return;
-  const trial::PrecisionPoint* best = cheapest(all.points, {accuracy});
+  const trial::PrecisionPoint* best = cheapest(all.points, {compared.accuracy});
   bench.cost(
       "precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset, "x",
       best != nullptr ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
@@ -324,21 +364,7 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
               "Error against run time",
               {"form", "integrator", "timestep_us", "error_um", "yardsticks a tick", "cpu_s_per_s",
                "times_real_time", "failure"}};
-  std::vector<CostCurve> curves;
-  for (const Form& form : extent.forms)
-    for (const std::string_view integrator : extent.integrators) {
-      CostCurve curve{fmt::format("{} {}", form.name, integrator)};
-      for (const Point& point : points) {
-        if (point.form != &form || point.integrator != integrator) continue;
-        const bool there = point.failure.empty();
-        curve.cost.push_back(point.yards);
-        curve.error.push_back(there ? point.error * 1e6 : kUnset);
-        table.add(form.name, integrator, fmt::format("{:g}", point.step * 1e6),
-                  there ? fmt::format("{:.3g}", point.error * 1e6) : "", fmt::format("{:.2f}", point.yards),
-                  fmt::format("{:.3g}", point.cpu), fmt::format("{:.0f}", 1.0 / point.cpu), point.failure);
-      }
-      curves.push_back(std::move(curve));
-    }
+  const std::vector<CostCurve> curves = work_curves(extent, points, table);
   Plot plot = cost_beside_error(
       {.id = spec.benchmark + "_work_precision",
        .title = "Error against run time: " + spec.scene,
