@@ -107,9 +107,6 @@ constexpr auto kExceptions = std::to_array<Longer>({
 constexpr auto kToShorten = std::to_array<std::string_view>({
     "ablation.cpp: run",
     "block_fit.cpp: BlockFit::solve",
-    "calibrate_camera.cpp: calibrate_arm",
-    "calibrate_rig.cpp: calibrate_rig",
-    "calibrate_tracker.cpp: remarks_text",
     "contacts.cpp: leaves",
     "extremes.cpp: add_error_over_time",
     "extremes.cpp: studies",

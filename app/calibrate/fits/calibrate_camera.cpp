@@ -227,12 +227,48 @@ int calibrate_points(const CameraOptions& options) {
   return 0;
 }
 
-int calibrate_arm(const CameraOptions& options, const trial::DriverSource& modules) {
+void refuse_armless(const CameraOptions& options) {
   if (models::load_rig(options.what).arm.driver == "none")
     throw Error(
         fmt::format("{}: has no arm; expected a rig whose arm is driven through the camera's view; run: "
                     "encounter calibrate rig {}",
                     options.what, shell_word(options.what)));
+}
+
+// Result of the twin's arm, with its errors, which only a twin knows.
+struct ArmResult {
+  trial::GuidedRun run;
+  PointStudy study;
+  std::size_t frames;  // of a place
+  bool by_images;
+  Vec3 error, apart;  // m, mean |error| over the volume in view: in W, and between camera and arm
+  double time;        // s of experiment
+};
+
+Json json_of(const ArmResult& arm) {
+  Json json = study_json(arm.run.points, arm.study);
+  if (arm.by_images) json["places"] = places_json(arm.run, arm.frames);
+  json["true_error_mm"] = json_of(arm.error, kMmPerM);
+  json["camera_to_arm_error_mm"] = json_of(arm.apart, kMmPerM);
+  json["time_s"] = arm.time;
+  return json;
+}
+
+std::string text_of(const ArmResult& arm) {
+  const auto axes = [](const Vec3& v) {
+    return fmt::format("{} {} {} mm", number(v.x(), kMmPerM, 4), number(v.y(), kMmPerM, 4),
+                       number(v.z(), kMmPerM, 4));
+  };
+  return fmt::format(
+      "{}{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "
+      "arm\n"
+      "procedure   {:.1f} s of experiment: the arm was driven to each place and rested there\n",
+      arm.by_images ? places_text(arm.run, arm.frames) : "", study_text(arm.run.points, arm.study),
+      axes(arm.error), axes(arm.apart), arm.time);
+}
+
+int calibrate_arm(const CameraOptions& options, const trial::DriverSource& modules) {
+  refuse_armless(options);
   const std::size_t pairs = options.pairs.value_or(8), frames = options.frames.value_or(20);
   const std::uint64_t seed = options.seed.value_or(1);
   const models::Setup setup = models::load_rig_setup(options.what, options.set);
@@ -256,24 +292,8 @@ int calibrate_arm(const CameraOptions& options, const trial::DriverSource& modul
   const Vec3 error = mean_error(study, rig.X_WC, places.targets);
   const Vec3 apart = mean_error(study, arm.as_it_believes(rig.X_WC), places.targets);
   const double time = run.seconds.back() + static_cast<double>(frames) / rig.camera.rate;
-  if (options.json) {
-    Json json = study_json(run.points, study);
-    if (eyes) json["places"] = places_json(run, frames);
-    json["true_error_mm"] = json_of(error, kMmPerM);
-    json["camera_to_arm_error_mm"] = json_of(apart, kMmPerM);
-    json["time_s"] = time;
-    fmt::print("{}\n", json.dump(2));
-    return 0;
-  }
-  const auto axes = [](const Vec3& v) {
-    return fmt::format("{} {} {} mm", number(v.x(), kMmPerM, 4), number(v.y(), kMmPerM, 4),
-                       number(v.z(), kMmPerM, 4));
-  };
-  fmt::print(
-      "{}{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "
-      "arm\n"
-      "procedure   {:.1f} s of experiment: the arm was driven to each place and rested there\n",
-      eyes ? places_text(run, frames) : "", study_text(run.points, study), axes(error), axes(apart), time);
+  const ArmResult result{run, study, frames, eyes.has_value(), error, apart, time};
+  fmt::print("{}", options.json ? json_of(result).dump(2) + "\n" : text_of(result));
   return 0;
 }
 

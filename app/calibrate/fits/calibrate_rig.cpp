@@ -267,9 +267,8 @@ MachineCalibration made_with(const models::Setup& setup, const RigOptions& optio
   }
 }
 
-}  // namespace
-
-int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules) {
+// Refuses what is no rig with a hexapod.
+void refuse_other(const RigOptions& options) {
   if (!is_rig(options.rig))
     throw Error(fmt::format("{}: is no rig; expected a name in models/rigs or a TOML file; see to its name",
                             options.rig));
@@ -278,6 +277,28 @@ int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules)
         fmt::format("{}: has an arm; expected a rig with a hexapod that carries a tool; run: encounter "
                     "calibrate camera {}",
                     options.rig, shell_word(options.rig)));
+}
+
+// The head of the written file: the command that made it, and the printed result.
+std::string remarks_for(const RigOptions& options, const models::Setup& setup, const std::string& text) {
+  std::string remarks =
+      fmt::format("# Encounter {}: encounter calibrate rig {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
+                  options.rig, options.armed ? " --armed" : "", options.lockstep ? " --lockstep" : "",
+                  setup.scene_path, options.seed.value_or(1));
+  for (const std::string& set : options.set) remarks += " --set " + set;
+  remarks = models::printable(remarks) + "\n";
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    remarks += "# " + text.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  return remarks;
+}
+
+}  // namespace
+
+int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules) {
+  refuse_other(options);
   const models::Setup setup = setup_for(options);
   std::optional<models::OutFile> file;  // refuse it before anything moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
@@ -304,18 +325,7 @@ int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules)
     return 4;
   }
   if (file) {
-    std::string remarks =
-        fmt::format("# Encounter {}: encounter calibrate rig {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
-                    options.rig, options.armed ? " --armed" : "", options.lockstep ? " --lockstep" : "",
-                    setup.scene_path, options.seed.value_or(1));
-    for (const std::string& set : options.set) remarks += " --set " + set;
-    remarks = models::printable(remarks) + "\n";
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = text.find('\n', at);
-      remarks += "# " + text.substr(at, end - at) + "\n";
-      at = end + 1;
-    }
-    file->write(remarks + "\n" + models::rig_calibration_text(found.file));
+    file->write(remarks_for(options, setup, text) + "\n" + models::rig_calibration_text(found.file));
     file->keep();
   }
   return 0;

@@ -2,6 +2,9 @@
 // the machine carries in its view.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -79,43 +82,47 @@ std::string stamps_text(const LatencyFit& fit) {
                      fit.stamp_age.value * kMsPerS, text(fit.stamp_error, kMsPerS, 2));
 }
 
+// Remarks on one axis, in order.
+std::vector<std::string> remarks_on(char name, const AxisLatency& x) {
+  std::vector<std::string> out;
+  const auto say = [&](std::string what) { out.push_back(std::move(what)); };
+  if (x.moving == 0)
+    say(fmt::format("{} did not move: its latency is not in this log; move it, there and back", name));
+  else if (x.one_way)
+    say(
+        fmt::format("{} moved one way only: what of its bias changes in motion counts as latency, {:.2g} ms "
+                    "for each 0.1 mm; move it back, too",
+                    name, 0.1e-3 / x.fastest * kMsPerS));
+  if (x.adrift)
+    say(fmt::format(
+        "{} of the tip stood still and {} of the tool moved by {:.1f} mm: its bias is not in this log", name,
+        name, x.wander * kMmPerM));
+  if (scaled(x))
+    say(
+        fmt::format("{} of the tool moved {:.3g} times as far as {} of the tip: no number here is to be "
+                    "believed; see to scale, units and axes",
+                    name, x.scale, name));
+  if (x.at_rest < 10 && !std::isnan(x.bias.value))
+    say(fmt::format("{} never stopped: its bias is from motion both ways, its noise is not known", name));
+  else if (x.at_rest < 10)
+    say(fmt::format("{} never stopped and moved one way: its bias is not in this log; stop sometimes", name));
+  if (differs_from_zero(x.change) && std::abs(x.change.value) > 5e-6)
+    say(fmt::format("the bias of {} differs in motion by {} mm", name, text(x.change, kMmPerM, 4)));
+  if (differs_from_zero(x.step) && std::abs(x.step.value) > 0.02e-3)
+    say(fmt::format("{} has a lag that does not grow with speed: {} mm", name, text(x.step, kMmPerM, 4)));
+  if (x.places > std::max(0.03e-3, 3.0 * x.noise))
+    say(fmt::format("the bias of {} depends on the place: stops differ by up to {:.3f} mm", name,
+                    x.places * kMmPerM));
+  return out;
+}
+
 // Remarks on the log's limits and on findings besides the numbers.
 std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
   std::string out;
   const auto say = [&](const std::string& what) { out += "note        " + what + "\n"; };
   for (const std::string& note : log.notes) say(note);
-  for (std::size_t a = 0; a < 3; ++a) {
-    const AxisLatency& x = fit.axes[a];
-    const char name = kNames[a];
-    if (x.moving == 0)
-      say(fmt::format("{} did not move: its latency is not in this log; move it, there and back", name));
-    else if (x.one_way)
-      say(fmt::format(
-          "{} moved one way only: what of its bias changes in motion counts as latency, {:.2g} ms "
-          "for each 0.1 mm; move it back, too",
-          name, 0.1e-3 / x.fastest * kMsPerS));
-    if (x.adrift)
-      say(fmt::format(
-          "{} of the tip stood still and {} of the tool moved by {:.1f} mm: its bias is not in this log",
-          name, name, x.wander * kMmPerM));
-    if (scaled(x))
-      say(
-          fmt::format("{} of the tool moved {:.3g} times as far as {} of the tip: no number here is to be "
-                      "believed; see to scale, units and axes",
-                      name, x.scale, name));
-    if (x.at_rest < 10 && !std::isnan(x.bias.value))
-      say(fmt::format("{} never stopped: its bias is from motion both ways, its noise is not known", name));
-    else if (x.at_rest < 10)
-      say(fmt::format("{} never stopped and moved one way: its bias is not in this log; stop sometimes",
-                      name));
-    if (differs_from_zero(x.change) && std::abs(x.change.value) > 5e-6)
-      say(fmt::format("the bias of {} differs in motion by {} mm", name, text(x.change, kMmPerM, 4)));
-    if (differs_from_zero(x.step) && std::abs(x.step.value) > 0.02e-3)
-      say(fmt::format("{} has a lag that does not grow with speed: {} mm", name, text(x.step, kMmPerM, 4)));
-    if (x.places > std::max(0.03e-3, 3.0 * x.noise))
-      say(fmt::format("the bias of {} depends on the place: stops differ by up to {:.3f} mm", name,
-                      x.places * kMmPerM));
-  }
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const std::string& remark : remarks_on(kNames[a], fit.axes[a])) say(remark);
   if (early(fit))
     say("the tool was seen where the tip was not yet: the times of the two are not of one clock, or the sign "
         "of the motion is wrong");
