@@ -106,7 +106,6 @@ constexpr auto kExceptions = std::to_array<Longer>({
 // Still to be shortened. Add no new one.
 constexpr auto kToShorten = std::to_array<std::string_view>({
     "ablation.cpp: run",
-    "block_fit.cpp: BlockFit::solve",
     "contacts.cpp: leaves",
     "extremes.cpp: add_error_over_time",
     "extremes.cpp: studies",
@@ -121,7 +120,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "machine_calibration.cpp: CarriedTool::stand",
     "machine_calibration.cpp: calibrate_machine",
     "machine_channel.cpp: see_machine",
-    "machine_fit.cpp: fit_hand_eye",
     "mesh.cpp: run",
     "soak.cpp: storm",
     "stability.cpp: add_button_map",

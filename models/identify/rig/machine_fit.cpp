@@ -174,15 +174,8 @@ void check_scale(std::span<const EyeStand> stands, const Both& at, const VectorX
                     100.0 * scale, 100.0 * sure, 100.0 * kScaleOff));
 }
 
-}  // namespace
-
-HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
-  if (stands.size() < kFewestSeen)
-    throw Error(
-        fmt::format("the tool was seen in {} stands of the machine; expected {} or more; see that "
-                    "the tracker sees it in all poses",
-                    stands.size(), kFewestSeen));
-  check_turns(stands);
+// Least squares over position and rotation, with the scatter of both from the residuals.
+Both best_fit(std::span<const EyeStand> stands) {
   Both at = first_guess(stands);
   Scatter scatter = scatter_of(left_over(stands, at));
   constexpr int kRounds = 50;
@@ -195,12 +188,11 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
     scatter = scatter_of(left_over(stands, at));
     if (step.norm() < 1e-12 && settled(scatter, before)) break;
   }
-  const VectorXd left = left_over(stands, at);
-  const MatrixXd by = weights_of(scatter, left.size()).asDiagonal() * slopes(stands, at);
-  const MatrixXd inverse = (by.transpose() * by).inverse();
-  const double reach = student(freedom_of(static_cast<Eigen::Index>(stands.size())), kNormal99);
+  return at;
+}
 
-  HandEyeFit fit;
+// Sets poses, tip and their intervals. inverse: of the normal equations; reach: Student's t.
+void set_poses(const Both& at, const MatrixXd& inverse, double reach, HandEyeFit& fit) {
   fit.X_WC = at.X_WC;
   fit.X_HT = at.X_HT;
   const VectorXd half = reach * inverse.diagonal().cwiseSqrt();
@@ -219,8 +211,11 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
   to_tip << -R_TH * cross_matrix(Vec3(at.X_HT.p())), -R_TH;
   const Mat3 tip = to_tip * inverse.bottomRightCorner<6, 6>() * to_tip.transpose();
   fit.tip.half = reach * tip.diagonal().cwiseSqrt();
+}
 
-  const auto n = static_cast<Eigen::Index>(stands.size());
+// Sets the sizes of the residuals, and refuses large ones.
+void set_left_over(const VectorXd& left, HandEyeFit& fit) {
+  const Eigen::Index n = left.size() / 6;
   fit.rms = std::sqrt(left.head(3 * n).squaredNorm() / static_cast<double>(n));
   fit.rms_turn = std::sqrt(left.tail(3 * n).squaredNorm() / static_cast<double>(n));
   fit.most = 0.0;
@@ -231,6 +226,25 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
         "left over; expected at most {:g} and {:.1f}; see that the jaws hold the tool, that the "
         "machine and not the tracker moves, and to units and axes of both",
         fit.rms * 1e3, fit.rms_turn * 180.0 / M_PI, kMostLeftPlace * 1e3, kMostLeftTurn * 180.0 / M_PI));
+}
+
+}  // namespace
+
+HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
+  if (stands.size() < kFewestSeen)
+    throw Error(
+        fmt::format("the tool was seen in {} stands of the machine; expected {} or more; see that "
+                    "the tracker sees it in all poses",
+                    stands.size(), kFewestSeen));
+  check_turns(stands);
+  const Both at = best_fit(stands);
+  const VectorXd left = left_over(stands, at);
+  const MatrixXd by = weights_of(scatter_of(left), left.size()).asDiagonal() * slopes(stands, at);
+  const MatrixXd inverse = (by.transpose() * by).inverse();
+  const double reach = student(freedom_of(static_cast<Eigen::Index>(stands.size())), kNormal99);
+  HandEyeFit fit;
+  set_poses(at, inverse, reach, fit);
+  set_left_over(left, fit);
   check_scale(stands, at, left);
   return fit;
 }
