@@ -87,6 +87,46 @@ class MeanTurn {
   Eigen::Vector4d sum_ = Eigen::Vector4d::Zero();
 };
 
+// Sums of a stand, tick by tick.
+class StandSums {
+ public:
+  void add_place(const Pose<'W', 'H'>& X_WH) {
+    place_ += X_WH.p();
+    turn_.add(X_WH.q());
+    ++places_;
+  }
+  void add_wrench(const Wrench& wrench) {
+    force_ += wrench.force.e();
+    torque_ += wrench.torque.e();
+    ++readings_;
+  }
+  void add_tool(const Pose<'C', 'T'>& X_CT) {
+    seen_ += X_CT.p();
+    seen_turn_.add(Quat(X_CT.q()));
+    ++packets_;
+  }
+
+  // time: s of experiment, middle of the stand.
+  [[nodiscard]] CarriedStand means(double time) const {
+    CarriedStand stand;
+    stand.time = time;
+    stand.readings = readings_;
+    stand.packets = packets_;
+    stand.X_WH = {turn_.mean(), Vec3(place_ / static_cast<double>(places_))};
+    if (readings_ > 0) {
+      const auto n = static_cast<double>(readings_);
+      stand.wrench = {Vec<'F'>(Vec3(force_ / n)), Vec<'F'>(Vec3(torque_ / n))};
+    }
+    if (packets_ > 0) stand.X_CT = {seen_turn_.mean(), Vec3(seen_ / static_cast<double>(packets_))};
+    return stand;
+  }
+
+ private:
+  Vec3 place_ = Vec3::Zero(), seen_ = Vec3::Zero(), force_ = Vec3::Zero(), torque_ = Vec3::Zero();
+  MeanTurn turn_, seen_turn_;
+  std::size_t places_ = 0, readings_ = 0, packets_ = 0;
+};
+
 // True if the whole path of go() between two poses is within reach.
 bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
                   const Pose<'W', 'H'>& to) {
@@ -245,10 +285,8 @@ CarriedStand CarriedTool::stand() {
   const Scene& scene = trial_.scene();
   // Packets still under way show the moving machine, so start later.
   const double first = now_, begin = now_ + (scene.has_tracker ? rig.tracker.usual_age : 0.0);
-  CarriedStand stand;
-  Vec3 place = Vec3::Zero(), seen = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
-  MeanTurn turn, seen_turn;
-  std::size_t places = 0, moved = 0;  // number of ticks
+  StandSums sums;
+  std::size_t moved = 0;  // number of ticks
   constexpr std::size_t kMostMoved = 100;
   Time told_force = trial_.inputs().wrench.t, told_tool = trial_.inputs().tool.t;
   while (now_ < begin + kMeasured) {
@@ -266,31 +304,14 @@ CarriedStand CarriedTool::stand() {
             {}, ErrorKind::device);
       continue;
     }
-    const Pose<'W', 'H'> X_WH = scene.X_WR * in.tip.value.X_RH;
-    place += X_WH.p();
-    turn.add(X_WH.q());
-    ++places;
-    if (scene.has_force && sample && in.wrench.health == Health::ok) {
-      force += in.wrench.value.force.e();
-      torque += in.wrench.value.torque.e();
-      ++stand.readings;
-    }
+    sums.add_place(scene.X_WR * in.tip.value.X_RH);
+    if (scene.has_force && sample && in.wrench.health == Health::ok) sums.add_wrench(in.wrench.value);
     const bool of_now = seconds(in.tool.t.time_since_epoch()) >= first;
     if (scene.has_tracker && news && of_now && in.tool.health == Health::ok &&
-        in.tool.value.tool == scene.clamped_tool && in.tool.value.X_CT.valid()) {
-      seen += in.tool.value.X_CT.p();
-      seen_turn.add(Quat(in.tool.value.X_CT.q()));
-      ++stand.packets;
-    }
+        in.tool.value.tool == scene.clamped_tool && in.tool.value.X_CT.valid())
+      sums.add_tool(in.tool.value.X_CT);
   }
-  stand.time = 0.5 * (begin + now_);
-  stand.X_WH = {turn.mean(), Vec3(place / static_cast<double>(places))};
-  if (stand.readings > 0) {
-    const auto n = static_cast<double>(stand.readings);
-    stand.wrench = {Vec<'F'>(Vec3(force / n)), Vec<'F'>(Vec3(torque / n))};
-  }
-  if (stand.packets > 0) stand.X_CT = {seen_turn.mean(), Vec3(seen / static_cast<double>(stand.packets))};
-  return stand;
+  return sums.means(0.5 * (begin + now_));
 }
 
 namespace {
@@ -383,6 +404,26 @@ void check_tip(const MachineCalibration& found, const Vec3& tip) {
                   there.x(), there.y(), there.z()));
 }
 
+// Stands at each pose, then goes back to zero.
+std::vector<CarriedStand> stands_at(const std::vector<Pose<'W', 'H'>>& poses, CarriedTool& tool,
+                                    const std::function<void(double)>& progress) {
+  std::vector<CarriedStand> stands;
+  stands.reserve(poses.size());
+  const CarriedStand* first = nullptr;  // first stand with a tracked tool
+  for (const Pose<'W', 'H'>& pose : poses) {
+    if (progress) progress(static_cast<double>(stands.size()) / static_cast<double>(poses.size()));
+    tool.go(pose);
+    const CarriedStand& now = stands.emplace_back(tool.stand());
+    if (now.packets < kFewestPackets) continue;
+    if (first == nullptr)
+      first = &now;
+    else
+      check_carried(*first, now);
+  }
+  tool.go(Pose<'W', 'H'>::identity());
+  return stands;
+}
+
 }  // namespace
 
 std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W', 'R'>& X_WR,
@@ -422,19 +463,7 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
   const std::vector<Pose<'W', 'H'>> poses = calibration_poses(scene.reach, scene.X_WR, count);
   check_poses(poses, scene);
   MachineCalibration found;
-  found.stands.reserve(count);
-  const CarriedStand* first = nullptr;  // first stand with a tracked tool
-  for (const Pose<'W', 'H'>& pose : poses) {
-    if (progress) progress(static_cast<double>(found.stands.size()) / static_cast<double>(count));
-    tool.go(pose);
-    const CarriedStand& now = found.stands.emplace_back(tool.stand());
-    if (now.packets < kFewestPackets) continue;
-    if (first == nullptr)
-      first = &now;
-    else
-      check_carried(*first, now);
-  }
-  tool.go(Pose<'W', 'H'>::identity());
+  found.stands = stands_at(poses, tool, progress);
   found.time = tool.now();
   found.clamped_tool = scene.clamped_tool;
   const ToolSpec& clamped = tool.trial().setup().scene.tools[static_cast<std::size_t>(scene.clamped_tool)];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -215,66 +216,100 @@ void nothing_there(double felt, double thought, Shadow& shadow) {
   cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
 }
 
-}  // namespace
+// What the record's probe felt.
+struct Probed {
+  Along along;
+  std::vector<Reading> readings;
+  double pressed;  // N, by felt_at_most
+  Rows rows;
+};
 
-void see_probed(const Tape& tape, Shadow& shadow) {
-  if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
+Probed probed_in(const Tape& tape) {
   const Along along(tape);
-  const std::vector<Reading> recorded = recorded_forces(tape, along);
-  const double pressed = felt_at_most(recorded, tape.scene.dt);
-  const Rows rows = rows_of(tape);
+  std::vector<Reading> readings = recorded_forces(tape, along);
+  const double pressed = felt_at_most(readings, tape.scene.dt);
+  return {along, std::move(readings), pressed, rows_of(tape)};
+}
+
+// The twin's probe, moved until it feels what the record's felt.
+struct Match {
+  double nearer = 0.0, late = 0.0;  // m, s: how far it was moved
+  double thought = 0.0;             // N, by felt_at_most, before it was moved
+  std::vector<Wrench> felt{};
+  Forces twin{}, stepped{};  // along the push; stepped: kStep nearer
+  Compared found{};
+  bool touches = true, settled = false;
+};
+
+Match match_twin(const Tape& tape, const Probed& real) {
   const models::Setup quiet = faultless(tape.twin);
-  double nearer = 0.0, late = 0.0, thought = 0.0;
-  std::vector<Wrench> felt;
-  Forces twin, stepped;
-  Compared found;
-  bool settled = false;
+  Match at;
   for (int round = 0; round < kMostRounds; ++round) {
-    felt = felt_by_twin(tape, quiet, nearer);
-    twin = along_push(along, felt);
-    stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
-    const auto [least, most] = std::minmax_element(twin.begin(), twin.end());
-    if (round == 0) thought = felt_at_most(tick_by_tick(twin), tape.scene.dt);
-    if (rows.pushes == 0 || alike_all(twin, stepped)) return nothing_there(pressed, thought, shadow);
-    found = compare(rows, recorded, twin, stepped, late);
+    at.felt = felt_by_twin(tape, quiet, at.nearer);
+    at.twin = along_push(real.along, at.felt);
+    at.stepped = along_push(real.along, felt_by_twin(tape, quiet, at.nearer + kStep));
+    const auto [least, most] = std::minmax_element(at.twin.begin(), at.twin.end());
+    if (round == 0) at.thought = felt_at_most(tick_by_tick(at.twin), tape.scene.dt);
+    at.touches = real.rows.pushes != 0 && !alike_all(at.twin, at.stepped);
+    if (!at.touches) break;
+    at.found = compare(real.rows, real.readings, at.twin, at.stepped, at.late);
+    const Compared& found = at.found;
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
-    settled = std::abs(found.nearer.value) < kSettled;
-    if (settled || round + 1 == kMostRounds) break;
+    at.settled = std::abs(found.nearer.value) < kSettled;
+    if (at.settled || round + 1 == kMostRounds) break;
     // Move the twin's probe until it measures the recorded force, in steps within which the law is nearly
     // straight. If the shapes disagree completely, only the size of the force gives the direction.
-    const double towards = pressed > *most - *least ? kBend : -kBend;
-    nearer += found.alike.value > 0.0 ? std::clamp(found.nearer.value, -kBend, kBend) : towards;
-    if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
+    const double towards = real.pressed > *most - *least ? kBend : -kBend;
+    at.nearer += found.alike.value > 0.0 ? std::clamp(found.nearer.value, -kBend, kBend) : towards;
+    if (std::isfinite(found.late.value)) at.late = std::clamp(at.late + found.late.value, -0.02, 0.02);
   }
-  if (!settled && std::abs(nearer) > kFarthest)
-    return diverges_grossly(
+  return at;
+}
+
+// False if the forces give no numbers to judge; `shadow` has the reason.
+bool gives_numbers(const Match& at, Shadow& shadow) {
+  if (!at.settled && std::abs(at.nearer) > kFarthest) {
+    diverges_grossly(
         shadow, Channel::force,
         fmt::format(
             "the object, or the machine, stands elsewhere: more than {:.0f} mm {} each other than the "
             "twin's",
-            1e3 * kFarthest, nearer > 0.0 ? "nearer to" : "farther from"));
-  if (!found.alike.known())
-    return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
-  if (!settled && !(found.alike.value > 0.0))
-    return diverges_grossly(
+            1e3 * kFarthest, at.nearer > 0.0 ? "nearer to" : "farther from"));
+    return false;
+  }
+  if (!at.found.alike.known()) {
+    cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
+    return false;
+  }
+  if (!at.settled && !(at.found.alike.value > 0.0)) {
+    diverges_grossly(
         shadow, Channel::force,
         "what the probe felt is not what the twin's object pushes back with, wherever it stands");
+    return false;
+  }
+  return true;
+}
+
+// Judges the numbers of the match beside those of twins with sensors of their own.
+void add_match(const Tape& tape, const Probed& real, const Match& at, Shadow& shadow) {
   std::vector<double> alike, place, time, rest;
   for (std::vector<double>* one : {&alike, &place, &time, &rest}) one->reserve(kTwins);
   for (std::size_t k = 0; k < kTwins; ++k) {
-    const Compared one = compare(rows, twin_forces(tape, along, felt, twin_seed(k)), twin, stepped, 0.0);
+    const Compared one =
+        compare(real.rows, twin_forces(tape, real.along, at.felt, twin_seed(k)), at.twin, at.stepped, 0.0);
     alike.push_back(one.alike.value);
     place.push_back(one.nearer.value);
     time.push_back(one.late.value);
     rest.push_back(one.rms);
   }
+  const Compared& found = at.found;
   models::Interval stiffer = beside_twins(found.alike, alike);
   add(shadow, Channel::force, Quantity::stiffness, stiffer, bounds::kStiffness);
   models::Interval off = beside_twins(found.nearer, place);
-  off.value += nearer;
+  off.value += at.nearer;
   add(shadow, Channel::force, Quantity::object_place, off, bounds::kObjectPlace);
   models::Interval delay = beside_twins(found.late, time);
-  delay.value += late;
+  delay.value += at.late;
   add(shadow, Channel::force, Quantity::force_time, delay, bounds::kForceTime);
   // Elastic legs shake their load, and the twin's legs do not move here, so skip their residual.
   if (!tape.twin.twin.structural())
@@ -282,7 +317,17 @@ void see_probed(const Tape& tape, Shadow& shadow) {
         bounds::kForceRest);
   shadow.facts.push_back(
       {Channel::force, fmt::format("{}; what is left of the force is {:.3f} N rms, of the twin's {:.3f} N",
-                                   counted(rows.pushes, "push"), found.rms, of_twins(rest).value)});
+                                   counted(real.rows.pushes, "push"), found.rms, of_twins(rest).value)});
+}
+
+}  // namespace
+
+void see_probed(const Tape& tape, Shadow& shadow) {
+  if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
+  const Probed real = probed_in(tape);
+  const Match at = match_twin(tape, real);
+  if (!at.touches) return nothing_there(real.pressed, at.thought, shadow);
+  if (gives_numbers(at, shadow)) add_match(tape, real, at, shadow);
 }
 
 // A rendered object. The measured force gives the displacement of the twin's object, rendered by the twin's

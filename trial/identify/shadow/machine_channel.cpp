@@ -79,43 +79,50 @@ double wire_cycle(const RigSpec& rig) {
   return std::from_chars(text.data(), text.data() + text.size(), ms).ec == std::errc() ? 1e-3 * ms : 0.0;
 }
 
-}  // namespace
+// The twin's way at the record's commands, and what the machine said.
+struct Ways {
+  TwinWay twin;
+  std::vector<Said> said{};
+  double travel = 0.0;  // m, greatest distance from where it began
+};
 
-void see_machine(const Tape& tape, Shadow& shadow) {
-  if (!tape.sent) return cannot_judge(shadow, Channel::machine, "nothing was sent to it: this was a dry run");
+Ways ways_of(const Tape& tape) {
   ToldMachine twin(tape);
-  TwinWay way{in_seconds(tape.begin), tape.scene.dt};
-  way.at.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
-  std::vector<Said> said;
+  Ways ways{{in_seconds(tape.begin), tape.scene.dt}};
+  std::vector<Vec3>& at = ways.twin.at;
+  std::vector<Said>& said = ways.said;
+  at.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
   Time newest = Time::min();
-  double travel = 0.0;
   tape.play([&](const RecordedTick& frame) {
     twin.advance(frame);
     const Vec3 place = twin.known() ? Vec3(twin.said().X_RH.p()) : Vec3(Vec3::Constant(kUnset));
-    way.at.resize(static_cast<std::size_t>(frame.tick.index - tape.first), Vec3::Constant(kUnset));
-    way.at.push_back(place);
+    at.resize(static_cast<std::size_t>(frame.tick.index - tape.first), Vec3::Constant(kUnset));
+    at.push_back(place);
     if (was_sent(frame)) twin.command(frame.out.tip);
     if (is_well(frame.in.tip) && frame.in.tip.t > newest) {
       newest = frame.in.tip.t;
       said.push_back({in_seconds(newest), frame.in.tip.value.X_RH.p()});
-      travel = std::max(travel, (said.back().at - said.front().at).norm());
+      ways.travel = std::max(ways.travel, (said.back().at - said.front().at).norm());
     }
   });
-  double late = 0.0;
+  return ways;
+}
+
+// Offset and delay of the machine, round by round; late: the delay, s.
+models::BlockFit::Result fit_delay(const Ways& ways, double& late) {
   models::BlockFit::Result found;
   for (int round = 0; round < kRounds; ++round) {
-    found = fit_way(way, said, late);
+    found = fit_way(ways.twin, ways.said, late);
     const double more = found.values[3].value;
     if (!std::isfinite(more)) break;
     late = std::clamp(late + more, -0.5, 0.5);
     if (std::abs(more) < 1e-6) break;
   }
-  constexpr double kMoved = 0.1e-3;  // m
-  if (travel > kMoved)
-    add(shadow, Channel::machine, Quantity::machine_time, {late, found.values[3].half},
-        bounds::kMachineTime + bounds::kMachineCycles * wire_cycle(tape.twin.rig));
-  else
-    cannot_judge(shadow, Channel::machine, "it stood still: when it answers is not in this record");
+  return found;
+}
+
+// The offset along the axes of W.
+void add_offset(const Tape& tape, const models::BlockFit::Result& found, Shadow& shadow) {
   const Mat3 axes = tape.scene.X_WR.q().toRotationMatrix();
   for (Eigen::Index a = 0; a < 3; ++a) {
     models::Interval off{0.0, 0.0};
@@ -127,7 +134,23 @@ void see_machine(const Tape& tape, Shadow& shadow) {
     add(shadow, Channel::machine, Quantity::machine_place, off, bounds::kMachinePlace,
         std::string(1, "xyz"[a]));
   }
-  add(shadow, Channel::machine, Quantity::machine_rest, {rest_of(way, said, late, found), 0.0},
+}
+
+}  // namespace
+
+void see_machine(const Tape& tape, Shadow& shadow) {
+  if (!tape.sent) return cannot_judge(shadow, Channel::machine, "nothing was sent to it: this was a dry run");
+  const Ways ways = ways_of(tape);
+  double late = 0.0;
+  const models::BlockFit::Result found = fit_delay(ways, late);
+  constexpr double kMoved = 0.1e-3;  // m
+  if (ways.travel > kMoved)
+    add(shadow, Channel::machine, Quantity::machine_time, {late, found.values[3].half},
+        bounds::kMachineTime + bounds::kMachineCycles * wire_cycle(tape.twin.rig));
+  else
+    cannot_judge(shadow, Channel::machine, "it stood still: when it answers is not in this record");
+  add_offset(tape, found, shadow);
+  add(shadow, Channel::machine, Quantity::machine_rest, {rest_of(ways.twin, ways.said, late, found), 0.0},
       bounds::kMachineRest);
 }
 

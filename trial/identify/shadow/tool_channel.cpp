@@ -127,43 +127,35 @@ void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
                    pauses.rate, of_twins(rates).value, 1e3 * pauses.longest, 1e3 * longest)});
 }
 
-// A tool carried by the machine.
-void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
+// Leads the twin's machine as the record's went. Returns its tip, tick by tick; its trackers see its tool.
+models::TrackerLog lead_twin(const Tape& tape, TwinTrackers& trackers) {
   models::TrackerLog rows;
   rows.period = tape.scene.dt;
-  TwinTrackers trackers(tape);
   lead_world(tape, tape.twin, Vec3::Zero(), [&](Time t, const sim::World& world, const TipSample& led) {
     rows.time.push_back(in_seconds(t));
     rows.tip.emplace_back((tape.scene.X_WR * led.X_RH.origin()).e());
     const sim::TrackerPlant::State& seen = world.tracker->state();  // input of the tracker of this world
     trackers.advance(t, seen.tool_before, seen.before);
   });
-  const std::vector<SeenPacket> known = with_machine(tape, recorded);
-  if (known.size() < kFewestPackets) {
-    see_ages(tape, recorded, trackers.packets(), true, shadow);
-    const auto arrived = std::count_if(recorded.begin(), recorded.end(),
-                                       [&](const SeenPacket& one) { return tape.tip.knows(one.t); });
-    if (arrived >= static_cast<std::ptrdiff_t>(kFewestPackets))
-      return diverges_grossly(shadow, Channel::tool,
-                              "its stamps are of another time than that in which its packets came");
-    return cannot_judge(shadow, Channel::tool,
-                        fmt::format("where the machine was is known for {} of its {}; expected {}",
-                                    known.size(), counted(recorded.size(), "packet"), kFewestPackets));
-  }
-  const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, known));
-  const bool carried = goes_along(found);
-  see_ages(tape, recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
-  std::vector<models::LatencyFit> twins;
-  twins.reserve(kTwins);
-  for (const std::vector<SeenPacket>& packets : trackers.packets())
-    if (const std::vector<SeenPacket> seen = with_machine(tape, packets); seen.size() >= kFewestPackets)
-      twins.push_back(models::fit_latency(with_packets(rows, tape.scene, seen)));
-  // A motion that vanishes in the tracker's noise also vanishes in the twin's.
-  if (!carried && std::count_if(twins.begin(), twins.end(), goes_clearly_along) > std::ssize(twins) / 2)
-    return diverges_grossly(shadow, Channel::tool, astray(found));
-  if (!carried)
-    return cannot_judge(shadow, Channel::tool,
-                        "the machine hardly moved it: it is lost in what its tracker adds");
+  return rows;
+}
+
+// Says why too few packets of a carried tool are known; known: their number.
+void tell_few_known(const Tape& tape, const std::vector<SeenPacket>& recorded, std::size_t known,
+                    Shadow& shadow) {
+  const auto arrived = std::count_if(recorded.begin(), recorded.end(),
+                                     [&](const SeenPacket& one) { return tape.tip.knows(one.t); });
+  if (arrived >= static_cast<std::ptrdiff_t>(kFewestPackets))
+    return diverges_grossly(shadow, Channel::tool,
+                            "its stamps are of another time than that in which its packets came");
+  cannot_judge(shadow, Channel::tool,
+               fmt::format("where the machine was is known for {} of its {}; expected {}", known,
+                           counted(recorded.size(), "packet"), kFewestPackets));
+}
+
+// Judges place and delay of a carried tool beside those of the twins.
+void add_carried(const models::LatencyFit& found, const std::vector<models::LatencyFit>& twins,
+                 Shadow& shadow) {
   const auto beside = [&](const auto& part) {
     std::vector<double> values;
     values.reserve(twins.size());
@@ -180,6 +172,32 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   // Packets older than their stamps indicate have stamps that are too late by that difference.
   add(shadow, Channel::tool, Quantity::tool_stamps,
       beside([](const models::LatencyFit& fit) { return fit.stamp_error; }), bounds::kToolStamps);
+}
+
+// A tool carried by the machine.
+void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
+  TwinTrackers trackers(tape);
+  const models::TrackerLog rows = lead_twin(tape, trackers);
+  const std::vector<SeenPacket> known = with_machine(tape, recorded);
+  if (known.size() < kFewestPackets) {
+    see_ages(tape, recorded, trackers.packets(), true, shadow);
+    return tell_few_known(tape, recorded, known.size(), shadow);
+  }
+  const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, known));
+  const bool carried = goes_along(found);
+  see_ages(tape, recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
+  std::vector<models::LatencyFit> twins;
+  twins.reserve(kTwins);
+  for (const std::vector<SeenPacket>& packets : trackers.packets())
+    if (const std::vector<SeenPacket> seen = with_machine(tape, packets); seen.size() >= kFewestPackets)
+      twins.push_back(models::fit_latency(with_packets(rows, tape.scene, seen)));
+  // A motion that vanishes in the tracker's noise also vanishes in the twin's.
+  if (!carried && std::count_if(twins.begin(), twins.end(), goes_clearly_along) > std::ssize(twins) / 2)
+    return diverges_grossly(shadow, Channel::tool, astray(found));
+  if (!carried)
+    return cannot_judge(shadow, Channel::tool,
+                        "the machine hardly moved it: it is lost in what its tracker adds");
+  add_carried(found, twins, shadow);
 }
 
 // A tool that presses the tip. Both tips are round, so their centres are one known length apart. The tracked
@@ -286,7 +304,8 @@ Held held_by_twin(const Tape& tape, const Pressed& pressed, const Pose<'W', 'R'>
   return {seen.tool, {q, Vec3(tip - q * tip_T)}};
 }
 
-void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
+// The ticks of the record, with the directions between both tips.
+Pressed pressed_in(const Tape& tape, const std::vector<SeenPacket>& recorded) {
   Pressed pressed{{}, in_seconds(tape.begin), tape.scene.dt};
   std::vector<std::int32_t> contact;
   Time newest = Time::min();
@@ -303,24 +322,56 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
     contact.push_back(frame.out.contacts);
   });
   find_lines(tape, recorded, contact, pressed);
-  const Seen found = seen_pressing(tape, pressed, recorded);
-  const bool told = found.packets >= kFewest;
-  TwinTrackers trackers(tape), ages(tape);
+  return pressed;
+}
+
+// The trackers see the tool held by the twin.
+void hold_in_twin(const Tape& tape, const Pressed& pressed, TwinTrackers& trackers) {
   const Pose<'W', 'R'> X_WR = sim::hexapod_base(tape.twin.twin.hexapod);
   for (std::size_t i = 0; i < pressed.felt.size(); ++i) {
     const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
-    const TrackedTool& seen = pressed.newest[i];
-    ages.advance(t, seen.tool, seen.tool < 0 ? Pose<'W', 'T'>::identity() : tape.scene.X_WC * seen.X_CT);
-    if (!told) continue;
     const Held held = held_by_twin(tape, pressed, X_WR, i, t);
     trackers.advance(t, held.tool, held.X_WT);
   }
+}
+
+// The trackers see the tool where the record's tracker saw it.
+void hold_as_seen(const Tape& tape, const Pressed& pressed, TwinTrackers& trackers) {
+  for (std::size_t i = 0; i < pressed.felt.size(); ++i) {
+    const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
+    const TrackedTool& seen = pressed.newest[i];
+    trackers.advance(t, seen.tool, seen.tool < 0 ? Pose<'W', 'T'>::identity() : tape.scene.X_WC * seen.X_CT);
+  }
+}
+
+// Judges the stamps of a pressing tool, and its delay. stamps: error of those of each twin; own: packets of
+// its tracker.
+void add_stamps(const std::vector<SeenPacket>& recorded, const models::Interval& found,
+                const std::vector<double>& stamps, const std::vector<std::vector<SeenPacket>>& own,
+                Shadow& shadow) {
+  add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found, stamps), bounds::kToolStamps);
+  // A stamp that is too late makes a packet look younger by that error.
+  std::vector<double> old;
+  old.reserve(kTwins);
+  for (std::size_t i = 0; i < own.size(); ++i) old.push_back(mean_age(own[i]).value + stamps[i]);
+  const models::Interval age = mean_age(recorded);
+  add(shadow, Channel::tool, Quantity::tool_latency,
+      beside_twins({age.value + found.value, std::hypot(age.half, found.half)}, old), bounds::kToolLatency);
+}
+
+void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
+  const Pressed pressed = pressed_in(tape, recorded);
+  const Seen found = seen_pressing(tape, pressed, recorded);
+  const bool told = found.packets >= kFewest;
+  TwinTrackers trackers(tape), ages(tape);
+  hold_as_seen(tape, pressed, ages);
   see_ages(tape, recorded, ages.packets(), !told || !found.stamps.known(), shadow);
   if (!told)
     return cannot_judge(shadow, Channel::tool,
                         fmt::format("{} came of a tool that pressed the tip, and the machine carried "
                                     "none; expected {}: where it should be seen is not known",
                                     counted(found.packets, "packet"), kFewest));
+  hold_in_twin(tape, pressed, trackers);
   std::vector<double> away, stamps, gives;
   for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {
@@ -333,19 +384,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
       "away");
   shadow.unjudged.push_back(
       {Channel::tool, "how far it is seen to the side of the tip that it presses: both are round there"});
-  if (found.stamps.known()) {
-    add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found.stamps, stamps),
-        bounds::kToolStamps);
-    // A stamp that is too late makes a packet look younger by that error.
-    const auto& own = ages.packets();
-    std::vector<double> old;
-    old.reserve(kTwins);
-    for (std::size_t i = 0; i < own.size(); ++i) old.push_back(mean_age(own[i]).value + stamps[i]);
-    const models::Interval age = mean_age(recorded);
-    add(shadow, Channel::tool, Quantity::tool_latency,
-        beside_twins({age.value + found.stamps.value, std::hypot(age.half, found.stamps.half)}, old),
-        bounds::kToolLatency);
-  }
+  if (found.stamps.known()) add_stamps(recorded, found.stamps, stamps, ages.packets(), shadow);
   const models::Interval more = beside_twins(found.gives, gives);
   if (more.known())
     shadow.facts.push_back(
