@@ -188,44 +188,40 @@ void add_no_threshold(const BenchContext& context, const Extent& extent, Bench& 
   bench.figure("no_threshold_no_drift.load_error_percent.max", load, "%", at_most(0.05), note);
 }
 
-void add_boundary(const BenchContext& context, const Extent& extent, const PaperText& paper, Bench& bench) {
-  BenchResult& result = bench.result;
-  const models::Setup setup = push_setup(context.models, extent.set);
-  constexpr double kShare = 22.0 / 24.0;  // sources/twin 6
-  StabilityMap map(setup, context.seed + 1000, extent.presses, kShare);
-  const double linear = lowest_stable_stiffness(pushed_loop(setup));
+// From the last point where all pushes are unstable to the first where none is, around the lowest stable one.
+Value interval_of(StabilityMap& map, double lowest) {
+  Value interval = lowest / kNewtonPerMillimetre;
+  for (const auto& [point, ways] : map.seen()) {  // in rising order
+    const double k = static_cast<double>(point) * map.grid();
+    if (map.unstable_share(k) == 1.0) interval.least = k / kNewtonPerMillimetre;
+    if (map.unstable_share(k) == 0.0 && std::isnan(interval.most)) interval.most = k / kNewtonPerMillimetre;
+  }
+  return interval;
+}
+
+void add_boundary_figures(StabilityMap& map, const Extent& extent, const PaperText& paper, double linear,
+                          Bench& bench) {
   const double at_20 = map.unstable_share(20), at_35 = map.unstable_share(35);
   const double lowest = map.lowest_stable(paper.softest * kNewtonPerMillimetre);
   const std::string note =
       fmt::format("of {} seeded pushes; the pusher's stiffness was chosen for this", extent.presses);
   bench.figure("unstable.0.02.percent", 100.0 * at_20, "%", calibrated(100.0), exactly(100), note);
   bench.figure("unstable.0.035.percent", 100.0 * at_35, "%", calibrated(0.0), exactly(0), note);
-  Value boundary = lowest / kNewtonPerMillimetre;
-  for (const auto& [point, ways] : map.seen()) {  // in rising order
-    const double k = static_cast<double>(point) * map.grid();
-    if (map.unstable_share(k) == 1.0) boundary.least = k / kNewtonPerMillimetre;
-    if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kNewtonPerMillimetre;
-  }
-  bench.figure("lowest_stable_N_per_mm", boundary, "N/mm", calibrated(paper.softest), between(0.026, 0.034),
+  bench.figure("lowest_stable_N_per_mm", interval_of(map, lowest), "N/mm", calibrated(paper.softest),
+               between(0.026, 0.034),
                "from here up 22 of 24 pushes come to rest; calibrated by the pusher's stiffness. Interval: "
                "from where all are unstable to where none is");
   bench.figure("linear.lowest_stable_N_per_mm", linear / kNewtonPerMillimetre, "N/mm",
                "of the loop without limits of speed and acceleration (core/machine/loop_model.h)");
+}
+
+Plot instability_plot(StabilityMap& map, const Extent& extent, const PaperText& paper, double linear) {
   Plot plot{"stiffness_instability", "Which stiffness makes the machine unstable",
             "commanded stiffness, N/mm", "unstable pushes, %", true};
-  Table table{"stiffness_wander",
-              "Way of the tip at the end of the hold, peak to peak",
-              {"stiffness, N/mm", "pushes", "unstable", "least, mm", "median, mm", "most, mm"},
-              {},
-              "unstable: more than 1 mm"};
   Series seen{.name = fmt::format("twin, {} pushes each", extent.presses), .mark = Mark::both};
   for (const auto& [point, ways] : map.seen()) {
     const double k = static_cast<double>(point) * map.grid();
     seen.add(k / kNewtonPerMillimetre, 100.0 * map.unstable_share(k));
-    table.rows.push_back({fixed(k / kNewtonPerMillimetre, 3), std::to_string(ways.size()),
-                          fixed(map.unstable_share(k) * static_cast<double>(ways.size()), 0),
-                          fixed(percentile(ways, 0.0) * 1e3, 2), fixed(median(ways) * 1e3, 2),
-                          fixed(percentile(ways, 1.0) * 1e3, 2)});
   }
   plot.series = {
       {.name = "paper: softest rendered", .x = {paper.softest, paper.softest}, .y = {0, 100}, .paper = true},
@@ -234,9 +230,34 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   plot.caption =
       "Pushes that do not come to rest. The linear prediction knows nothing of the machine's limited "
       "acceleration, which adds lag the larger the swing.";
-  result.plots.push_back(std::move(plot));
-  result.tables.push_back(std::move(table));
-  result.simulated += map.simulated();
+  return plot;
+}
+
+Table wander_table(StabilityMap& map) {
+  Table table{"stiffness_wander",
+              "Way of the tip at the end of the hold, peak to peak",
+              {"stiffness, N/mm", "pushes", "unstable", "least, mm", "median, mm", "most, mm"},
+              {},
+              "unstable: more than 1 mm"};
+  for (const auto& [point, ways] : map.seen()) {
+    const double k = static_cast<double>(point) * map.grid();
+    table.rows.push_back({fixed(k / kNewtonPerMillimetre, 3), std::to_string(ways.size()),
+                          fixed(map.unstable_share(k) * static_cast<double>(ways.size()), 0),
+                          fixed(percentile(ways, 0.0) * 1e3, 2), fixed(median(ways) * 1e3, 2),
+                          fixed(percentile(ways, 1.0) * 1e3, 2)});
+  }
+  return table;
+}
+
+void add_boundary(const BenchContext& context, const Extent& extent, const PaperText& paper, Bench& bench) {
+  const models::Setup setup = push_setup(context.models, extent.set);
+  constexpr double kShare = 22.0 / 24.0;  // sources/twin 6
+  StabilityMap map(setup, context.seed + 1000, extent.presses, kShare);
+  const double linear = lowest_stable_stiffness(pushed_loop(setup));
+  add_boundary_figures(map, extent, paper, linear, bench);
+  bench.result.plots.push_back(instability_plot(map, extent, paper, linear));
+  bench.result.tables.push_back(wander_table(map));
+  bench.result.simulated += map.simulated();
 }
 
 // Small signals and a stiff pusher: the linear theory must hold there.
@@ -289,26 +310,18 @@ Series bars_of(const std::vector<Level>& levels, double Push::*felt, const char*
   return s;
 }
 
-void add_error_plots(const std::vector<Level>& levels, const PaperText& paper, BenchResult& result) {
-  Plot error{"stiffness_error", "Error of the rendered stiffness (VHMR Fig 3b)", "commanded stiffness, N/mm",
-             "error, %", true};
+Plot error_plot(const std::vector<Level>& levels, const PaperText& paper) {
+  Plot plot{"stiffness_error", "Error of the rendered stiffness (VHMR Fig 3b)", "commanded stiffness, N/mm",
+            "error, %", true};
   Series failed{.name = "unstable", .mark = Mark::crosses};
-  Series apparent{.name = "twin", .mark = Mark::points};
-  for (const Level& level : levels) {
-    if (!level.rendered()) {
-      failed.add(level.stiffness / kNewtonPerMillimetre, kUnset);
-      continue;
-    }
-    apparent.x.push_back(level.stiffness / kNewtonPerMillimetre);
-    apparent.y.push_back(level.stiffness / kNewtonPerMillimetre *
-                         (1.0 + spread(level, &Push::measured).mean / 100.0));
-  }
+  for (const Level& level : levels)
+    if (!level.rendered()) failed.add(level.stiffness / kNewtonPerMillimetre, kUnset);
   const Series way = bars_of(levels, &Push::measured, "twin: measured force over displacement");
   const Series load = bars_of(levels, &Push::load, "twin: true load over displacement");
   double top = paper.within;
   for (const Series* s : {&way, &load})
     for (const double y : s->high) top = std::max(top, y);
-  error.series = {
+  plot.series = {
       {"paper: within +-2 %",
        {paper.within_from, paper.stiffest},
        {0, 0},
@@ -319,22 +332,32 @@ void add_error_plots(const std::vector<Level>& levels, const PaperText& paper, B
       {.name = "paper: softest rendered", .x = {paper.softest, paper.softest}, .y = {0, top}, .paper = true},
       way,
       load};
-  if (!failed.x.empty()) error.series.push_back(failed);
-  error.caption =
+  if (!failed.x.empty()) plot.series.push_back(failed);
+  plot.caption =
       "Points are means, bars reach from the least to the greatest of the repetitions. The error is an "
       "absolute force error (threshold and drift of the zero) over a small force: it falls as 1/k.";
-  Plot line{"stiffness_apparent",
+  return plot;
+}
+
+Plot apparent_plot(const std::vector<Level>& levels, const PaperText& paper) {
+  Plot plot{"stiffness_apparent",
             "Rendered over commanded stiffness",
             "commanded stiffness, N/mm",
             "apparent stiffness, N/mm",
             true,
             true};
-  line.series = {{"as commanded", {paper.softest, paper.stiffest}, {paper.softest, paper.stiffest}},
+  Series apparent{.name = "twin", .mark = Mark::points};
+  for (const Level& level : levels) {
+    if (!level.rendered()) continue;
+    apparent.x.push_back(level.stiffness / kNewtonPerMillimetre);
+    apparent.y.push_back(level.stiffness / kNewtonPerMillimetre *
+                         (1.0 + spread(level, &Push::measured).mean / 100.0));
+  }
+  plot.series = {{"as commanded", {paper.softest, paper.stiffest}, {paper.softest, paper.stiffest}},
                  apparent};
-  line.caption =
+  plot.caption =
       "Felt over commanded stiffness, measured force over displacement; on the line nothing is lost.";
-  result.plots.push_back(std::move(error));
-  result.plots.push_back(std::move(line));
+  return plot;
 }
 
 void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
@@ -363,6 +386,37 @@ void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
 // Explanations of Fig 3: each effect is switched off alone; and the two explanations of the knee at 0.3 N/mm
 // are compared [sources/hexapod 5].
 
+struct Explanation {
+  const char* id;
+  const char* what;
+  std::vector<std::string> set;
+};
+
+// Figures and rows of one explanation of the knee.
+void add_explanation(const Explanation& e, const BenchContext& context, Table& table, BenchResult& result) {
+  const std::vector<double> stiffnesses{30, 100, 300, 1000};
+  const models::Setup setup = push_setup(context.models, context.set, e.set);
+  for (const Level& level : levels_of(setup, stiffnesses, 3, context.seed + 3000)) {
+    std::vector<double> noise, frequency;
+    for (const Push& push : level.pushes) {
+      noise.push_back(push.force_noise);
+      frequency.push_back(push.frequency);
+    }
+    const Spread mean = spread(level, &Push::measured), one = spread(level, &Push::reading);
+    table.rows.push_back({e.what, fmt::format("{:g}", level.stiffness * 1e-3), fixed(median(noise), 3),
+                          fixed(median(frequency), 0),
+                          fmt::format("{:+.1f} .. {:+.1f}", mean.least, mean.most),
+                          fmt::format("{:+.1f} .. {:+.1f}", one.least, one.most)});
+    result.simulated += 3.0 * push_time(setup);
+    if (level.stiffness != 100) continue;
+    const std::string id = fmt::format("stiffness.knee.{}", e.id);
+    result.figures.push_back({id + ".force.std", kUnset, median(noise), "N", Role::ours, kUnset, kUnset,
+                              "of the measured force at rest, 0.1 N/mm"});
+    result.figures.push_back({id + ".frequency.median", kUnset, median(frequency), "Hz", Role::ours, kUnset,
+                              kUnset, "strongest in it"});
+  }
+}
+
 // Both explanations of the knee at 0.3 N/mm, as figures and a table.
 void add_knee(const BenchContext& context, BenchResult& result) {
   Table table{"stiffness_knee",
@@ -371,38 +425,12 @@ void add_knee(const BenchContext& context, BenchResult& result) {
                "error of one reading, %"},
               {},
               "The paper's text does not tell them apart; a record of the force at rest would."};
-  const std::vector<double> stiffnesses{30, 100, 300, 1000};
-  struct Explanation {
-    const char* id;
-    const char* what;
-    std::vector<std::string> set;
-  };
   for (const Explanation& e :
        {Explanation{"absolute_force", "H1 absolute force error", {}},
         Explanation{"inertia", "H2 gripper's inertia not compensated", uncompensated_gripper()},
         Explanation{"inertia_unlimited", "H2 and acceleration unlimited",
-                    both(uncompensated_gripper(), unlimited_acceleration())}}) {
-    const models::Setup setup = push_setup(context.models, context.set, e.set);
-    for (const Level& level : levels_of(setup, stiffnesses, 3, context.seed + 3000)) {
-      std::vector<double> noise, frequency;
-      for (const Push& push : level.pushes) {
-        noise.push_back(push.force_noise);
-        frequency.push_back(push.frequency);
-      }
-      const Spread mean = spread(level, &Push::measured), one = spread(level, &Push::reading);
-      table.rows.push_back({e.what, fmt::format("{:g}", level.stiffness * 1e-3), fixed(median(noise), 3),
-                            fixed(median(frequency), 0),
-                            fmt::format("{:+.1f} .. {:+.1f}", mean.least, mean.most),
-                            fmt::format("{:+.1f} .. {:+.1f}", one.least, one.most)});
-      result.simulated += 3.0 * push_time(setup);
-      if (level.stiffness != 100) continue;
-      const std::string id = fmt::format("stiffness.knee.{}", e.id);
-      result.figures.push_back({id + ".force.std", kUnset, median(noise), "N", Role::ours, kUnset, kUnset,
-                                "of the measured force at rest, 0.1 N/mm"});
-      result.figures.push_back({id + ".frequency.median", kUnset, median(frequency), "Hz", Role::ours, kUnset,
-                                kUnset, "strongest in it"});
-    }
-  }
+                    both(uncompensated_gripper(), unlimited_acceleration())}})
+    add_explanation(e, context, table, result);
   result.tables.push_back(std::move(table));
 }
 
@@ -432,35 +460,20 @@ void add_switches(const BenchContext& context, const Progress& progress, BenchRe
   result.tables.push_back(std::move(table));
 }
 
-void run(Bench& bench) {
-  const BenchContext& given = bench.context;
-  BenchResult& result = bench.result;
-  BenchContext context = given;
-  context.seed = (given.seed - 1) * 10'000 + 1;  // each push has its own seed: seeds 1 and 2 share none
-  const PaperText paper = paper_of(context.models);
-  const Extent extent = extent_of(context, paper);
-  const double share = context.full ? 0.3 : 1.0;  // of the bar
-  const auto tell = [&](double done) {
-    if (context.progress) context.progress(done);
-  };
+// The pushes at the stiffnesses below the softest rendered one, and at all levels.
+std::vector<Level> all_levels(const BenchContext& context, const Extent& extent, const Progress& progress,
+                              BenchResult& result) {
   const models::Setup setup = push_setup(context.models, extent.set);
   std::vector<double> stiffnesses;
   for (const double k : extent.below) stiffnesses.push_back(k * kNewtonPerMillimetre);
   for (const double k : extent.levels) stiffnesses.push_back(k * kNewtonPerMillimetre);
-  const std::vector<Level> all = levels_of(setup, stiffnesses, extent.repeats, context.seed,
-                                           [&](double done) { tell(0.3 * share * done); });
+  std::vector<Level> all = levels_of(setup, stiffnesses, extent.repeats, context.seed, progress);
   result.simulated += static_cast<double>(all.size() * extent.repeats) * push_time(setup);
-  const std::vector<Level> levels(all.begin() + static_cast<std::ptrdiff_t>(extent.below.size()), all.end());
-  add_boundary(context, extent, paper, bench);
-  tell(0.7 * share);
-  add_slope(levels, paper, bench);
-  add_no_threshold(context, extent, bench);
-  tell(0.8 * share);
-  add_firm(context, extent, bench);
-  add_error_figures(levels, paper, bench);
-  add_error_plots(all, paper, result);
-  add_level_table(all, result);
-  add_motion_plot(context, extent, result);
+  return all;
+}
+
+// Explanations of Fig 3, and what lies beyond the paper. `share` of the bar is done when the switches begin.
+void add_explanations(const BenchContext& context, double share, const Progress& tell, BenchResult& result) {
   if (!context.quick) add_knee(context, result);
   add_softest(context, result);
   add_beyond(
@@ -472,6 +485,34 @@ void run(Bench& bench) {
   if (!context.quick)
     add_work_precision({"stiffness", "stiffness", {"truth.pusher.tremor_N=0"}, kUnset, 30e-6}, context,
                        result);
+}
+
+void run(Bench& bench) {
+  const BenchContext& given = bench.context;
+  BenchResult& result = bench.result;
+  BenchContext context = given;
+  context.seed = (given.seed - 1) * 10'000 + 1;  // each push has its own seed: seeds 1 and 2 share none
+  const PaperText paper = paper_of(context.models);
+  const Extent extent = extent_of(context, paper);
+  const double share = context.full ? 0.3 : 1.0;  // of the bar
+  const auto tell = [&](double done) {
+    if (context.progress) context.progress(done);
+  };
+  const std::vector<Level> all = all_levels(
+      context, extent, [&](double done) { tell(0.3 * share * done); }, result);
+  const std::vector<Level> levels(all.begin() + static_cast<std::ptrdiff_t>(extent.below.size()), all.end());
+  add_boundary(context, extent, paper, bench);
+  tell(0.7 * share);
+  add_slope(levels, paper, bench);
+  add_no_threshold(context, extent, bench);
+  tell(0.8 * share);
+  add_firm(context, extent, bench);
+  add_error_figures(levels, paper, bench);
+  result.plots.push_back(error_plot(all, paper));
+  result.plots.push_back(apparent_plot(all, paper));
+  add_level_table(all, result);
+  add_motion_plot(context, extent, result);
+  add_explanations(context, share, tell, result);
   result.note =
       "Calibrated on the softest stable wall: the pusher's stiffness. Assumed: threshold and drift of the "
       "force's zero, which set the error below 0.3 N/mm.";
