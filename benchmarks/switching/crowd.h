@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "benchmarks/kit/bench.h"
 #include "core/control/scene/scene.h"
 
 namespace enc::bench::switching {
@@ -25,5 +26,8 @@ struct Nearby {
 // face alone.
 [[nodiscard]] std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, double radius);
 [[nodiscard]] double distance_to(const Scene& scene, std::int32_t object, const Point<'W'>& p);  // m
+
+// The part of the benchmark `switching` that judges the choice: right, without chatter, in time.
+void add_choice(Bench& bench);
 
 }  // namespace enc::bench::switching

@@ -1,20 +1,16 @@
-// Choice of the nearest of many objects, and the motion of dynamic objects [VisHap 2.2, 2.3.3].
+// Choice of the nearest of many objects (choice.cpp), and the motion of dynamic objects [VisHap 2.2, 2.3.3].
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/switching/crowd.h"
 #include "sim/bodies/mujoco.h"
-#include "trial/finger_loop.h"
 #include "trial/trial.h"
 
 namespace enc::bench::switching {
@@ -170,71 +166,98 @@ void hit_by_hand(Bench& bench) {
                "contacts that the core counts, less the hits that the scene's own hand makes");
 }
 
-void hit_balls(Bench& bench) {
-  const BenchContext& context = bench.context;
-  const std::vector<double> set =
-      context.quick ? std::vector<double>{0.8} : std::vector<double>{0.2, 0.4, 0.6, 0.8, 1.0};
-  const std::vector<double> speeds =
-      context.quick ? std::vector<double>{0.3} : std::vector<double>{0.1, 0.3, 0.6};
-  const std::size_t seeds = context.quick ? 1 : kSeeds;
-  std::vector<Bounce> hits(set.size() * speeds.size() * seeds);
-  const auto set_of = [&](std::size_t i) { return set[i / (speeds.size() * seeds)]; };
-  in_parallel(hits.size(), [&](std::size_t i) {
-    hits[i] =
-        hit_once(even_hit(context, speeds[i / seeds % speeds.size()], set_of(i)), context.seed + i % seeds);
+// Hits with each restitution that is set, at each speed, by each seed.
+struct Hits {
+  std::vector<double> set, speeds;  // speeds: m/s
+  std::size_t seeds;
+  std::vector<Bounce> all;  // [set][speed][seed]
+
+  [[nodiscard]] double set_of(std::size_t i) const { return set[i / (speeds.size() * seeds)]; }
+  [[nodiscard]] double speed_of(std::size_t i) const { return speeds[i / seeds % speeds.size()]; }
+};
+Hits all_hits(const BenchContext& context) {
+  Hits hits;
+  hits.set = context.quick ? std::vector<double>{0.8} : std::vector<double>{0.2, 0.4, 0.6, 0.8, 1.0};
+  hits.speeds = context.quick ? std::vector<double>{0.3} : std::vector<double>{0.1, 0.3, 0.6};
+  hits.seeds = context.quick ? 1 : kSeeds;
+  hits.all.resize(hits.set.size() * hits.speeds.size() * hits.seeds);
+  in_parallel(hits.all.size(), [&](std::size_t i) {
+    hits.all[i] =
+        hit_once(even_hit(context, hits.speed_of(i), hits.set_of(i)), context.seed + i % hits.seeds);
   });
+  return hits;
+}
+
+Plot restitution_plot(const Hits& hits) {
   Plot plot{"switching_restitution", "A ball that is hit in the twin", "restitution that is set",
             "restitution measured, mean over seeds"};
-  // Below this restitution, one encoder count in the speed's averaging time, 4 mm/s, is a fifth of the speed
-  // or more.
-  constexpr double kSoft = 0.4;
-  double worst = 0.0, off = 0.0, returned = 0.0;
-  std::vector<Bounce> firm;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double error = std::abs(hits[i].restitution / set_of(i) - 1.0);
-    const double wrong = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-    if (set_of(i) >= kSoft) firm.push_back(hits[i]);
-    if (set_of(i) >= kSoft) worst = std::max(worst, wrong);
-    off = std::max(off, wrong * set_of(i));
-    returned = std::max(returned, hits[i].restitution);
-  }
-  for (std::size_t k = 0; k < speeds.size(); ++k) {
-    Series series{fmt::format("{:g} m/s", speeds[k])};
+  for (std::size_t k = 0; k < hits.speeds.size(); ++k) {
+    Series series{fmt::format("{:g} m/s", hits.speeds[k])};
     series.mark = Mark::both;
-    for (std::size_t j = 0; j < set.size(); ++j) {
+    for (std::size_t j = 0; j < hits.set.size(); ++j) {
       double sum = 0.0;
-      for (std::size_t n = 0; n < seeds; ++n) sum += hits[(j * speeds.size() + k) * seeds + n].restitution;
-      series.add(set[j], sum / static_cast<double>(seeds));
+      for (std::size_t n = 0; n < hits.seeds; ++n)
+        sum += hits.all[(j * hits.speeds.size() + k) * hits.seeds + n].restitution;
+      series.add(hits.set[j], sum / static_cast<double>(hits.seeds));
     }
     plot.series.push_back(std::move(series));
   }
   plot.caption =
       "Speeds along the normal: of the true finger before it touches the prop, and of both as they part.";
-  bench.result.plots.push_back(std::move(plot));
-  const std::string hand = ", by a hand that goes on evenly, seen by the tracker that ships; over all hits";
+  return plot;
+}
+
+constexpr const char* kEvenHand =
+    ", by a hand that goes on evenly, seen by the tracker that ships; over all hits";
+// Below this restitution, one encoder count in the speed's averaging time, 4 mm/s, is a fifth of the speed
+// or more.
+constexpr double kSoft = 0.4;
+
+void add_restitutions(const Hits& hits, Bench& bench) {
+  double worst = 0.0, off = 0.0, returned = 0.0;
+  for (std::size_t i = 0; i < hits.all.size(); ++i) {
+    const double set = hits.set_of(i);
+    const double error = std::abs(hits.all[i].restitution / set - 1.0);
+    const double wrong = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    if (set >= kSoft) worst = std::max(worst, wrong);
+    off = std::max(off, wrong * set);
+    returned = std::max(returned, hits.all[i].restitution);
+  }
+  const std::string hand = kEvenHand;
   bench.figure("hit.restitution_error.max", 100.0 * worst, "%", at_most(10.0),
                "measured over set, which is 0.4 to 1" + hand);
   bench.figure("hit.restitution_off.max", off, "", at_most(0.1),
                "measured less set, which is 0.2 to 1" + hand);
   bench.figure("hit.returned.max", returned, "", at_most(1.0),
                "restitution measured, set to 0.2 to 1" + hand);
-  bench.figure("hit.contacts.least",
-               least_of(hits, [](const Bounce& h) { return static_cast<double>(h.contacts); }), "",
-               exactly(1.0), "of a hit" + hand);
-  bench.figure("hit.contacts.max",
-               most_of(hits, [](const Bounce& h) { return static_cast<double>(h.contacts); }), "",
-               exactly(1.0), "of a hit" + hand);
-  bench.figure("hit.impulse_over_momentum.least",
-               least_of(firm, [](const Bounce& h) { return h.rendered / h.momentum; }), "x",
-               between(0.9, 1.1), "of the force that the arm is told, over the ball's" + hand);
-  bench.figure("hit.impulse_over_momentum.max",
-               most_of(firm, [](const Bounce& h) { return h.rendered / h.momentum; }), "x", between(0.9, 1.1),
-               "likewise");
+}
+
+// Contacts, impulses and energies.
+void add_impulses(const Hits& hits, Bench& bench) {
+  std::vector<Bounce> firm;
+  for (std::size_t i = 0; i < hits.all.size(); ++i)
+    if (hits.set_of(i) >= kSoft) firm.push_back(hits.all[i]);
+  const std::string hand = kEvenHand;
+  const auto contacts = [](const Bounce& h) { return static_cast<double>(h.contacts); };
+  const auto rendered = [](const Bounce& h) { return h.rendered / h.momentum; };
+  bench.figure("hit.contacts.least", least_of(hits.all, contacts), "", exactly(1.0), "of a hit" + hand);
+  bench.figure("hit.contacts.max", most_of(hits.all, contacts), "", exactly(1.0), "of a hit" + hand);
+  bench.figure("hit.impulse_over_momentum.least", least_of(firm, rendered), "x", between(0.9, 1.1),
+               "of the force that the arm is told, over the ball's" + hand);
+  bench.figure("hit.impulse_over_momentum.max", most_of(firm, rendered), "x", between(0.9, 1.1), "likewise");
   bench.figure("hit.finger_over_momentum.max",
-               most_of(hits, [](const Bounce& h) { return h.given / h.momentum; }), "x",
+               most_of(hits.all, [](const Bounce& h) { return h.given / h.momentum; }), "x",
                "of the true force of the finger, over the ball's: the arm's own mass is struck, too");
-  bench.figure("hit.energy_over_work.max", most_of(hits, [](const Bounce& h) { return h.energy / h.work; }),
-               "x", at_most(1.0), "of the ball, over the work of the true finger on the prop" + hand);
+  bench.figure("hit.energy_over_work.max",
+               most_of(hits.all, [](const Bounce& h) { return h.energy / h.work; }), "x", at_most(1.0),
+               "of the ball, over the work of the true finger on the prop" + hand);
+}
+
+void hit_balls(Bench& bench) {
+  const Hits hits = all_hits(bench.context);
+  bench.result.plots.push_back(restitution_plot(hits));
+  add_restitutions(hits, bench);
+  add_impulses(hits, bench);
   hit_by_hand(bench);
 }
 
@@ -376,190 +399,8 @@ void move_things(Bench& bench) {
   run_drum(bench);
 }
 
-// s of this thread for step() alone, with the finger at p.
-double time_of(trial::FingerLoop& loop, const Point<'W'>& p) {
-  loop.put(p);
-  const double start = thread_seconds();
-  loop.go();
-  return thread_seconds() - start;
-}
-
-constexpr double kNoise = 1e-3;        // m, of the finger along each axis [V35]
-constexpr double kSeenNoise = 0.5e-3;  // m, of the rig [VisHap 2.1]
-
-// The finger's pose is exact: only the choice is judged.
-Scene bare_scene(const BenchContext& context) {
-  return trial::prepare_setup(load_scene(context, "keypad", {}, {"rig.tracker.prediction=\"hold\""}));
-}
-
-Point<'W'> anywhere(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> even(-kCrowdRoom, kCrowdRoom);
-  const double x = even(random), y = even(random), z = even(random);
-  return {x, y, z};
-}
-
-double share_right(const BenchContext& context, int queries) {
-  Scene scene = bare_scene(context);
-  fill_with_crowd(scene, 50, context.seed);
-  trial::FingerLoop loop(std::move(scene));
-  std::mt19937_64 random(context.seed);
-  int right = 0;
-  for (int i = 0; i < queries; ++i) {
-    loop.state = State{};
-    const Point<'W'> p = anywhere(random);
-    loop.tick(p);
-    // Objects that are touched come first, so the nearest of all may not be one of them.
-    right += loop.out.object == nearest_for_a_finger(loop.scene, p, loop.scene.tools[0].tip.radius) ? 1 : 0;
-  }
-  return static_cast<double>(right) / queries;
-}
-
-// Tracking of a finger at rest: exact, each tick; or by vision, 20 pictures a second that arrive 50 ms old,
-// predicted by the scene's filter.
-enum class Shown : std::uint8_t { each_tick, pictures };
-struct Chatter {
-  const char* name;
-  Point<'W'> middle;
-  Shown shown = Shown::each_tick;
-  std::vector<double> per_second = {};
-};
-
-// Two balls that face each other 40 mm apart: noise has its worst effect there.
-Scene facing(Scene scene) {
-  const Surface ball{Sphere{0.010}};
-  scene.objects = {Object{ball, Pose<'W', 'O'>::shift(-0.03, 0, 0), {}},
-                   Object{ball, Pose<'W', 'O'>::shift(0.03, 0, 0), {}}};
-  return scene;
-}
-
-double switches_per_second(Scene scene, double hysteresis, const Chatter& finger, double seconds,
-                           std::uint64_t seed) {
-  constexpr int kPicture = 50;  // ticks
-  constexpr Duration kOld = std::chrono::milliseconds(50);
-  constexpr int kFrom = 1000;  // ticks until the filter has settled on the finger
-  scene.follow.hysteresis = hysteresis;
-  trial::FingerLoop loop(std::move(scene));
-  std::mt19937_64 random(seed);
-  const bool pictures = finger.shown == Shown::pictures;
-  std::normal_distribution<double> bell(0.0, pictures ? kSeenNoise : kNoise);
-  int count = 0;
-  std::int32_t before = -1;
-  for (int i = 0; i < kFrom + static_cast<int>(seconds / loop.scene.dt); ++i) {
-    if (pictures && i % kPicture != 0) {
-      loop.tick();
-    } else {
-      const double x = bell(random), y = bell(random), z = bell(random);
-      const Point<'W'> p = finger.middle + Vec<'W'>(x, y, z);
-      pictures ? loop.see(p, kOld) : loop.tick(p);
-    }
-    count += i > kFrom && before >= 0 && loop.out.object != before ? 1 : 0;
-    before = loop.out.object;
-  }
-  return count / seconds;
-}
-
-void chatter(Bench& bench) {
-  const BenchContext& context = bench.context;
-  const double seconds = context.quick ? 5.0 : 60.0;
-  std::vector<double> hysteresis;
-  for (int mm = 0; mm <= 14; ++mm) hysteresis.push_back(1e-3 * mm);
-  const Scene keypad = bare_scene(context), whole = trial::prepare_setup(load_scene(context, "keypad"));
-  // 12 mm over the gap between two keys: a finger that searches for the next one.
-  const Point<'W'> gap(0.010, 0.010, 0.012);
-  std::vector<Chatter> cases{{"two balls that face each other", {0, 0, 0}},
-                             {"two keys side by side", gap},
-                             {"the same, 20 pictures a second, and 60 ms ahead", gap, Shown::pictures}};
-  for (Chatter& one : cases) {
-    one.per_second.resize(hysteresis.size());
-    const bool balls = &one == &cases.front();
-    in_parallel(hysteresis.size(), [&](std::size_t i) {
-      const Scene& keys = one.shown == Shown::pictures ? whole : keypad;
-      one.per_second[i] =
-          switches_per_second(balls ? facing(keypad) : keys, hysteresis[i], one, seconds, context.seed);
-    });
-  }
-  bench.figure("chatter.facing_none", cases[0].per_second[0], "1/s", at_least(10.0),
-               "without hysteresis, 1 mm noise");
-  bench.figure("chatter.facing_12mm", cases[0].per_second[12], "1/s", at_most(0.0),
-               "with the 12 mm of room.toml, six sigma of the difference");
-  bench.figure("chatter.keys_3mm", cases[1].per_second[3], "1/s", at_most(0.0),
-               "with the 3 mm of keypad.toml");
-  bench.figure("chatter.keys_seen_3mm", cases[2].per_second[3], "1/s",
-               "as vision sees it: 20 pictures a second with 0.5 mm, 50 ms old, carried on and looked ahead");
-  Plot plot{"switching_chatter", "Changes of the nearest object on the mid-line", "hysteresis (mm)",
-            "changes (1/s)"};
-  for (const Chatter& one : cases) {
-    Series series{.name = one.name, .mark = Mark::both};
-    for (std::size_t i = 0; i < hysteresis.size(); ++i) series.add(1e3 * hysteresis[i], one.per_second[i]);
-    plot.series.push_back(std::move(series));
-  }
-  plot.caption =
-      "A finger that is seen with 1 mm noise (one sigma, each axis, every tick; or in pictures with 0.5 mm) "
-      "stands where two objects are equally near. Between objects that face each other the noise counts "
-      "twice; beside each other, less.";
-  bench.result.plots.push_back(std::move(plot));
-}
-
-// Time of a tick, and of testing all objects for an equal answer, over the number of objects.
-void timing(Bench& bench) {
-  const BenchContext& context = bench.context;
-  const std::vector<std::size_t> counts{1, 3, 10, 30, 100, 300, 1000};
-  const int ticks = context.quick ? 4000 : 20000;
-  Series ours{"step(), median"}, worst{"step(), p99.9"}, brute{"asking every object, without bounds"};
-  double wrong = 0.0, ratio = kUnset;
-  Yardstick yardstick;
-  for (const std::size_t count : counts) {
-    Scene scene = bare_scene(context);
-    fill_with_crowd(scene, count, context.seed);
-    trial::FingerLoop loop(std::move(scene));
-    std::vector<double> step_s, all_s;
-    for (int i = 0; i < ticks; ++i) {
-      const double t = 1e-3 * i;  // up to 300 mm/s
-      const Point<'W'> p(0.25 * std::sin(0.9 * t), 0.25 * std::sin(1.3 * t + 1.0), 0.25 * std::sin(0.7 * t));
-      step_s.push_back(time_of(loop, p));
-      if (i % 10 != 0) continue;
-      yardstick.measure();
-      const double start = thread_seconds();
-      const Nearby all = brute_force(loop.scene, p);
-      all_s.push_back(thread_seconds() - start);
-      const double chosen = distance_to(loop.scene, loop.out.object, p);
-      // An object in contact stays chosen until the finger has left it.
-      if (loop.out.mode != Mode::contact) wrong = std::max(wrong, chosen - all.distance);  // m
-    }
-    const auto n = static_cast<double>(count);
-    for (Series* s : {&ours, &worst, &brute}) s->x.push_back(n);
-    ours.y.push_back(1e6 * percentile(step_s, 0.5));
-    worst.y.push_back(1e6 * percentile(step_s, 0.999));
-    brute.y.push_back(1e6 * percentile(all_s, 0.5));
-    ratio = brute.y.back() / ours.y.back();
-  }
-  bench.cost("tick_1000.p50", ours.y.back(), "us",
-             "step() in a scene of 1,000 objects; CPU time of its thread");
-  bench.cost("tick_1000.p99_9", worst.y.back(), "us", "the same");
-  bench.cost("tick_1000.over_yardstick.median", 1e-6 * ours.y.back() / yardstick.seconds(), "x", at_most(4.0),
-             "the median over a fixed piece of work of the same run (kit/cost.h)");
-  bench.cost("brute_over_tick_1000.median", ratio, "x", at_least(2.0),
-             "asking every object over the whole of step()");
-  bench.figure("farther_than_nearest.max", 1e3 * wrong, "mm",
-               at_most(1e3 * (bare_scene(context).follow.hysteresis + 0.008)),
-               "the chosen object beyond the nearest: the hysteresis, or what is touched comes first");
-  for (Series* s : {&ours, &worst, &brute}) s->mark = Mark::both;
-  Plot plot{
-      "switching_time", "Time of a tick over the number of objects", "objects", "time (us)", true, true};
-  plot.series = {ours, worst, brute};
-  plot.caption =
-      "The answers are the same, so the run time alone is left of an error-against-run-time diagram. Objects "
-      "whose ball is farther than the nearest so far are not asked.";
-  bench.result.plots.push_back(std::move(plot));
-}
-
 void run(Bench& bench) {
-  const BenchContext& context = bench.context;
-  bench.figure("right", 100.0 * share_right(context, context.quick ? 2000 : 10'000), "%", exactly(100.0),
-               "queries over 50 objects of four kinds, against asking each by hand");
-  chatter(bench);
-  bench.progress(0.3);
-  timing(bench);
+  add_choice(bench);
   bench.progress(0.5);
   slide_over_keys(bench);
   bench.progress(0.8);
