@@ -287,24 +287,38 @@ void add_cost(Bench& bench) {
              "the same, 10 kHz and 10 ms: 100 periods late");
 }
 
-// A map of a button that is pressed to its bottom.
-void add_button_map(Bench& bench) {
-  std::vector<std::string> titles;
-  std::vector<Device> devices;
+struct KeyPanel {
+  std::string title;
+  Device device;  // the delay comes from the place
+};
+std::vector<KeyPanel> key_panels() {
+  std::vector<KeyPanel> all;
   for (const double period : {1e-3, 10e-3})
-    for (const Grip& grip : kGrips) {
-      titles.push_back(fmt::format("{}, every {:g} ms", grip.name, period * 1e3));
-      devices.push_back(held_by({0.1, 0.2, period, 0.0}, grip));
-    }
+    for (const Grip& grip : kGrips)
+      all.push_back({fmt::format("{}, every {:g} ms", grip.name, period * 1e3),
+                     held_by({0.1, 0.2, period, 0.0}, grip)});
+  return all;
+}
+
+std::vector<KeyCell> key_cells(const std::vector<KeyPanel>& panels, const BenchContext& context) {
   std::vector<KeyCell> all;
-  for (std::size_t panel = 0; panel < devices.size(); ++panel)
+  for (std::size_t panel = 0; panel < panels.size(); ++panel)
     for (std::size_t delay = 0; delay < kDelays.size(); ++delay) {
       if (std::abs(std::remainder(kDelays[delay], kKeyStep)) > 1e-9) continue;  // no whole number of steps
-      for (const double stiffness : stiffnesses(bench.context)) {
-        all.push_back({panel, delay, stiffness, devices[panel]});
+      for (const double stiffness : stiffnesses(context)) {
+        all.push_back({panel, delay, stiffness, panels[panel].device});
         all.back().device.delay = kDelays[delay];
       }
     }
+  return all;
+}
+
+// A map of a button that is pressed to its bottom.
+void add_button_map(Bench& bench) {
+  const std::vector<KeyPanel> panels = key_panels();
+  std::vector<std::string> titles;
+  for (const KeyPanel& panel : panels) titles.push_back(panel.title);
+  const std::vector<KeyCell> all = key_cells(panels, bench.context);
   const auto found = bench.each(all, key_outcome);
   Map map("map_button", "A button that is pressed to its bottom and moved 1 mm aside", titles, 3);
   double same = 0.0;
@@ -420,8 +434,8 @@ void add_scenes(Bench& bench) {
   bench.cost("scenes.time.max", 1e3 * most, "ms", "CPU time of all certificates of a scene, at most");
 }
 
-// Error against run time: time step x integrator.
-void add_error_over_time(Bench& bench) {
+// Each integrator with each time step and delay, with its error and cost.
+std::vector<Setting> timed_settings(Bench& bench) {
   std::vector<Setting> all;
   for (const double delay : {0.0, 2e-3})
     for (const Scheme scheme : kSchemes)
@@ -435,30 +449,32 @@ void add_error_over_time(Bench& bench) {
       for (int i = 0; i < kTimedPeriods; ++i) slide.period();
     });
   const Race race(bench.context.quick ? 3 : 5, ways);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].cost = race.seconds(i) / (kTimedPeriods * kTimedPeriod);
+  return all;
+}
+
+bool is_default(const Setting& s) { return s.scheme == Scheme::rk4 && s.steps == kStepCounts.front(); }
+
+Table settings_table(const std::vector<Setting>& all) {
   Table table{"work_precision",
               "Error of the critical stiffness against run time",
               {"integrator", "time step", "delay (ms)", "error (%)", "CPU s per s"}};
+  for (const Setting& s : all)
+    table.add(name_of(s.scheme), s.steps == kStepCounts.front() ? "T" : fmt::format("T/{}", s.steps),
+              s.delay * 1e3, s.none ? "failed: stable for every stiffness" : fmt::format("{:.3g}", s.error),
+              fmt::format("{:.3g}", s.cost));
+  return table;
+}
+
+Plot settings_plot(const std::vector<Setting>& all) {
   std::vector<CostCurve> curves;
   Series chosen{.name = "default: rk4, a step a period", .mark = Mark::points, .paper = true};
-  double error = 0.0, cost = kUnset, cheapest = kUnset;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Setting& s = all[i];
-    s.cost = race.seconds(i) / (kTimedPeriods * kTimedPeriod);
-    const bool first = s.steps == kStepCounts.front();
-    if (first)
+  for (const Setting& s : all) {
+    if (s.steps == kStepCounts.front())
       curves.push_back({fmt::format("{}, {}", name_of(s.scheme), s.delay > 0.0 ? "2 ms late" : "in time")});
     curves.back().cost.push_back(s.cost);
     curves.back().error.push_back(s.error);
-    table.add(name_of(s.scheme), first ? "T" : fmt::format("T/{}", s.steps), s.delay * 1e3,
-              s.none ? "failed: stable for every stiffness" : fmt::format("{:.3g}", s.error),
-              fmt::format("{:.3g}", s.cost));
-    if (s.scheme == Scheme::rk4 && first) {
-      chosen.add(s.cost, s.error);
-      error = worse(error, s.error);
-      if (s.delay == 0.0) cost = s.cost;
-    } else if (s.error <= 3.0 && s.delay == 0.0 && !(cheapest < s.cost)) {
-      cheapest = s.cost;
-    }
+    if (is_default(s)) chosen.add(s.cost, s.error);
   }
   Plot plot = cost_beside_error(
       {.id = "work_precision",
@@ -469,8 +485,23 @@ void add_error_over_time(Bench& bench) {
                   "stable. 3 % is what is asked; below 0.05 % the search for the boundary decides."},
       curves);
   plot.series.push_back(std::move(chosen));
-  bench.plot(std::move(plot));
-  bench.table(std::move(table));
+  return plot;
+}
+
+// Error against run time: time step x integrator.
+void add_error_over_time(Bench& bench) {
+  const std::vector<Setting> all = timed_settings(bench);
+  double error = 0.0, cost = kUnset, cheapest = kUnset;
+  for (const Setting& s : all) {
+    if (is_default(s)) {
+      error = worse(error, s.error);
+      if (s.delay == 0.0) cost = s.cost;
+    } else if (s.error <= 3.0 && s.delay == 0.0 && !(cheapest < s.cost)) {
+      cheapest = s.cost;
+    }
+  }
+  bench.plot(settings_plot(all));
+  bench.table(settings_table(all));
   bench.figure("work_precision.error.max", error, "%", at_most(3.0),
                "critical stiffness at the default, rk4, a step a period");
   bench.cost("work_precision.default_over_cheapest.cpu", cost / cheapest, "x",

@@ -304,6 +304,20 @@ struct Width {
   const char* kind;  // a series of the plot
 };
 
+// From low to high, one after the other; a series for each kind.
+void draw_widths(const std::vector<Width>& all, Plot& plot) {
+  constexpr double kEdge = 1e-3;  // N/mm: end of an axis without a 0
+  for (const Width& width : all) {
+    auto at = std::find_if(plot.series.begin(), plot.series.end(),
+                           [&](const Series& s) { return s.name == width.kind; });
+    if (at == plot.series.end())
+      at = plot.series.insert(plot.series.end(), Series{.name = width.kind, .mark = Mark::points});
+    const double low = std::isnan(width.low) ? width.high : std::max(width.low, kEdge);
+    at->add(static_cast<double>(plot.x_names.size()), Value(width.high, low, width.high));
+    plot.x_names.push_back(width.brief);
+  }
+}
+
 std::vector<Width> width_of_arm(const Bench& bench) {
   const models::Setup setup = models::load(bench.context.models + "/scenes/wall.toml", {});
   const certificate::Certificate wall =
@@ -491,19 +505,12 @@ void add_widths(Bench& bench) {
             .y_label = "stiffness (N/mm)",
             .log_y = true};
   const auto number = [](double k) { return std::isnan(k) ? std::string("-") : fmt::format("{:.3g}", k); };
-  constexpr double kEdge = 1e-3;  // N/mm: end of an axis without a 0
   for (const Width& width : all) {
     const bool recalled = std::string_view(width.kind) == "from memory";
     table.add(width.device, width.what, number(width.low), number(width.high),
               width.source + (recalled ? " (from memory)" : ""));
-    auto at = std::find_if(plot.series.begin(), plot.series.end(),
-                           [&](const Series& s) { return s.name == width.kind; });
-    if (at == plot.series.end())
-      at = plot.series.insert(plot.series.end(), Series{.name = width.kind, .mark = Mark::points});
-    const double low = std::isnan(width.low) ? width.high : std::max(width.low, kEdge);
-    at->add(static_cast<double>(plot.x_names.size()), Value(width.high, low, width.high));
-    plot.x_names.push_back(width.brief);
   }
+  draw_widths(all, plot);
   table.note =
       "An arm renders nothing softly without end: from 0; its friction of some 0.05 N hides what is softer "
       "than "

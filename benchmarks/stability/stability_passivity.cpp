@@ -363,16 +363,23 @@ void add_sessions(Bench& bench) {
   }
 }
 
-}  // namespace
-
-void add_passivity(Bench& bench) {
+// Three walls beyond the bound of stability and three of a fixed stiffness; then all again with counts.
+struct Rows {
+  std::vector<Row> all;
+  std::size_t beyond, exact;  // how many of the first are beyond the bound; have no counts
+};
+Rows measured_rows(Bench& bench) {
   std::vector<Row> rows;
   for (const double damping : {0.05, 0.2, 1.0}) rows.push_back({damping, beyond(damping)});
+  const std::size_t unstable = rows.size();
   for (const double stiffness : {1e3, 1e4, 1e5}) rows.push_back({0.2, stiffness});
   const std::size_t exact = rows.size();
   for (std::size_t i = 0; i < exact; ++i) rows.push_back({rows[i].damping, rows[i].stiffness, 30e-6});
   const bool quick = bench.context.quick;
-  rows = bench.each(rows, [&](const Row& row) { return measured(row, quick); });
+  return {bench.each(rows, [&](const Row& row) { return measured(row, quick); }), unstable, exact};
+}
+
+Table energy_table(const std::vector<Row>& rows) {
   Table table{"passivity",
               "Energy that a sampled wall gives out",
               {"b (N s/m)", "K (N/m)", "count (um)", "bounce: out (mJ)", "parts at", "pressed: out (mJ)",
@@ -381,21 +388,24 @@ void add_passivity(Bench& bench) {
               "0.1 kg, 1 kHz, at most 8.5 N, 20 to 300 mm/s. Out: more than in, at any moment of a contact. "
               "Parts at: over the speed at which it met. Pressed: by 1 N for 30 s, on a surface that waves "
               "by 1 mm under a finger that slides at 100 mm/s."};
-  double bounced = 0.0, slid = 0.0, stiff = 0.0, without = HUGE_VAL, counted = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& r = rows[i];
+  for (const Row& r : rows)
     table.add(r.damping, fixed(r.stiffness, 0), r.count * 1e6, fixed(r.off.given * 1e3, 3),
               fixed(r.off.parted, 3), fixed(r.off_pressed * 1e3, 3), fixed(r.on.given * 1e3, 4),
               fixed(r.on.parted, 3), fixed(r.on_pressed * 1e3, 4));
-    if (i < 3) {
+  return table;
+}
+
+void add_energies(const Rows& rows, Bench& bench) {
+  double bounced = 0.0, slid = 0.0, stiff = 0.0, without = HUGE_VAL, counted = 0.0;
+  for (std::size_t i = 0; i < rows.all.size(); ++i) {
+    const Row& r = rows.all[i];
+    if (i < rows.beyond) {
       bounced = worse(bounced, r.on.given);
       slid = worse(slid, r.on_pressed);
       without = std::min(without, r.off.given);
     }
-    if (i < exact)
-      stiff = worse(stiff, r.on.kept);
-    else
-      counted = worse(counted, r.on.kept);
+    double& kept = i < rows.exact ? stiff : counted;
+    kept = worse(kept, r.on.kept);
   }
   bench.figure("passivity.bounces.energy.max", 1e3 * bounced, "mJ", at_most(0.1),
                "more out than in, at any moment of 1000 bounces at three times the bound of stability, with "
@@ -408,27 +418,23 @@ void add_passivity(Bench& bench) {
                "that a bounce gains with it, walls to 1e5 N/m: at most F v T of one cycle");
   bench.figure("passivity.counts.energy.max", 1e3 * counted, "mJ", at_most(8.5 * 0.3 * 1e-3 * 1e3),
                "the same with counts of 30 um");
-  bench.figure("passivity.none.gain", gained(1e3, false), "%", between(7.0, 11.0),
-               "by which it parts faster from 1e3 N/m, held for 1 ms, than from a wall without sampling; no "
-               "controller; theory: 9");
-  bench.figure("passivity.gain", gained(1e3, true), "%",
-               "the same with it: the damper of that law takes more than sampling gives out, so there is "
-               "nothing to take");
-  add_cost_of_control(bench);
-  bench.table(std::move(table));
 }
 
-void add_spare(Bench& bench) {
+// Objects under hands, each pushed without and with the controller.
+std::vector<SparePush> spare_pushes(Bench& bench) {
   std::vector<SparePush> rows;
   for (const SpareHand& grip : {SpareHand{130.0, 2.0, 130.0}, SpareHand{700.0, 4.0, 700.0},
                                 SpareHand{2000.0, 8.0, 2000.0}, SpareHand{2000.0, 8.0, 700.0}})
     for (const double object : {10.0, 30.0, 100.0, 1000.0}) rows.push_back({object, grip});
-  rows = bench.each(rows, [&](const SparePush& row) {
+  return bench.each(rows, [&](const SparePush& row) {
     SparePush found = row;
     found.off = pushed(bench.context, row.object, row.grip, false);
     found.on = pushed(bench.context, row.object, row.grip, true);
     return found;
   });
+}
+
+Table spare_table(const std::vector<SparePush>& rows) {
   Table table{"spare",
               "Energy that a hand gets out of what the hexapod renders",
               {"hand (N/m)", "believed (N/m)", "K (N/m)", "out (mJ)", "in (mJ)", "swing (mm)", "bounces",
@@ -436,12 +442,33 @@ void add_spare(Bench& bench) {
               {},
               "Pushed 15 mm deep and held for 6 s, 12 times. Out: more than in, at any moment of a contact; "
               "in: the most that it held."};
-  double with = 0.0, without = 0.0, mistaken = 0.0, firm = 0.0;
-  std::int64_t bounces = 0;
-  for (const SparePush& r : rows) {
+  for (const SparePush& r : rows)
     table.add(r.grip.stiffness, r.grip.believed, r.object, fixed(r.off.out * 1e3, 3),
               fixed(r.off.put * 1e3, 1), fixed(r.off.swing * 1e3, 2), r.off.bounces, fixed(r.on.out * 1e3, 4),
               fixed(r.on.put * 1e3, 1), fixed(r.on.swing * 1e3, 2), r.on.bounces);
+  return table;
+}
+
+}  // namespace
+
+void add_passivity(Bench& bench) {
+  const Rows rows = measured_rows(bench);
+  add_energies(rows, bench);
+  bench.figure("passivity.none.gain", gained(1e3, false), "%", between(7.0, 11.0),
+               "by which it parts faster from 1e3 N/m, held for 1 ms, than from a wall without sampling; no "
+               "controller; theory: 9");
+  bench.figure("passivity.gain", gained(1e3, true), "%",
+               "the same with it: the damper of that law takes more than sampling gives out, so there is "
+               "nothing to take");
+  add_cost_of_control(bench);
+  bench.table(energy_table(rows.all));
+}
+
+void add_spare(Bench& bench) {
+  const std::vector<SparePush> rows = spare_pushes(bench);
+  double with = 0.0, without = 0.0, mistaken = 0.0, firm = 0.0;
+  std::int64_t bounces = 0;
+  for (const SparePush& r : rows) {
     const bool known = r.grip.believed >= r.grip.stiffness;
     double& most = known ? with : mistaken;
     most = worse(most, r.on.out);
@@ -459,7 +486,7 @@ void add_spare(Bench& bench) {
                "by which what is put into a wall of 1 N/mm, which is stable, differs with it");
   add_sessions(bench);
   add_ball(bench);
-  bench.table(std::move(table));
+  bench.table(spare_table(rows));
 }
 
 }  // namespace enc::bench::stability
