@@ -342,6 +342,41 @@ Costs costs_of(const BenchContext& context, const std::string& scene) {
   return costs;
 }
 
+// The scene's row of the table: times in us for each tick.
+std::vector<std::string> row_of(const Costs& costs) {
+  std::vector<std::string> row{costs.scene, fixed(costs.minimal * 1e6, 2), fixed(costs.everything * 1e6, 2),
+                               fixed(costs.ratio, 2)};
+  for (const Part part : kParts) {
+    const auto at = std::find(costs.parts.begin(), costs.parts.end(), part);
+    row.push_back(at == costs.parts.end()
+                      ? "-"
+                      : fixed(costs.each[static_cast<std::size_t>(at - costs.parts.begin())] * 1e6, 2));
+  }
+  row.push_back(costs.seen ? "-" : fixed(costs.explained * 100.0, 0));
+  row.push_back(fmt::format("{} of {}", costs.elements, costs.all_elements));
+  return row;
+}
+
+void judge_scene(Bench& bench, const Costs& costs) {
+  std::string name = costs.scene;
+  std::replace(name.begin(), name.end(), '/', '.');
+  bench.figure(name + ".equal", static_cast<double>(costs.equal), "",
+               exactly(static_cast<double>(costs.forms)),
+               "forms in which all that is felt and commanded has the same bits, and without a display all "
+               "that the core knows");
+  bench.figure(name + ".idle", costs.idle.empty() ? 0.0 : 1.0, "", exactly(0.0),
+               costs.idle.empty() ? "parts that were switched on and did nothing" : "idle:" + costs.idle);
+  if (costs.seen)
+    bench.figure(name + ".touched.count", static_cast<double>(costs.touched), "", at_least(1.0),
+                 "ticks at which something was touched");
+  bench.cost(name + ".everything_over_minimal.cpu", costs.ratio, "x");
+  if (costs.seen) return;
+  bench.cost(name + ".parts_over_difference", costs.explained, "x",
+             fmt::format("what the parts but the camera cost one at a time over what they cost together; "
+                         "standard error {:.1f} %",
+                         costs.doubt * 100.0));
+}
+
 void run(Bench& bench) {
   Table table{"scenes",
               "What each part that a scene leaves out would cost, us for each tick",
@@ -353,34 +388,8 @@ void run(Bench& bench) {
   for (const std::string& scene : all) {
     bench.progress(static_cast<double>(table.rows.size()) / static_cast<double>(all.size()));
     const Costs costs = costs_of(bench.context, scene);
-    std::vector<std::string> row{scene, fixed(costs.minimal * 1e6, 2), fixed(costs.everything * 1e6, 2),
-                                 fixed(costs.ratio, 2)};
-    for (const Part part : kParts) {
-      const auto at = std::find(costs.parts.begin(), costs.parts.end(), part);
-      row.push_back(at == costs.parts.end()
-                        ? "-"
-                        : fixed(costs.each[static_cast<std::size_t>(at - costs.parts.begin())] * 1e6, 2));
-    }
-    row.push_back(costs.seen ? "-" : fixed(costs.explained * 100.0, 0));
-    row.push_back(fmt::format("{} of {}", costs.elements, costs.all_elements));
-    table.rows.push_back(std::move(row));
-    std::string name = scene;
-    std::replace(name.begin(), name.end(), '/', '.');
-    bench.figure(name + ".equal", static_cast<double>(costs.equal), "",
-                 exactly(static_cast<double>(costs.forms)),
-                 "forms in which all that is felt and commanded has the same bits, and without a display all "
-                 "that the core knows");
-    bench.figure(name + ".idle", costs.idle.empty() ? 0.0 : 1.0, "", exactly(0.0),
-                 costs.idle.empty() ? "parts that were switched on and did nothing" : "idle:" + costs.idle);
-    if (costs.seen)
-      bench.figure(name + ".touched.count", static_cast<double>(costs.touched), "", at_least(1.0),
-                   "ticks at which something was touched");
-    bench.cost(name + ".everything_over_minimal.cpu", costs.ratio, "x");
-    if (costs.seen) continue;
-    bench.cost(name + ".parts_over_difference", costs.explained, "x",
-               fmt::format("what the parts but the camera cost one at a time over what they cost together; "
-                           "standard error {:.1f} %",
-                           costs.doubt * 100.0));
+    table.rows.push_back(row_of(costs));
+    judge_scene(bench, costs);
   }
   bench.cost("plane.tick_over_mj_step", raw_over(bench.context, "plane", 16.0), "x",
              "the whole tick over MuJoCo's step of the same model alone");
