@@ -236,53 +236,71 @@ Found training(const BenchContext& context) {
 // Tools in unusual places: out of reach, at a singular pose, on two objects at once; and more force than the
 // device has.
 
-// Vision sees the tool move 0.2 m aside and back, twice, and then tremble about the pause distance.
+// Vision sees the tool move 0.2 m aside and back, twice: the movement, and what is seen of the tip.
+struct Leaving {
+  static constexpr double kFar = 0.2, kTurn = 3.0, kFrom = 1.0;  // m, s
+  double now = 0.0;                                              // s
+  double unreachable = 0.0;                                      // ticks with a target out of reach
+  double back = 0.0, farthest = 0.0;                             // m
+
+  void disturb(Inputs& in) {
+    const double since = now - kFrom;
+    now += 1e-3;
+    if (since < 0.0 || since > 2.0 * kTurn) return;
+    const double aside = 0.5 * kFar * (1.0 - std::cos(2.0 * std::numbers::pi * since / kTurn));
+    in.tool.value.X_CT.xyz[0] += aside;
+  }
+  void see(const trial::Glance& g) {
+    unreachable += (g.out.why & kUnreachable) != 0 ? 1.0 : 0.0;
+    const Vec3 off = (g.truth.tool_tip - g.truth.tip).e();
+    farthest = std::max(farthest, std::hypot(g.truth.tip.xyz[0], g.truth.tip.xyz[1]));
+    if (time_of(g) > kFrom + 2.0 * kTurn + 1.2) back = std::max(back, std::hypot(off.x(), off.y()));
+  }
+};
+
+struct WorstHand {
+  double condition = 0.0, dexterity = 1.0;  // the worst of any hand
+  Run run;                                  // the run that is judged
+};
+
+// The place where a tool meets a tip that comes from the side is chance: one hand is not enough.
+WorstHand worst_of_hands(const models::Setup& setup, std::uint64_t seed, Leaving& leaving) {
+  trial::TrialOptions options{.seconds = Leaving::kFrom + 2.0 * Leaving::kTurn + 1.6, .fit_out = keep_clean};
+  options.disturb = [&](Inputs& in) { leaving.disturb(in); };
+  constexpr std::uint64_t kHands = 4;
+  WorstHand worst;
+  for (std::uint64_t hand = 0; hand < kHands; ++hand) {
+    options.seed = seed + hand;
+    leaving.now = 0.0;
+    Run run = judged(setup, options, [&](const trial::Glance& g) { leaving.see(g); });
+    worst.condition = std::max(worst.condition, run.judge.condition);
+    worst.dexterity = std::min(worst.dexterity, run.judge.dexterity);
+    const bool worse = run.judge.broken() > worst.run.judge.broken() || run.result.diverged_at >= 0;
+    if (hand == 0 || worse) worst.run = std::move(run);
+  }
+  return worst;
+}
+
 Found leaves(const BenchContext& context, bool arm) {
-  constexpr double kFar = 0.2, kTurn = 3.0, kFrom = 1.0;  // m, s
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "plane",
                  {"user.approach_mm_s=[10]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"});
   Found found{fmt::format("{}.toml, 200 mm aside and back, twice", arm ? "wall" : "plane"),
               "within reach, never near a singular pose; back in place 1.2 s later",
               {}};
-  double now = 0.0, back = 0.0, unreachable = 0.0, farthest = 0.0;
-  trial::TrialOptions options{.seconds = kFrom + 2.0 * kTurn + 1.6, .fit_out = keep_clean};
-  options.disturb = [&](Inputs& in) {
-    const double since = now - kFrom;
-    now += 1e-3;
-    if (since < 0.0 || since > 2.0 * kTurn) return;
-    const double aside = 0.5 * kFar * (1.0 - std::cos(2.0 * std::numbers::pi * since / kTurn));
-    in.tool.value.X_CT.xyz[0] += aside;
-  };
-  const auto look = [&](const trial::Glance& g) {
-    unreachable += (g.out.why & kUnreachable) != 0 ? 1.0 : 0.0;
-    const Vec3 off = (g.truth.tool_tip - g.truth.tip).e();
-    farthest = std::max(farthest, std::hypot(g.truth.tip.xyz[0], g.truth.tip.xyz[1]));
-    if (time_of(g) > kFrom + 2.0 * kTurn + 1.2) back = std::max(back, std::hypot(off.x(), off.y()));
-  };
-  // The place where a tool meets a tip that comes from the side is chance: one hand is not enough.
-  constexpr std::uint64_t kHands = 4;
-  double condition = 0.0, dexterity = 1.0;
-  Run worst;
-  for (std::uint64_t hand = 0; hand < kHands; ++hand) {
-    options.seed = context.seed + hand;
-    now = 0.0;
-    Run run = judged(setup, options, look);
-    condition = std::max(condition, run.judge.condition);
-    dexterity = std::min(dexterity, run.judge.dexterity);
-    const bool worse = run.judge.broken() > worst.judge.broken() || run.result.diverged_at >= 0;
-    if (hand == 0 || worse) worst = std::move(run);
-  }
-  found.numbers = {{"clamped.value", unreachable, "", {}, "ticks with a target out of reach"},
-                   {"back.max", back * kMmPerM, "mm", at_most(arm ? 3.0 : 1.0),
+  Leaving leaving;
+  const WorstHand worst = worst_of_hands(setup, context.seed, leaving);
+  found.numbers = {{"clamped.value", leaving.unreachable, "", {}, "ticks with a target out of reach"},
+                   {"back.max", leaving.back * kMmPerM, "mm", at_most(arm ? 3.0 : 1.0),
                     "from under the tool, 1.2 s later, worst of 4 hands: 50 mm take 1.1 s"},
-                   {"farthest.max", farthest * kMmPerM, "mm", {}, "of the tip, aside"}};
+                   {"farthest.max", leaving.farthest * kMmPerM, "mm", {}, "of the tip, aside"}};
   if (arm)
-    found.numbers.push_back({"dexterity.min", dexterity, "", at_least(0.9 * setup.rig.arm.least_dexterity),
+    found.numbers.push_back({"dexterity.min", worst.dexterity, "",
+                             at_least(0.9 * setup.rig.arm.least_dexterity),
                              "a tenth for what the arm overshoots"});
   else
-    found.numbers.push_back({"condition.max", condition, "", at_most(20.0), "of the commanded poses"});
-  add_soundness(worst, found);
+    found.numbers.push_back({"condition.max", worst.condition, "", at_most(20.0), "of the commanded poses"});
+  add_soundness(worst.run, found);
   return found;
 }
 

@@ -38,26 +38,23 @@ struct Study {
   std::vector<std::string> instead{};  // settings of a run that costs as much as the refused one
 };
 
+// An arm rings on a wall that is too stiff for it.
+Study ringing(const char* id, const char* title, const char* stiffness) {
+  return {id,
+          title,
+          "wall",
+          "truth.arm",
+          Compared::swing,
+          4.9,
+          {stiffness, "user.push_N=4", "user.approach_mm_s=[100]", "user.press_s=1", "user.hold_s=1.5"},
+          25.0};
+}
+
 const std::vector<Study>& studies() {
   static const std::vector<Study> kStudies{
-      {"wall_3",
-       "arm, wall of 3 N/mm: how it rings",
-       "wall",
-       "truth.arm",
-       Compared::swing,
-       4.9,
-       {"behaviour.phantom_wall.stiffness_N_per_mm=3", "user.push_N=4", "user.approach_mm_s=[100]",
-        "user.press_s=1", "user.hold_s=1.5"},
-       25.0},
-      {"wall_10",
-       "arm, wall of 10 N/mm: how it rings",
-       "wall",
-       "truth.arm",
-       Compared::swing,
-       4.9,
-       {"behaviour.phantom_wall.stiffness_N_per_mm=10", "user.push_N=4", "user.approach_mm_s=[100]",
-        "user.press_s=1", "user.hold_s=1.5"},
-       25.0},
+      ringing("wall_3", "arm, wall of 3 N/mm: how it rings", "behaviour.phantom_wall.stiffness_N_per_mm=3"),
+      ringing("wall_10", "arm, wall of 10 N/mm: how it rings",
+              "behaviour.phantom_wall.stiffness_N_per_mm=10"),
       {"impact",
        "arm, touched at 5 m/s: way of the finger",
        "wall",
@@ -258,6 +255,26 @@ std::string verdict_of(const Found& found) {
   return found.words.empty() ? verdict : verdict + "; " + found.words;
 }
 
+// Each study's converged run.
+std::map<const Study*, Outcome> converged_runs(Bench& bench, const Stepped& fine) {
+  std::vector<const Study*> each;
+  for (const Study& study : studies()) each.push_back(&study);
+  const std::vector<Outcome> references =
+      bench.each(each, [&](const Study* study) { return run_once(*study, bench.context, fine); });
+  std::map<const Study*, Outcome> converged;
+  for (std::size_t i = 0; i < each.size(); ++i) converged[each[i]] = references[i];
+  return converged;
+}
+
+// The figures of a point that is the default.
+void judge_default(Bench& bench, const Tried& p) {
+  const std::string id = fmt::format("work_precision.{}.", p.study->id);
+  const std::string note = fmt::format("default: {} at {:g} us", p.at.integrator, p.at.step * 1e6);
+  bench.figure(id + "failed.value", p.failure.empty() ? 0.0 : 1.0, "", exactly(p.study->refused ? 1.0 : 0.0),
+               p.failure.empty() ? note : note + ": " + p.failure);
+  if (!p.study->refused) bench.figure(id + "error.value", p.error, "%", at_most(p.study->within), note);
+}
+
 // Error against run time.
 void add_error_over_time(Bench& bench) {
   const bool full = bench.context.full;
@@ -266,17 +283,11 @@ void add_error_over_time(Bench& bench) {
            : std::vector<std::string>{"rk4", "implicitfast"};
   const int halved = full ? 5 : 3;
   std::vector<Tried> points;
-  std::vector<const Study*> each;
-  for (const Study& study : studies()) {
-    each.push_back(&study);
+  for (const Study& study : studies())
     for (const std::string& integrator : integrators)
       for (int i = 0; i < halved; ++i) points.push_back({&study, {integrator, std::ldexp(1e-3, -i)}});
-  }
-  const Stepped fine{"rk4", std::ldexp(1e-3, full ? -6 : -5)};
-  const std::vector<Outcome> references =
-      bench.each(each, [&](const Study* study) { return run_once(*study, bench.context, fine); });
-  std::map<const Study*, Outcome> converged;
-  for (std::size_t i = 0; i < each.size(); ++i) converged[each[i]] = references[i];
+  const std::map<const Study*, Outcome> converged =
+      converged_runs(bench, {"rk4", std::ldexp(1e-3, full ? -6 : -5)});
   race(bench.context, full ? 3 : 1, converged, points);
 
   Table table{"work_precision",
@@ -286,17 +297,12 @@ void add_error_over_time(Bench& bench) {
     table.add(p.study->id, p.at.integrator, fmt::format("{:g}", p.at.step * 1e6),
               p.failure.empty() ? fmt::format("{:.3g}", p.error) : "", fmt::format("{:.3g}", p.cost),
               p.failure);
-    if (!is_default(p, bench.context)) continue;
-    const std::string id = fmt::format("work_precision.{}.", p.study->id);
-    const std::string note = fmt::format("default: {} at {:g} us", p.at.integrator, p.at.step * 1e6);
-    bench.figure(id + "failed.value", p.failure.empty() ? 0.0 : 1.0, "",
-                 exactly(p.study->refused ? 1.0 : 0.0), p.failure.empty() ? note : note + ": " + p.failure);
-    if (!p.study->refused) bench.figure(id + "error.value", p.error, "%", at_most(p.study->within), note);
+    if (is_default(p, bench.context)) judge_default(bench, p);
   }
-  for (const Study* study : each)
-    bench.figure(fmt::format("work_precision.{}.converged.value", study->id),
-                 converged.at(study).failure.empty() ? 1.0 : 0.0, "", exactly(1.0),
-                 converged.at(study).failure);
+  for (const Study& study : studies())
+    bench.figure(fmt::format("work_precision.{}.converged.value", study.id),
+                 converged.at(&study).failure.empty() ? 1.0 : 0.0, "", exactly(1.0),
+                 converged.at(&study).failure);
   bench.table(std::move(table));
   draw(bench, integrators, points);
 }

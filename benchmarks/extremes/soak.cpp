@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -33,35 +34,41 @@ struct Nominal {
   }
 };
 
+// A run with faults, and its errors after them.
+struct Stormed {
+  Run run;
+  Nominal after;
+};
+
+Stormed stormed(const models::Setup& setup, trial::TrialOptions options, Storm& faults, double after) {
+  Stormed found;
+  Time now{};
+  options.disturb = [&](Inputs& in) {
+    faults(now, in);
+    now += Duration(1'000'000);
+  };
+  found.run = judged(setup, std::move(options), [&](const trial::Glance& g) {
+    if (time_of(g) > after) found.after.see(g);
+  });
+  return found;
+}
+
 Found storm(const BenchContext& context, bool arm, double length) {
   constexpr double kQuiet = 6.0, kRecovers = 1.0;  // s
   const models::Setup setup = endless(context, arm, length + kQuiet);
   Found found{fmt::format("{}.toml, a fault a second for {:g} s", arm ? "keypad" : "session", length),
               "sound on every tick; error as without faults 1 s after the last",
               {}};
-  Nominal after;
-  const auto watch = [&](Nominal& nominal) {
-    return [&](const trial::Glance& g) {
-      if (time_of(g) > length + kRecovers) nominal.see(g);
-    };
-  };
   Storm faults(context.seed + (arm ? 1 : 0), 1.0, length);
   const Storm kept = faults;
-  trial::TrialOptions options{.seed = context.seed, .seconds = length + kQuiet, .fit_out = keep_clean};
+  const trial::TrialOptions options{.seed = context.seed, .seconds = length + kQuiet, .fit_out = keep_clean};
   Nominal whole;
   const Run undisturbed = judged(setup, options, [&](const trial::Glance& g) {
     if (time_of(g) > 2.0) whole.see(g);
   });
-  Time now{};
-  options.disturb = [&](Inputs& in) {
-    faults(now, in);
-    now += Duration(1'000'000);
-  };
-  const Run run = judged(setup, options, watch(after));
+  const auto [run, after] = stormed(setup, options, faults, length + kRecovers);
   faults = Storm(kept);
-  now = Time{};
-  Nominal unused;
-  const Run again = judged(setup, options, watch(unused));
+  const Stormed again = stormed(setup, options, faults, length + kRecovers);
   found.numbers = {
       {"faults.value", static_cast<double>(faults.faults()), "", at_least(length - 1.0)},
       {"belief.ratio", after.belief / whole.belief, "x", at_most(1.2),
@@ -76,7 +83,7 @@ Found storm(const BenchContext& context, bool arm, double length) {
     found.numbers.push_back({"tip.ratio", after.tip / whole.tip, "x", at_most(1.2),
                              "likewise, of the machine against its command"});
   add_soundness(run, found);
-  found.simulated += undisturbed.result.simulated + again.result.simulated;
+  found.simulated += undisturbed.result.simulated + again.run.result.simulated;
   return found;
 }
 
