@@ -447,6 +447,26 @@ Shot fist(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& s
   return shot;
 }
 
+// Finders for the same images, one for each value of each factor.
+std::vector<std::vector<FingertipFinder>> finders_of(const HandScene& scene, const FingertipSpec& shipped) {
+  std::vector<std::vector<FingertipFinder>> finders(kFactors.size());
+  for (std::size_t f = 0; f < kFactors.size(); ++f)
+    for (const double value : kFactors[f].values) {
+      FingertipSpec tip = shipped;
+      tip.*kFactors[f].member = value;
+      finders[f].push_back(scene.finder_with(tip));
+    }
+  return finders;
+}
+
+void count(const Fingertip& tip, const sim::PixelTruth& truth, Kind kind, Counts& counts) {
+  const double off = std::hypot(tip.column - truth.column, tip.row - truth.row);
+  const bool right = kind == finger && tip.found && off <= within_cap(truth);
+  ++counts.frames;
+  counts.right += right ? 1 : 0;
+  counts.wrong += tip.found && !right ? 1 : 0;
+}
+
 Cell look_at(const Place& place) {
   constexpr int kFrames = 24;  // of each kind
   sim::StageSpec spec;
@@ -459,13 +479,7 @@ Cell look_at(const Place& place) {
   shipped.radius = 0.5 * place.width;
   HandScene scene(spec.camera, segmentation, shipped, {});
   const Region all = scene.frame();
-  std::vector<std::vector<FingertipFinder>> finders(kFactors.size());
-  for (std::size_t f = 0; f < kFactors.size(); ++f)
-    for (const double value : kFactors[f].values) {
-      FingertipSpec tip = shipped;
-      tip.*kFactors[f].member = value;
-      finders[f].push_back(scene.finder_with(tip));
-    }
+  auto finders = finders_of(scene, shipped);
   Pair pair;
   std::uint64_t frame = 0;
   for (; frame < 10; ++frame) {
@@ -484,15 +498,8 @@ Cell look_at(const Place& place) {
                 &pair.truth);
     scene.look({pair.left.view(), pair.right.view()}, all, {});
     for (std::size_t f = 0; f < finders.size(); ++f)
-      for (std::size_t v = 0; v < finders[f].size(); ++v) {
-        const Fingertip tip = finders[f][v].find(scene.skin(), scene.disparity(), all);
-        const double off = std::hypot(tip.column - pair.truth.column, tip.row - pair.truth.row);
-        const bool right = kind == finger && tip.found && off <= within_cap(pair.truth);
-        Counts& counts = cell[kind][f][v];
-        ++counts.frames;
-        counts.right += right ? 1 : 0;
-        counts.wrong += tip.found && !right ? 1 : 0;
-      }
+      for (std::size_t v = 0; v < finders[f].size(); ++v)
+        count(finders[f][v].find(scene.skin(), scene.disparity(), all), pair.truth, kind, cell[kind][f][v]);
   }
   return cell;
 }

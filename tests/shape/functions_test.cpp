@@ -110,7 +110,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "calibrate_rig.cpp: calibrate_rig",
     "calibrate_tracker.cpp: remarks_text",
     "device_removal.cpp: measure",
-    "fingertip.cpp: look_at",
     "force_channel.cpp: see_probed",
     "gravity.cpp: add_catalogue",
     "gravity.cpp: add_race",
