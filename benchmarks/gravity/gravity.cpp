@@ -414,6 +414,20 @@ void add_statics(const GravityRig& rig, const BenchContext& context, BenchResult
     result.plots.push_back(map(rig, box, context.quick ? 13 : 27));
 }
 
+// Shares of the paper's box that the PHANToM reaches: where most of it is, ahead, and with a longer forearm.
+void add_coverage(const Arm& arm, BenchResult& result) {
+  const ArmBox box = place_box(arm, 5);
+  add_figure(result, "coverage.best.share_percent", kUnset, 100.0 * box.share, "%",
+             "of 125 points of 13 x 25 x 18 cm within joint and coupled limits, box where most are", 90.0);
+  add_figure(result, "coverage.ahead.share_percent", kUnset,
+             100.0 * share_in_reach(arm, {arm.machine().phantom.l1, 0, 0}, 5), "%",
+             "box about (l1, 0, 0) of R");
+  ArmMachine longer = arm.machine();
+  longer.phantom.l2 = longer.phantom.l1;
+  add_figure(result, "coverage.long_forearm.share_percent", kUnset,
+             100.0 * share_in_reach(Arm(longer), {longer.phantom.l1, 0, 0}, 5), "%", "the same with l2 = l1");
+}
+
 void add_catalogue(const GravityRig& rig, BenchResult& result) {
   const Arm& arm = rig.real.arm;
   const bool phantom = arm.machine().kind == ArmKind::phantom;
@@ -445,16 +459,29 @@ void add_catalogue(const GravityRig& rig, BenchResult& result) {
   result.tables.push_back(std::move(table));
   if (!phantom) return;
   add_scaling(arm.machine().phantom, result);
-  const ArmBox box = place_box(arm, 5);
-  add_figure(result, "coverage.best.share_percent", kUnset, 100.0 * box.share, "%",
-             "of 125 points of 13 x 25 x 18 cm within joint and coupled limits, box where most are", 90.0);
-  add_figure(result, "coverage.ahead.share_percent", kUnset,
-             100.0 * share_in_reach(arm, {arm.machine().phantom.l1, 0, 0}, 5), "%",
-             "box about (l1, 0, 0) of R");
-  ArmMachine longer = arm.machine();
-  longer.phantom.l2 = longer.phantom.l1;
-  add_figure(result, "coverage.long_forearm.share_percent", kUnset,
-             100.0 * share_in_reach(Arm(longer), {longer.phantom.l1, 0, 0}, 5), "%", "the same with l2 = l1");
+  add_coverage(arm, result);
+}
+
+// Null if KDL was not built.
+std::unique_ptr<ArmPeer> kdl_of(const BenchContext& context, const ArmMachine& machine) {
+  const ModuleInfo* module = context.module ? context.module("peers") : nullptr;
+  const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
+  return peers != nullptr && peers->kdl != nullptr ? peers->kdl(machine) : nullptr;
+}
+
+double nanoseconds(const Race& raced, std::size_t way) { return raced.seconds(way) / kChunk * 1e9; }
+
+// Times of the race's ways: the closed form twice, our chain, KDL's chain; and the answers of the two chains.
+void add_kdl(const Race& raced, const Answers& chain, const Answers& theirs, BenchResult& result) {
+  add_cost(result, "statics.kdl.p50", nanoseconds(raced, 3), "ns",
+           "Orocos KDL, chain of three hinges without the parallelogram's links");
+  add_cost(result, "kdl_ratio.median", raced.ratio(3, 0), "x",
+           "KDL over the closed form, chunks of 250 interleaved", 5.0);
+  add_cost(result, "kdl_ratio.chain.median", raced.ratio(3, 2), "x", "KDL over our chain, the same machine");
+  const auto [tip, torque] = apart(chain, theirs);
+  add_figure(result, "apart_from_kdl.tip.max", kUnset, tip, "m", "our chain against KDL", kUnset, 1e-12);
+  add_figure(result, "apart_from_kdl.torque.max", kUnset, torque, "N m", "our chain against KDL", kUnset,
+             1e-12);
 }
 
 void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
@@ -464,10 +491,7 @@ void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& r
     return;
   }
   const Arm row(in_a_row(arm.machine(), rig.believed.payload));
-  const ModuleInfo* module = context.module ? context.module("peers") : nullptr;
-  const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
-  std::unique_ptr<ArmPeer> kdl;
-  if (peers != nullptr && peers->kdl != nullptr) kdl = peers->kdl(row.machine());
+  const std::unique_ptr<ArmPeer> kdl = kdl_of(context, row.machine());
   const std::vector<Question> all = questions(arm, context.seed);
   Answers ours(kPoses), chain(kPoses), theirs(kPoses);
   const auto closed = in_chunks(kPoses, kChunk, [&](std::size_t i) {
@@ -481,25 +505,16 @@ void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& r
         kPoses, kChunk, [&](std::size_t i) { theirs[i] = kdl->answer(all[i].relative, all[i].force.e()); }));
   constexpr std::size_t kLap = kPoses / kChunk;
   const Race raced(context.count(10, 2) * kLap, ways, kLap);
-  const auto nanoseconds = [&](std::size_t way) { return raced.seconds(way) / kChunk * 1e9; };
-  add_cost(result, "statics.p50", nanoseconds(0), "ns",
+  add_cost(result, "statics.p50", nanoseconds(raced, 0), "ns",
            "kinematics, Jacobian, gravity, J^T f of one pose, closed form; over chunks of 250");
-  add_cost(result, "statics.chain.p50", nanoseconds(2), "ns", "the same of a chain of three hinges");
+  add_cost(result, "statics.chain.p50", nanoseconds(raced, 2), "ns", "the same of a chain of three hinges");
   add_cost(result, "same_over_same.median", raced.ratio(1, 0), "x",
            "ours over ours in the same run: how far the machine can be trusted");
   if (!kdl) {
     result.note += "no race: Orocos KDL was not there when this was built (./encounter bench installs it). ";
     return;
   }
-  add_cost(result, "statics.kdl.p50", nanoseconds(3), "ns",
-           "Orocos KDL, chain of three hinges without the parallelogram's links");
-  add_cost(result, "kdl_ratio.median", raced.ratio(3, 0), "x",
-           "KDL over the closed form, chunks of 250 interleaved", 5.0);
-  add_cost(result, "kdl_ratio.chain.median", raced.ratio(3, 2), "x", "KDL over our chain, the same machine");
-  const auto [tip, torque] = apart(chain, theirs);
-  add_figure(result, "apart_from_kdl.tip.max", kUnset, tip, "m", "our chain against KDL", kUnset, 1e-12);
-  add_figure(result, "apart_from_kdl.torque.max", kUnset, torque, "N m", "our chain against KDL", kUnset,
-             1e-12);
+  add_kdl(raced, chain, theirs, result);
 }
 
 void run(Bench& bench) {

@@ -188,13 +188,9 @@ constexpr std::array<std::pair<const char*, mjtIntegrator>, 4> kIntegrators{
      {"implicit", mjINT_IMPLICIT},
      {"rk4", mjINT_RK4}}};
 
-void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
-  const Laden& laden = rig.real;
-  const std::vector<Vec3> path = reference(laden, 75);
-  if (path.size() < 10) {
-    result.note += "no free swing: it leaves the joint limits at once. ";
-    return;
-  }
+// Error against run time of the swing, of each integrator over its time steps.
+void add_swing_curves(const Laden& laden, const std::vector<Vec3>& path, const BenchContext& context,
+                      BenchResult& result) {
   Plot plot{"gravity.swing",
             "A free swing of the arm: error against run time",
             "CPU time for each second, s",
@@ -224,7 +220,11 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
       1e3 * kSample * static_cast<double>(path.size() - 1));
   result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));
-  const sim::ArmTruth& truth = rig.setup.twin.arm;
+}
+
+// Error and cost of the swing with the rig's own integrator and time step.
+void add_swing_as_shipped(const Laden& laden, const std::vector<Vec3>& path, const sim::ArmTruth& truth,
+                          BenchResult& result) {
   const auto* own = std::find_if(kIntegrators.begin(), kIntegrators.end(),
                                  [&](const auto& i) { return truth.integrator == i.first; });
   if (own == kIntegrators.end()) return;
@@ -242,6 +242,17 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
                        truth.integrator, truth.timestep * 1e6));
   add_cost(result, "twin.step_over_yardstick.min", rubbed.cost * truth.timestep / yardstick, "x",
            "a step of it over a fixed piece of work of the same run (kit/cost.h)", kUnset, kMostStep);
+}
+
+void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
+  const Laden& laden = rig.real;
+  const std::vector<Vec3> path = reference(laden, 75);
+  if (path.size() < 10) {
+    result.note += "no free swing: it leaves the joint limits at once. ";
+    return;
+  }
+  add_swing_curves(laden, path, context, result);
+  add_swing_as_shipped(laden, path, rig.setup.twin.arm, result);
 }
 
 // Motion of the tip in ten seconds when only gravity compensation drives the motors, at 1 kHz from the
