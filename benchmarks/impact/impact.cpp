@@ -82,19 +82,78 @@ std::vector<Setting> settings() {
   return all;
 }
 
+// All hands in the order of the settings.
+std::vector<Compared> compare_all(Bench& bench, const std::string& scene, const std::vector<Setting>& all,
+                                  std::size_t hands) {
+  std::vector<std::pair<std::size_t, std::uint64_t>> runs;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const std::uint64_t seed : bench.seeds(hands)) runs.emplace_back(i, seed);
+  return bench.each(runs, [&](const auto& run) {
+    std::vector<std::string> own{kStill};
+    own.insert(own.end(), all[run.first].set.begin(), all[run.first].set.end());
+    return compare(load_scene(bench.context, scene, own), run.second);
+  });
+}
+
+double breaks_of(const Compared& c) { return static_cast<double>(c.touch.breaks); }
+
+// The touches of all hands with one setting.
+struct Swept {
+  std::vector<Compared> hands;
+  std::vector<double> errors;  // %, of what is felt
+  Tail tail;                   // of the errors
+  std::ptrdiff_t failed;       // hands
+  double error, cost;          // %, unset if a run failed; s of CPU for each second of experiment
+
+  template <class Of>
+  [[nodiscard]] double middle(Of of) const {
+    return median(values(hands, of));
+  }
+};
+Swept swept(const std::vector<Compared>& found, std::size_t setting, std::size_t hands) {
+  std::vector<Compared> of(found.begin() + static_cast<std::ptrdiff_t>(setting * hands),
+                           found.begin() + static_cast<std::ptrdiff_t>((setting + 1) * hands));
+  std::vector<double> errors = values(of, [](const Compared& c) { return c.error(); });
+  const auto failed =
+      std::count_if(of.begin(), of.end(), [](const Compared& c) { return !c.failure.empty(); });
+  const Tail tail = tail_of(errors, 0.95);
+  const double error = failed > 0 ? kUnset : tail.value;
+  const double cost = median(values(of, [](const Compared& c) { return c.cpu; }));
+  return {std::move(of), std::move(errors), tail, failed, error, cost};
+}
+
+void add_row(const Setting& setting, const Swept& of, Table& table) {
+  table.add(setting.family, setting.name, fmt::format("{:.2g}", median(of.errors)),
+            fmt::format("{:.2g}", of.error),
+            fmt::format("{:.3g}", of.middle([](const Compared& c) { return c.touch.peak; })),
+            fmt::format("{:.3g}", of.middle([](const Compared& c) { return c.touch.sampled; })),
+            fmt::format("{:g}", of.middle(breaks_of)), fmt::format("{:.3g}", of.cost), of.failed);
+}
+
+void judge_default(Bench& bench, const std::string& scene, const Swept& of) {
+  bench.figure(scene + ".felt.error.median", median(of.errors), "%", at_most(10.0),
+               fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the "
+                           "default, against a contact law of its own with a converged step; {} hands",
+                           of.hands.size()));
+  bench.figure(scene + ".felt.error." + of.tail.word, of.error, "%",
+               "the same, of 95 % of the hands or of all");
+  const Tail newtons = tail_of(
+      values(of.hands, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }), 0.95);
+  bench.figure(scene + ".felt.error_N." + newtons.word, newtons.value, "N", at_most(0.1),
+               "the same in newtons: the least force that is told is 0.1 N");
+  bench.figure(scene + ".breaks.median", of.middle(breaks_of), "",
+               "of the contact in that time, at the default");
+  bench.figure(scene + ".reference.breaks.median",
+               of.middle([](const Compared& c) { return static_cast<double>(c.reference.breaks); }), "",
+               "the same by the law of its own, 10^5 N/m, damping ratio 0.3: what of it is physics");
+}
+
 // The solver's settings and the time step, for one scene; %.
 void add_sweep(Bench& bench, const std::string& scene) {
   const std::size_t hands = bench.context.count(20, 3);  // 20 have a p95
   std::vector<Setting> all = settings();
   if (bench.context.quick) all.resize(5);
-  std::vector<std::pair<std::size_t, std::uint64_t>> runs;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (const std::uint64_t seed : bench.seeds(hands)) runs.emplace_back(i, seed);
-  const auto found = bench.each(runs, [&](const auto& run) {
-    std::vector<std::string> own{kStill};
-    own.insert(own.end(), all[run.first].set.begin(), all[run.first].set.end());
-    return compare(load_scene(bench.context, scene, own), run.second);
-  });
+  const std::vector<Compared> found = compare_all(bench, scene, all, hands);
   Table table{"sweep_" + scene,
               "First touch of " + scene + ": the solver and the time step",
               {"setting", "step or value", "error of what is felt (%), median",
@@ -103,40 +162,13 @@ void add_sweep(Bench& bench, const std::string& scene) {
   std::vector<CostCurve> curves;
   Series chosen{.name = "default", .mark = Mark::points, .paper = true};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::vector<Compared> of(found.begin() + static_cast<std::ptrdiff_t>(i * hands),
-                                   found.begin() + static_cast<std::ptrdiff_t>((i + 1) * hands));
-    const auto mid = [&](auto what) { return median(values(of, what)); };
-    const std::vector<double> errors = values(of, [](const Compared& c) { return c.error(); });
-    const auto failed =
-        std::count_if(of.begin(), of.end(), [](const Compared& c) { return !c.failure.empty(); });
-    const Tail tail = tail_of(errors, 0.95);
-    const double error = failed > 0 ? kUnset : tail.value;
-    const double cost = mid([](const Compared& c) { return c.cpu; });
+    const Swept of = swept(found, i, hands);
     if (curves.empty() || curves.back().name != all[i].family) curves.push_back({all[i].family});
-    curves.back().cost.push_back(cost);
-    curves.back().error.push_back(error);
-    if (i == 0) chosen.add(cost, error);
-    table.add(all[i].family, all[i].name, fmt::format("{:.2g}", median(errors)), fmt::format("{:.2g}", error),
-              fmt::format("{:.3g}", mid([](const Compared& c) { return c.touch.peak; })),
-              fmt::format("{:.3g}", mid([](const Compared& c) { return c.touch.sampled; })),
-              fmt::format("{:g}", mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); })),
-              fmt::format("{:.3g}", cost), failed);
-    if (i > 0) continue;
-    bench.figure(scene + ".felt.error.median", median(errors), "%", at_most(10.0),
-                 fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the "
-                             "default, against a contact law of its own with a converged step; {} hands",
-                             hands));
-    bench.figure(scene + ".felt.error." + tail.word, error, "%", "the same, of 95 % of the hands or of all");
-    const Tail newtons = tail_of(
-        values(of, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }), 0.95);
-    bench.figure(scene + ".felt.error_N." + newtons.word, newtons.value, "N", at_most(0.1),
-                 "the same in newtons: the least force that is told is 0.1 N");
-    bench.figure(scene + ".breaks.median",
-                 mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); }), "",
-                 "of the contact in that time, at the default");
-    bench.figure(scene + ".reference.breaks.median",
-                 mid([](const Compared& c) { return static_cast<double>(c.reference.breaks); }), "",
-                 "the same by the law of its own, 10^5 N/m, damping ratio 0.3: what of it is physics");
+    curves.back().cost.push_back(of.cost);
+    curves.back().error.push_back(of.error);
+    if (i == 0) chosen.add(of.cost, of.error);
+    add_row(all[i], of, table);
+    if (i == 0) judge_default(bench, scene, of);
   }
   Plot plot = cost_beside_error(
       {.id = "sweep_" + scene,
@@ -214,6 +246,96 @@ const std::vector<Machine>& machines() {
   return kMachines;
 }
 
+// A speed, and what the tool meets: the stiffness of the wall or the stop, and a machine that stands or not.
+struct Approach {
+  double speed;  // mm/s
+  std::string what;
+  bool stands;
+  std::vector<std::string> set;
+};
+std::vector<Approach> approaches(const Machine& machine, const std::vector<double>& speeds) {
+  std::vector<Approach> all;
+  for (const double speed : speeds)
+    for (const double value :
+         machine.arm ? std::vector<double>{0.2, 0.6, 1.2} : std::vector<double>{2, 5, 10})
+      for (const bool stands : {true, false}) {
+        Approach one{speed,
+                     machine.arm ? fmt::format("{:g} N/mm", value) : fmt::format("stop of {:g} ms", value),
+                     stands, stands ? machine.prepared : machine.late};
+        one.set.insert(
+            one.set.end(),
+            {kStill, "user.press_s=1", "user.release_s=1", fmt::format("user.approach_mm_s=[{:g}]", speed),
+             fmt::format("user.approach_from_mm={:g}", std::max(150.0, 0.3 * speed)),
+             machine.arm ? fmt::format("behaviour.phantom_wall.stiffness_N_per_mm={:g}", value)
+                         : fmt::format("truth.world.contact_time_ms={:g}", value)});
+        all.push_back(std::move(one));
+      }
+  return all;
+}
+
+struct Touched {
+  FirstTouch first;      // of the first hand
+  double bounces = 0.0;  // of all hands
+};
+Touched touch_of(const Bench& bench, const Machine& machine, const Approach& approach, std::size_t hands) {
+  const models::Setup setup = load_scene(bench.context, machine.scene, approach.set);
+  Touched all;
+  for (const std::uint64_t seed : bench.seeds(hands)) {
+    const FirstTouch touch = watch_touch(setup, seed).touch;
+    if (seed == bench.context.seed) all.first = touch;
+    all.bounces += touch.long_breaks;
+  }
+  return all;
+}
+
+void add_bounces(Bench& bench, const char* machine, double standing, double moving, std::size_t touches) {
+  bench.figure(fmt::format("{}.bounces.standing", machine), standing, "",
+               fmt::format("contact lost for 5 ms or more and found again in 0.1 s, in all {} touches by a "
+                           "machine that stands",
+                           touches));
+  bench.figure(fmt::format("{}.bounces.late", machine), moving, "", "the same of one that sets out late");
+  bench.figure(fmt::format("{}.bounces.fewer", machine),
+               moving > 0.0 ? 100.0 * (1.0 - standing / moving) : 0.0, "%",
+               bench.context.quick ? Bounds{} : at_least(80.0), "by how much fewer");
+}
+
+// The series of that name, which is added if there is none.
+Series& series_of(Plot& plot, const std::string& name) {
+  const auto at =
+      std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.name == name; });
+  if (at != plot.series.end()) return *at;
+  return plot.series.emplace_back(Series{.name = name, .mark = Mark::both});
+}
+
+void add_machine(Bench& bench, const Machine& machine, const std::vector<double>& speeds, Table& table) {
+  const std::vector<Approach> runs = approaches(machine, speeds);
+  const std::size_t hands = bench.context.count(4, 1);
+  const auto found =
+      bench.each(runs, [&](const Approach& run) { return touch_of(bench, machine, run, hands); });
+  Plot plot{
+      .id = fmt::format("speeds_{}", machine.name),
+      .title = fmt::format("First contact of the {}: force and bounces over approach speed", machine.name),
+      .x_label = "approach speed (mm/s)",
+      .y_label = "most felt in 0.1 s (N)",
+      .log_x = true,
+      .log_y = true,
+      .caption =
+          "Felt: the grip's largest force. Dashed names: the machine sets out when the tool is already "
+          "near, and still moves at the touch. Bounces: table `speeds`."};
+  double standing = 0.0, moving = 0.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const FirstTouch& t = found[i].first;
+    series_of(plot, fmt::format("{}, {}", runs[i].what, runs[i].stands ? "stands" : "sets out late"))
+        .add(runs[i].speed, t.grip);
+    (runs[i].stands ? standing : moving) += found[i].bounces;
+    table.add(machine.name, runs[i].speed, runs[i].what, runs[i].stands ? "yes" : "no",
+              fixed(1e3 * t.moving, 1), fixed(1e3 * t.closing, 0), fixed(t.peak, 2), fixed(t.grip, 2),
+              t.breaks, fixed(1e3 * t.lost, 1), t.long_breaks);
+  }
+  bench.plot(std::move(plot));
+  add_bounces(bench, machine.name, standing, moving, hands * runs.size() / 2);
+}
+
 // Force and bounces over approach speed x stiffness of the stop, or of the wall; for a waiting and a late
 // prop.
 void add_speeds(Bench& bench) {
@@ -223,80 +345,7 @@ void add_speeds(Bench& bench) {
               "First contact: approach speed, stiffness, and whether the machine stands",
               {"machine", "speed (mm/s)", "stiffness or stop", "stands", "its speed (mm/s)", "closing (mm/s)",
                "contact, most (N)", "felt (N)", "breaks", "lost (ms)", "bounces of 5 ms"}};
-  for (const Machine& machine : machines()) {
-    struct Run {
-      double speed;
-      std::string what;
-      bool stands;
-      std::vector<std::string> set;
-    };
-    std::vector<Run> runs;
-    for (const double speed : speeds)
-      for (const double value :
-           machine.arm ? std::vector<double>{0.2, 0.6, 1.2} : std::vector<double>{2, 5, 10})
-        for (const bool stands : {true, false}) {
-          Run run{speed,
-                  machine.arm ? fmt::format("{:g} N/mm", value) : fmt::format("stop of {:g} ms", value),
-                  stands, stands ? machine.prepared : machine.late};
-          run.set.insert(
-              run.set.end(),
-              {kStill, "user.press_s=1", "user.release_s=1", fmt::format("user.approach_mm_s=[{:g}]", speed),
-               fmt::format("user.approach_from_mm={:g}", std::max(150.0, 0.3 * speed)),
-               machine.arm ? fmt::format("behaviour.phantom_wall.stiffness_N_per_mm={:g}", value)
-                           : fmt::format("truth.world.contact_time_ms={:g}", value)});
-          runs.push_back(std::move(run));
-        }
-    struct Touched {
-      FirstTouch first;
-      double bounces = 0.0;  // of all hands
-    };
-    const std::size_t hands = bench.context.count(4, 1);
-    const auto found = bench.each(runs, [&](const Run& run) {
-      const models::Setup setup = load_scene(bench.context, machine.scene, run.set);
-      Touched all;
-      for (const std::uint64_t seed : bench.seeds(hands)) {
-        const FirstTouch touch = watch_touch(setup, seed).touch;
-        if (seed == bench.context.seed) all.first = touch;
-        all.bounces += touch.long_breaks;
-      }
-      return all;
-    });
-    Plot plot{
-        .id = fmt::format("speeds_{}", machine.name),
-        .title = fmt::format("First contact of the {}: force and bounces over approach speed", machine.name),
-        .x_label = "approach speed (mm/s)",
-        .y_label = "most felt in 0.1 s (N)",
-        .log_x = true,
-        .log_y = true,
-        .caption =
-            "Felt: the grip's largest force. Dashed names: the machine sets out when the tool is already "
-            "near, and still moves at the touch. Bounces: table `speeds`."};
-    double standing = 0.0, moving = 0.0;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const FirstTouch& t = found[i].first;
-      const std::string name =
-          fmt::format("{}, {}", runs[i].what, runs[i].stands ? "stands" : "sets out late");
-      auto at = std::find_if(plot.series.begin(), plot.series.end(),
-                             [&](const Series& s) { return s.name == name; });
-      if (at == plot.series.end())
-        at = plot.series.insert(plot.series.end(), Series{.name = name, .mark = Mark::both});
-      at->add(runs[i].speed, t.grip);
-      (runs[i].stands ? standing : moving) += found[i].bounces;
-      table.add(machine.name, runs[i].speed, runs[i].what, runs[i].stands ? "yes" : "no",
-                fixed(1e3 * t.moving, 1), fixed(1e3 * t.closing, 0), fixed(t.peak, 2), fixed(t.grip, 2),
-                t.breaks, fixed(1e3 * t.lost, 1), t.long_breaks);
-    }
-    bench.plot(std::move(plot));
-    bench.figure(fmt::format("{}.bounces.standing", machine.name), standing, "",
-                 fmt::format("contact lost for 5 ms or more and found again in 0.1 s, in all {} touches by a "
-                             "machine that stands",
-                             hands * runs.size() / 2));
-    bench.figure(fmt::format("{}.bounces.late", machine.name), moving, "",
-                 "the same of one that sets out late");
-    bench.figure(fmt::format("{}.bounces.fewer", machine.name),
-                 moving > 0.0 ? 100.0 * (1.0 - standing / moving) : 0.0, "%",
-                 bench.context.quick ? Bounds{} : at_least(80.0), "by how much fewer");
-  }
+  for (const Machine& machine : machines()) add_machine(bench, machine, speeds, table);
   bench.table(std::move(table));
 }
 

@@ -112,8 +112,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "device_removal.cpp: measure",
     "force_channel.cpp: see_probed",
     "ideal.cpp: solved",
-    "impact.cpp: add_speeds",
-    "impact.cpp: add_sweep",
     "indent_studies.cpp: add_sweep",
     "indentation.cpp: add_single_figures",
     "ledger.cpp: run",
