@@ -131,6 +131,42 @@ Pair pair_of(const BenchContext& context, const std::string& scene) {
 
 std::string mj(double joules) { return fixed(joules * 1e3, 3); }
 
+std::vector<std::string> row_of(const Pair& pair) {
+  const Sums& s = pair.without;
+  const trial::ContactLedger& c = s.all;
+  return {pair.scene,
+          fmt::format("{}", s.contacts),
+          mj(c.hand),
+          mj(c.carried),
+          mj(c.sampling),
+          mj(c.delay),
+          mj(c.quantisation),
+          mj(c.limits),
+          mj(c.stored()),
+          mj(c.dissipated()),
+          fixed(100.0 * s.closure, 3),
+          fmt::format("{}", s.small),
+          fixed(100.0 * s.small_closure, 3),
+          mj(s.surplus),
+          pair.controlled ? mj(pair.controlled->surplus) : "nothing"};
+}
+
+void judge_scene(Bench& bench, const Pair& pair) {
+  bench.figure("closure." + pair.scene + ".worst", 100.0 * pair.without.closure, "%", at_most(1.0),
+               "of the largest term, of contacts above 0.05 mJ");
+  // In 3 of 1,784 contacts a leaping prop under the finger gives out more: at most 0.22
+  // (docs/reference/ledger.md).
+  const double most = pair.scene == "reaching" ? 0.25 : 0.1;
+  if (pair.controlled)
+    bench.figure("surplus." + pair.scene + ".controlled.worst", 1e3 * pair.controlled->surplus, "mJ",
+                 at_most(most),
+                 "that came out of a contact on which something pushed, at any moment, beyond what went in "
+                 "and the law's spring still held");
+  bench.figure("surplus." + pair.scene + ".none.worst", 1e3 * pair.without.surplus, "mJ",
+               pair.arm ? at_most(0.1) : Bounds{},
+               "the same without the passivity controller, which is the default");
+}
+
 void run(Bench& bench) {
   std::vector<std::string> scenes(kScenes.begin(), kScenes.end());
   if (bench.context.quick) scenes = {"button", "tennis_ball"};
@@ -142,30 +178,11 @@ void run(Bench& bench) {
                "stored", "dissipated", "closes, %", "small ones", "close, %", "surplus", "controlled"}};
   double worst = 0.0, small = 0.0, controlled = 0.0;
   for (const Pair& pair : all) {
-    const Sums& s = pair.without;
-    const trial::ContactLedger& c = s.all;
-    table.rows.push_back({pair.scene, fmt::format("{}", s.contacts), mj(c.hand), mj(c.carried),
-                          mj(c.sampling), mj(c.delay), mj(c.quantisation), mj(c.limits), mj(c.stored()),
-                          mj(c.dissipated()), fixed(100.0 * s.closure, 3), fmt::format("{}", s.small),
-                          fixed(100.0 * s.small_closure, 3), mj(s.surplus),
-                          pair.controlled ? mj(pair.controlled->surplus) : "nothing"});
-    bench.figure("closure." + pair.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
-                 "of the largest term, of contacts above 0.05 mJ");
-    // In 3 of 1,784 contacts a leaping prop under the finger gives out more: at most 0.22
-    // (docs/reference/ledger.md).
-    const double most = pair.scene == "reaching" ? 0.25 : 0.1;
-    if (pair.controlled) {
-      controlled = std::max(controlled, pair.controlled->closure);
-      bench.figure("surplus." + pair.scene + ".controlled.worst", 1e3 * pair.controlled->surplus, "mJ",
-                   at_most(most),
-                   "that came out of a contact on which something pushed, at any moment, beyond what went in "
-                   "and the law's spring still held");
-    }
-    bench.figure("surplus." + pair.scene + ".none.worst", 1e3 * s.surplus, "mJ",
-                 pair.arm ? at_most(0.1) : Bounds{},
-                 "the same without the passivity controller, which is the default");
-    worst = std::max(worst, s.closure);
-    small = std::max(small, s.small_closure);
+    table.rows.push_back(row_of(pair));
+    judge_scene(bench, pair);
+    if (pair.controlled) controlled = std::max(controlled, pair.controlled->closure);
+    worst = std::max(worst, pair.without.closure);
+    small = std::max(small, pair.without.small_closure);
   }
   bench.figure("closure.worst", 100.0 * worst, "%", at_most(1.0));
   bench.figure(

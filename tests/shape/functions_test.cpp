@@ -114,7 +114,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "ideal.cpp: solved",
     "indent_studies.cpp: add_sweep",
     "indentation.cpp: add_single_figures",
-    "ledger.cpp: run",
     "machine_calibration.cpp: CarriedTool::stand",
     "machine_calibration.cpp: calibrate_machine",
     "machine_channel.cpp: see_machine",
