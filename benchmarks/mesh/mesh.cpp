@@ -70,7 +70,14 @@ std::vector<std::uint32_t> middle_of(const std::vector<trial::TrialResult>& runs
   return middle;
 }
 
-void run(Bench& bench) {
+// The mesh from its file and its search tree, with the times that they took.
+struct Loaded {
+  models::CheckedMesh solid;
+  MeshTree tree;
+  std::size_t triangles;
+  double file_and_check, wall, cpu;  // s; the last two of all
+};
+Loaded loaded() {
   std::optional<ScratchFile> file(std::in_place, "ball.glb");
   models::write_mesh(models::geodesic_ball(224), file->path(), models::Existing::keep);
   const double cpu_start = thread_seconds();
@@ -78,15 +85,39 @@ void run(Bench& bench) {
   models::CheckedMesh solid = models::load_solid(file->path());
   const double checked = wall_seconds();
   file.reset();  // removed now and not at the end: a run may be stopped
-  const MeshTree tree(solid.mesh);
+  MeshTree tree(solid.mesh);
   const double ready = wall_seconds();
   const double cpu = thread_seconds() - cpu_start;
   const std::size_t triangles = solid.mesh.triangles.size();
+  return {std::move(solid), std::move(tree), triangles, checked - start, ready - start, cpu};
+}
 
+void add_load(Bench& bench, const Loaded& load) {
+  bench.cost("load.wall", load.wall, "s",
+             fmt::format("{} triangles, .glb; file, check and search tree", load.triangles));
+  bench.cost("load.cpu", load.cpu, "s", "the same, CPU time of its thread");
+  bench.cost("load.file_and_check", load.file_and_check, "s", "of it");
+  bench.cost("tree.bytes_per_triangle",
+             static_cast<double>(load.tree.memory_bytes()) / static_cast<double>(load.triangles), "B",
+             "mesh, normals and tree");
+}
+
+void add_steps(Bench& bench, const std::vector<trial::TrialResult>& runs) {
+  const trial::TrialResult& run = runs.front();
+  bench.cost("step.p50", percentile(run.step_ns, 0.5) * 1e-3, "us",
+             "step() of the tennis ball's scene with this mesh as its ball");
+  bench.cost("step.p99_9", percentile(middle_of(runs), 0.999) * 1e-3, "us",
+             fmt::format("the same; of each tick the lower median of {} runs", runs.size()));
+  bench.cost("step.one_run.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us",
+             "of one run, with the interrupts of the machine");
+}
+
+void run(Bench& bench) {
+  Loaded load = loaded();
   trial::TrialOptions options{.seed = bench.context.seed, .seconds = bench.context.quick ? 10.0 : 40.0};
   Yardstick yardstick;
   options.watch = yardstick.watch();
-  const models::Setup setup = with_mesh(bench, std::move(solid.mesh));
+  const models::Setup setup = with_mesh(bench, std::move(load.solid.mesh));
   std::vector<std::unique_ptr<trial::Trial>> trials(bench.context.quick ? 2 : 3);
   in_parallel(trials.size(),
               [&](std::size_t i) { trials[i] = std::make_unique<trial::Trial>(setup, options); });
@@ -97,22 +128,11 @@ void run(Bench& bench) {
   const trial::TrialResult& run = runs.front();
   bench.result.simulated = run.simulated;
 
-  bench.cost("load.wall", ready - start, "s",
-             fmt::format("{} triangles, .glb; file, check and search tree", triangles));
-  bench.cost("load.cpu", cpu, "s", "the same, CPU time of its thread");
-  bench.cost("load.file_and_check", checked - start, "s", "of it");
-  bench.cost("tree.bytes_per_triangle",
-             static_cast<double>(tree.memory_bytes()) / static_cast<double>(triangles), "B",
-             "mesh, normals and tree");
-  bench.cost("step.p50", percentile(run.step_ns, 0.5) * 1e-3, "us",
-             "step() of the tennis ball's scene with this mesh as its ball");
-  bench.cost("step.p99_9", percentile(middle_of(runs), 0.999) * 1e-3, "us",
-             fmt::format("the same; of each tick the lower median of {} runs", runs.size()));
-  bench.cost("step.one_run.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us",
-             "of one run, with the interrupts of the machine");
+  add_load(bench, load);
+  add_steps(bench, runs);
   bench.cost("step_over_yardstick.median", percentile(run.step_ns, 0.5) * 1e-9 / yardstick.seconds(), "x",
              at_most(4.0), "step() over a fixed piece of work of the same run (kit/cost.h)");
-  bench.cost("load_over_yardstick.total", cpu / yardstick.seconds(), "x", at_most(8e5),
+  bench.cost("load_over_yardstick.total", load.cpu / yardstick.seconds(), "x", at_most(8e5),
              "mesh.load.cpu, likewise");
   bench.figure("contacts", run.contacts, "", at_least(1.0), "it was pressed");
   bench.figure("hold.time", run.mode_time[static_cast<std::size_t>(Mode::hold)], "s", exactly(0.0),

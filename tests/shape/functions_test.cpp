@@ -118,7 +118,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "machine_calibration.cpp: calibrate_machine",
     "machine_channel.cpp: see_machine",
     "machine_fit.cpp: fit_hand_eye",
-    "mesh.cpp: run",
     "precision.cpp: add_force_precision",
     "precision.cpp: add_work_precision",
     "reaching.cpp: add_ideal",
