@@ -303,16 +303,17 @@ CostCurve converge(const Report& report, const Family& family, const Path& truth
   return error_of_cost;
 }
 
-// All paths on all cores; the cost of a step is the CPU time of its thread.
-void work_and_precision(const Report& report, const BenchContext& context) {
+struct Job {
+  LegForm form;
+  const char* integrator;
+  double step;  // s
+  Path path{};
+};
+// The two converged paths, of tendons and of the closed loop, and then those of each family. All cores take
+// part; the cost of a step is the CPU time of its thread.
+std::vector<Job> all_swung(const BenchContext& context) {
   const double seconds = context.quick ? 0.25 : 1.0;
   const double finest = context.quick ? 0.0625e-3 : 0.015625e-3;
-  struct Job {
-    LegForm form;
-    const char* integrator;
-    double step;
-    Path path{};
-  };
   std::vector<Job> jobs{{LegForm::tendon, "rk4", finest}, {LegForm::connect, "rk4", finest}};
   for (const Family& family : families())
     for (const double step : family.steps) jobs.push_back({family.form, family.integrator, step});
@@ -320,6 +321,11 @@ void work_and_precision(const Report& report, const BenchContext& context) {
       jobs.size(),
       [&](std::size_t i) { jobs[i].path = swung(jobs[i].form, jobs[i].integrator, jobs[i].step, seconds); },
       context.progress);
+  return jobs;
+}
+
+void work_and_precision(const Report& report, const BenchContext& context) {
+  const std::vector<Job> jobs = all_swung(context);
   report.result.plots.push_back(
       {"structure.error_over_step",
        "Error of H over the time step",

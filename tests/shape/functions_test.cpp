@@ -136,7 +136,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "stiffness.cpp: add_error_plots",
     "stiffness.cpp: add_knee",
     "stiffness.cpp: run",
-    "structure.cpp: work_and_precision",
     "switching.cpp: chatter",
     "switching.cpp: hit_balls",
     "switching.cpp: timing",
