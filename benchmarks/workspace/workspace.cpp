@@ -193,40 +193,72 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
       Role::ours, kUnset, kUnset, "of the same, by the reach alone: it is the stem that refuses");
 }
 
-// Outline of the straight reach in a plane through W's axes, with the paper's box.
+// Outline of the straight reach in the plane of W's z and x, or of z and y.
+Series upright_outline(const ReachVolume& reach, bool along_x) {
+  Series edge{"reach, straight axes"};
+  std::vector<std::array<double, 2>> lower;
+  for (int i = -200; i <= 200; ++i) {
+    const double at = i * 0.5e-3;  // m
+    const auto c = along_x ? reach.column(at, 0.0) : reach.column(0.0, at);
+    if (c.high < c.low) continue;
+    edge.x.push_back(at * kMmPerM), edge.y.push_back(c.high * kMmPerM);
+    lower.push_back({at * kMmPerM, c.low * kMmPerM});
+  }
+  for (auto p = lower.rbegin(); p != lower.rend(); ++p) edge.x.push_back((*p)[0]), edge.y.push_back((*p)[1]);
+  if (!edge.x.empty()) edge.x.push_back(edge.x.front()), edge.y.push_back(edge.y.front());
+  return edge;
+}
+
+// Points of the same plane that the tip reaches with some turn.
+Series upright_turned(const ReachVolume& reach, bool along_x) {
+  Series turned{.name = "reach, any allowed turn", .mark = Mark::points};
+  for (int i = -22; i <= 22; ++i)
+    for (int j = -10; j <= 10; ++j) {
+      const double at = i * 5e-3;  // m
+      const double z = j * 5e-3;
+      const Vec3 p = along_x ? Vec3(at, 0, z) : Vec3(0, at, z);
+      if (reach.turned_slack(p) >= 0.0) turned.x.push_back(at * kMmPerM), turned.y.push_back(z * kMmPerM);
+    }
+  return turned;
+}
+
+// The slice from above at the height z, m.
+Series plan_outline(const ReachVolume& reach, double z) {
+  Series edge{fmt::format("z = {:g} mm", z * kMmPerM)};
+  for (int degree = 0; degree <= 360; degree += 2) {
+    const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
+    double in = 0.0;  // the slice is one piece around the axis: step outwards until it ends
+    while (in < 0.12) {
+      const auto c = reach.column((in + 0.25e-3) * out.x(), (in + 0.25e-3) * out.y());
+      if (z < c.low || z > c.high) break;
+      in += 0.25e-3;
+    }
+    edge.x.push_back(in * out.x() * kMmPerM), edge.y.push_back(in * out.y() * kMmPerM);
+  }
+  return edge;
+}
+
+// The paper's box around the middle, with its half sides, mm.
+Series paper_box(double half_x, double half_y) {
+  Series box{"paper's box",
+             {-half_x, half_x, half_x, -half_x, -half_x},
+             {-half_y, -half_y, half_y, half_y, -half_y}};
+  box.paper = true;
+  return box;
+}
+
+// Outlines of the reach in the planes through W's axes, with the paper's box.
 void add_slices(BenchResult& result, const ReachVolume& reach) {
   const auto upright = [&](const char* id, const char* title, const char* label, bool along_x, double half) {
-    Series edge{"reach, straight axes"};
-    Series turned{.name = "reach, any allowed turn", .mark = Mark::points};
-    std::vector<std::array<double, 2>> lower;
-    for (int i = -200; i <= 200; ++i) {
-      const double at = i * 0.5e-3;  // m
-      const auto c = along_x ? reach.column(at, 0.0) : reach.column(0.0, at);
-      if (c.high < c.low) continue;
-      edge.x.push_back(at * kMmPerM), edge.y.push_back(c.high * kMmPerM);
-      lower.push_back({at * kMmPerM, c.low * kMmPerM});
-    }
-    for (auto p = lower.rbegin(); p != lower.rend(); ++p)
-      edge.x.push_back((*p)[0]), edge.y.push_back((*p)[1]);
-    if (!edge.x.empty()) edge.x.push_back(edge.x.front()), edge.y.push_back(edge.y.front());
-    for (int i = -22; i <= 22; ++i)
-      for (int j = -10; j <= 10; ++j) {
-        const double at = i * 5e-3;  // m
-        const double z = j * 5e-3;
-        const Vec3 p = along_x ? Vec3(at, 0, z) : Vec3(0, at, z);
-        if (reach.turned_slack(p) >= 0.0) turned.x.push_back(at * kMmPerM), turned.y.push_back(z * kMmPerM);
-      }
-    Series box{"paper's box", {-half, half, half, -half, -half}, {-25, -25, 25, 25, -25}};
-    box.paper = true;
-    Plot plot{id,
-              title,
-              label,
-              "z, mm",
-              false,
-              false,
-              {turned, edge, box},
-              "The box touches the reach; it is not in it."};
-    result.plots.push_back(std::move(plot));
+    result.plots.push_back(
+        {id,
+         title,
+         label,
+         "z, mm",
+         false,
+         false,
+         {upright_turned(reach, along_x), upright_outline(reach, along_x), paper_box(half, 25)},
+         "The box touches the reach; it is not in it."});
   };
   upright("workspace_xz", "Reach of the haptic-tip, y = 0", "x, mm", true, 80.0);
   upright("workspace_yz", "Reach of the haptic-tip, x = 0", "y, mm", false, 70.0);
@@ -239,23 +271,8 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
             false,
             {},
             "Horizontal slices. Below -13 mm they fall into pieces, see the sections."};
-  for (const double z : {-0.010, 0.0, 0.010, 0.020}) {
-    Series edge{fmt::format("z = {:g} mm", z * kMmPerM)};
-    for (int degree = 0; degree <= 360; degree += 2) {
-      const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
-      double in = 0.0;  // the slice is one piece around the axis: step outwards until it ends
-      while (in < 0.12) {
-        const auto c = reach.column((in + 0.25e-3) * out.x(), (in + 0.25e-3) * out.y());
-        if (z < c.low || z > c.high) break;
-        in += 0.25e-3;
-      }
-      edge.x.push_back(in * out.x() * kMmPerM), edge.y.push_back(in * out.y() * kMmPerM);
-    }
-    plan.series.push_back(std::move(edge));
-  }
-  Series box{"paper's box", {-80, 80, 80, -80, -80}, {-70, -70, 70, 70, -70}};
-  box.paper = true;
-  plan.series.push_back(std::move(box));
+  for (const double z : {-0.010, 0.0, 0.010, 0.020}) plan.series.push_back(plan_outline(reach, z));
+  plan.series.push_back(paper_box(80, 70));
   result.plots.push_back(std::move(plan));
 }
 

@@ -143,7 +143,6 @@ constexpr auto kToShorten = std::to_array<std::string_view>({
     "tool_channel.cpp: see_pressing",
     "tracking.cpp: run",
     "vishap.cpp: tell_wall",
-    "workspace.cpp: add_slices",
 });
 
 std::string squeezed(std::string_view text) {
