@@ -260,7 +260,7 @@ struct Leaving {
 
 struct WorstHand {
   double condition = 0.0, dexterity = 1.0;  // the worst of any hand
-  Run run;                                  // the run that is judged
+  Run run;                                  // the one with most ticks that the judge objects to
 };
 
 // The place where a tool meets a tip that comes from the side is chance: one hand is not enough.

@@ -103,7 +103,7 @@ struct Swept {
   std::vector<double> errors;  // %, of what is felt
   Tail tail;                   // of the errors
   std::ptrdiff_t failed;       // hands
-  double error, cost;          // %, unset if a run failed; s of CPU for each second of experiment
+  double error, cost;          // %, the tail, unset if a run failed; s of CPU for each second of experiment
 
   template <class Of>
   [[nodiscard]] double middle(Of of) const {
