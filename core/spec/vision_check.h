@@ -19,7 +19,8 @@ void check(const BallSpec& spec);
 void check(const MatchSpec& spec, double product);
 // Checks rate and latency.
 void check_timing(const StereoRig& camera);
-// Checks all of them, and camera against vision. models/setup/calibration_files.h checks the camera's own numbers.
+// Checks all of them, and camera against vision. models/setup/calibration_files.h checks the camera's own
+// numbers.
 void check(const StereoRig& camera, const VisionRig& vision);
 
 }  // namespace enc

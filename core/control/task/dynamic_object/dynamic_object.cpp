@@ -98,7 +98,8 @@ void push(StepContext& context, CommonState& state, DynamicObjectState& now) {
       sinks = dot(context.moved[static_cast<std::size_t>(object.moving)].velocity - context.tip_velocity,
                   context.normal);
   }
-  const double speed = -dot(now.aim.velocity, context.normal);  // a struck prop: go_with_prop in impedance/aim.cpp
+  const double speed =
+      -dot(now.aim.velocity, context.normal);  // a struck prop: go_with_prop in impedance/aim.cpp
   const bool late = age(context.tick.t, now.contact.left) < context.scene.tracker.usual_age;
   const FingerPress press{state.object,        depth, context.normal, context.tool_tip,
                           context.tool_radius, speed, sinks,          late};
