@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::gravity {
+
+inline constexpr double kPlate = 0.020;  // kg, a prop
 
 // A machine and its prop: the masses that gravity acts on.
 struct Laden {
