@@ -1,5 +1,4 @@
-// The options of the command line, one struct for each subcommand. main.cpp fills them; no other code uses
-// the parser.
+// The options of the command line, one struct for each subcommand; app/command_line fills them.
 #pragma once
 
 #include <cstdint>

@@ -45,8 +45,8 @@ struct GravityCase {
 // The force that gravity compensation leaves at the tip over the workspace: with the true masses, with wrong
 // ones, and with a prop that is added to m_a as in the paper.
 
-constexpr double kBound = 0.05;                 // N: bound for equal masses
-constexpr double kKey = 0.003;  // kg
+constexpr double kBound = 0.05;  // N: bound for equal masses
+constexpr double kKey = 0.003;   // kg
 constexpr std::array<double PhantomGeometry::*, 4> kMasses{&PhantomGeometry::m_a, &PhantomGeometry::m_c,
                                                            &PhantomGeometry::m_be, &PhantomGeometry::m_df};
 

@@ -1,6 +1,6 @@
 // Table 1 [VHMR 4.1], in m: of the paper, of the twin and over devices. Scene `tracking` runs through the
-// whole loop; the error counts at each new packet (trial/measure/test_measures.h). table1.cpp has the method,
-// bounds, figures and plots.
+// whole loop; the error counts at each new packet (trial/measure/programme_measures.h). table1.cpp has the
+// method, bounds, figures and plots.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/verdict/reference.h"
 #include "models/setup/scene_file.h"
-#include "trial/measure/test_measures.h"
+#include "trial/measure/programme_measures.h"
 #include "trial/trial.h"
 
 namespace enc::bench::tracking {

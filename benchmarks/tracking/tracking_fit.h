@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/table1.h"
-#include "trial/measure/test_measures.h"
+#include "trial/measure/programme_measures.h"
 
 namespace enc::bench::tracking {
 

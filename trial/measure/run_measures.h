@@ -7,8 +7,8 @@
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
+#include "trial/measure/programme_measures.h"
 #include "trial/measure/seen_measure.h"
-#include "trial/measure/test_measures.h"
 #include "trial/measure/touch_measure.h"
 #include "trial/trial.h"
 

@@ -10,7 +10,7 @@
 #include "core/record/replay.h"
 #include "tests/support/refusal.h"
 #include "tests/support/twin.h"
-#include "trial/measure/test_measures.h"
+#include "trial/measure/programme_measures.h"
 
 namespace enc::test {
 namespace {

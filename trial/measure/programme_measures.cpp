@@ -1,4 +1,4 @@
-#include "trial/measure/test_measures.h"
+#include "trial/measure/programme_measures.h"
 
 #include <algorithm>
 #include <cmath>
