@@ -131,7 +131,9 @@ TEST(DoctorScript, EachBrokenSystemGetsItsRemedy) {
   const std::string sound = BareSystem().doctor().out;
   for (const Break& one : breaks()) {
     SCOPED_TRACE(one.what);
-    if (one.remedy != "ready to build") EXPECT_THAT(sound, Not(HasSubstr(one.remedy)));
+    if (one.remedy != "ready to build") {
+      EXPECT_THAT(sound, Not(HasSubstr(one.remedy)));
+    }
     const BareSystem system;
     if (!one.tool.empty()) system.stand_in(one.tool, one.script);
     const Result r = system.doctor(one.shell);
