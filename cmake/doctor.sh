@@ -39,21 +39,14 @@ clock() {
 }
 
 packages() {
-  local words wanted=() name states lacking=()
-  if ! command -v dpkg-query >/dev/null; then line note "this is no Debian: the names in cmake/packages.txt have to be installed in some form"; return; fi
+  local wanted missing
+  if ! find_packages build; then line note "this is no Debian: the names in cmake/packages.txt have to be installed in some form"; return; fi
   [[ -z $(dpkg --audit 2>/dev/null) ]] || missing "an installation was cut off: dpkg --configure -a (as root)"
-  while IFS=: read -r name words; do
-    # shellcheck disable=SC2206  # the words of a line are the packages
-    [[ $name != build ]] || wanted+=($words)
-  done <"$root/cmake/packages.txt"
-  # shellcheck disable=SC2016  # dpkg-query's own ${...}
-  states=$'\n'$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)$'\n'
-  for name in "${wanted[@]}"; do [[ $states == *$'\n'"$name installed"$'\n'* ]] || lacking+=("$name"); done
-  if [[ ${#lacking[@]} == 0 ]]; then line ok "Debian packages of a build"; return; fi
+  if [[ ${#missing[@]} == 0 ]]; then line ok "Debian packages of a build"; return; fi
   fetches=true
-  if [[ $(id -u) == 0 ]]; then line note "Debian packages: ${lacking[*]}; the first call installs them"
-  elif command -v sudo >/dev/null; then line note "Debian packages: ${lacking[*]}; the first call installs them, and asks for sudo's password"
-  else missing "Debian packages: as root, apt-get update && apt-get install -y --no-install-recommends ${lacking[*]}"; fi
+  if [[ $(id -u) == 0 ]]; then line note "Debian packages: ${missing[*]}; the first call installs them"
+  elif command -v sudo >/dev/null; then line note "Debian packages: ${missing[*]}; the first call installs them, and asks for sudo's password"
+  else missing "Debian packages: as root, apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"; fi
 }
 
 # A tool that is installed, but is another one than Debian's.
@@ -76,7 +69,7 @@ mujoco() {
     for part in "$own"/{include/,}mujoco/mujoco.h; do [[ ! -e $part ]] || header=("$part"); done
     if [[ ${#header[@]} == 0 ]]; then missing "ENCOUNTER_MUJOCO=$own has no mujoco/mujoco.h: set it to the folder of MuJoCo $mujoco_version, or unset it"
     elif bad_mujoco "${header[@]}"; then missing "ENCOUNTER_MUJOCO=$own is MuJoCo 4.0.0, whose solver factors a wrong Hessian: take 4.0.1, or unset it"
-    elif ! grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' "${header[@]}"; then missing "ENCOUNTER_MUJOCO=$own is not MuJoCo 4: set it to the folder of MuJoCo $mujoco_version, or unset it"
+    elif ! mujoco_4 "${header[@]}"; then missing "ENCOUNTER_MUJOCO=$own is not MuJoCo 4: set it to the folder of MuJoCo $mujoco_version, or unset it"
     else line ok "MuJoCo in $own"; fi
   elif [[ -d $root/.deps/mujoco-$mujoco_version ]] || system_mujoco; then line ok "MuJoCo for a build"
   else fetches=true; line note "MuJoCo $mujoco_version: the first call fetches it (10 MB)"; fi
@@ -99,7 +92,7 @@ network() {
 }
 
 earlier_build() {
-  if [[ -e $build/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+  if was_moved "$build"; then
     line note "$build was made in another folder: the next call deletes it and builds anew"
   elif [[ -e $build/.ninja_log && ! -x $build/encounter ]]; then line note "a build was cut off; the next call carries on from there"
   elif [[ -x $build/encounter ]] && ldd "$build/encounter" 2>/dev/null | grep 'not found' >/dev/null; then

@@ -29,19 +29,26 @@ setup_begin() {
 
 setup_end() { trap - INT TERM HUP; exec 9>&-; }
 
-setup_packages() {  # GROUP...
-  local group words wanted=() missing=() states name as_root=()
+# Sets `wanted` to the packages of these groups, and `missing` to those that are not installed. False: this is no Debian.
+find_packages() {  # GROUP...
+  local group words states name
+  wanted=() missing=()
   while IFS=: read -r group words; do
     # shellcheck disable=SC2206  # the words of a line are the packages
     [[ " $* " != *" $group "* ]] || wanted+=($words)
   done <"$root/cmake/packages.txt"
-  if ! command -v dpkg-query >/dev/null; then
-    say "this is no Debian; going on in the hope that these are installed in some form: ${wanted[*]}"
-    return
-  fi
+  command -v dpkg-query >/dev/null || return 1
   # shellcheck disable=SC2016  # dpkg-query's own ${...}
   states=$'\n'$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)$'\n'
   for name in "${wanted[@]}"; do [[ $states == *$'\n'"$name installed"$'\n'* ]] || missing+=("$name"); done
+}
+
+setup_packages() {  # GROUP...
+  local wanted missing as_root=()
+  if ! find_packages "$@"; then
+    say "this is no Debian; going on in the hope that these are installed in some form: ${wanted[*]}"
+    return
+  fi
   [[ ${#missing[@]} -gt 0 ]] || return 0
 
   local line="apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
@@ -65,10 +72,12 @@ setup_packages() {  # GROUP...
 # MuJoCo 4.0.0 factors a wrong Hessian where the constraint Jacobian is sparse (its issue 3767, mended in 4.0.1).
 bad_mujoco() { grep -qsE 'define mjVERSION_HEADER +4000000\b' "$@"; }
 
+mujoco_4() { grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' "$@"; }
+
 # The system has a MuJoCo 4 of its own that Encounter can use.
 system_mujoco() {
   local headers=(/usr/local/include/mujoco/mujoco.h /usr/include/mujoco/mujoco.h)
-  grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' "${headers[@]}" && ! bad_mujoco "${headers[@]}"
+  mujoco_4 "${headers[@]}" && ! bad_mujoco "${headers[@]}"
 }
 
 # A Python wheel as a file, pinned by version and hash, without installing it.
@@ -223,7 +232,8 @@ show_progress() {
 }
 
 # A build folder that was moved or copied here points to where it came from.
-drop_moved() { [[ ! -e $1/CMakeCache.txt ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$1/CMakeCache.txt" || rm -rf "$1"; }
+was_moved() { [[ -e $1/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$1/CMakeCache.txt"; }
+drop_moved() { ! was_moved "$1" || rm -rf "$1"; }
 
 # The folder of the compiler cache: CCACHE_DIR where it is set, else one folder for all clones of this user. It is the only
 # place outside the project that a build writes to. Its size is ccache's own limit (5 GB), or `ccache -M` of that folder.

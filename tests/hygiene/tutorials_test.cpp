@@ -66,7 +66,8 @@ void furnish(const std::string& folder) {
     fs::create_symlink(source_dir() + "/" + name, folder + "/" + name);
 }
 
-// Runs the commands of a page in one shell, each block's output in a file whose first line is its name.
+// Runs the commands of a page in one shell, with the output of each block in a file. A block of TOML or
+// Python is a file whose first line has its name.
 void follow(const std::string& page) {
   if (!test::kCanTally) GTEST_SKIP() << "what a reader builds has no sanitizers";
   const test::TemporaryFolder folder;
