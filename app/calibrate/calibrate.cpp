@@ -32,11 +32,11 @@ void check_folder(const std::string& folder) {
 }
 
 void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
-  CLI::App* command = calibrate.add_subcommand(
-      "tracker",
+  CLI::App* command = add_command(
+      calibrate, "tracker",
       "Find a tracker's bias, noise and latency, with intervals, from a log of a tool that the machine "
-      "carries.");
-  command->footer("Example: encounter calibrate tracker log.csv --rate-Hz 1000");
+      "carries.",
+      "calibrate tracker log.csv --rate-Hz 1000");
   command
       ->add_option("log", options.log,
                    "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes, or a record of run")
@@ -47,9 +47,9 @@ void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
 }
 
 void add_tip(CLI::App& calibrate, TipOptions& options, int& code) {
-  CLI::App* command = calibrate.add_subcommand(
-      "tip", "Find a tool's tip in its markers from a log of its swing about the tip.");
-  command->footer("Example: encounter calibrate tip poses.csv");
+  CLI::App* command =
+      add_command(calibrate, "tip", "Find a tool's tip in its markers from a log of its swing about the tip.",
+                  "calibrate tip poses.csv");
   command
       ->add_option("log", options.log,
                    "CSV with time_s, tool_x_mm.., tool_qx.. or, as export writes, with time_s, "
@@ -71,11 +71,11 @@ void check_camera(const CameraOptions& options) {
 }
 
 void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
-  CLI::App* command = calibrate.add_subcommand(
-      "camera",
+  CLI::App* command = add_command(
+      calibrate, "camera",
       "Find a camera's pose from pairs of points, or from a rig's simulated arm that is driven through the "
-      "camera's view.");
-  command->footer("Example: encounter calibrate camera vishap --pairs 8 --out points.csv");
+      "camera's view.",
+      "calibrate camera vishap --pairs 8 --out points.csv");
   command
       ->add_option(
           "what", options.what,
@@ -128,11 +128,11 @@ int run_rig(const RigOptions& options) {
 }
 
 void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
-  CLI::App* command = calibrate.add_subcommand(
-      "rig",
+  CLI::App* command = add_command(
+      calibrate, "rig",
       "Find where a rig's tracker and force sensor are and what the sensor carries, from poses in which the "
-      "machine holds a clamped tool. With --armed the machine moves by itself for minutes.");
-  command->footer("Example: encounter calibrate rig sim --out measured.toml");
+      "machine holds a clamped tool. With --armed the machine moves by itself for minutes.",
+      "calibrate rig sim --out measured.toml");
   command->add_option("rig", options.rig, "rig with a hexapod: a name in models/rigs, or a file")->required();
   command
       ->add_option("--scene", options.scene, "whose clamped tool the machine carries; default: clamped_tool")
@@ -151,8 +151,8 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
 
 void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
   CLI::App* command =
-      calibrate.add_subcommand("stereo", "Calibrate a stereo head from pairs of images of a chessboard.");
-  command->footer("Example: encounter calibrate stereo images --square-mm 25 --out head.toml");
+      add_command(calibrate, "stereo", "Calibrate a stereo head from pairs of images of a chessboard.",
+                  "calibrate stereo images --square-mm 25 --out head.toml");
   command->add_option("folder", options.folder, "folder with left01.png, right01.png, ...")->required();
   command->add_option("--square-mm", options.square_mm, "side of the board's squares; measure them");
   command->add_option("--corners", options.corners, "inner corners of the board")->capture_default_str();
@@ -168,8 +168,8 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
 
 void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
   CLI::App* command =
-      calibrate.add_subcommand("skin", "Learn the colour of skin from images of hands and their masks.");
-  command->footer("Example: encounter calibrate skin images --masks masks --out skin.toml");
+      add_command(calibrate, "skin", "Learn the colour of skin from images of hands and their masks.",
+                  "calibrate skin images --masks masks --out skin.toml");
   command->add_option("folder", options.folder, "folder with images of hands")->required();
   command
       ->add_option("--masks", options.masks,
@@ -189,9 +189,9 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
 
 void add_calibrate(CLI::App& app, CalibrateWords& words, int& code) {
   CLI::App* command =
-      app.add_subcommand("calibrate", "Calibrate one subject: tracker, tip, camera, rig, stereo or skin.");
+      add_command(app, "calibrate", "Calibrate one subject: tracker, tip, camera, rig, stereo or skin.",
+                  "calibrate tracker log.csv");
   command->require_subcommand(1);
-  command->footer("Example: encounter calibrate tracker log.csv");
   add_tracker(*command, words.tracker, code);
   add_tip(*command, words.tip, code);
   add_camera(*command, words.camera, code);

@@ -60,9 +60,9 @@ void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* recor
 }
 
 CLI::App* add_view(CLI::App& app, ViewOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "view", "Run a scene in a window, where the mouse is the hand, or draw it into a file.");
-  command->footer("Example: encounter view tennis_ball");
+  CLI::App* command = add_command(
+      app, "view", "Run a scene in a window, where the mouse is the hand, or draw it into a file.",
+      "view tennis_ball");
   scene_options(command, options);
   command->get_option("scene")->required(false)->description(
       "scene file, name of a shipped scene, or record; without one you choose in the window");
@@ -79,8 +79,8 @@ CLI::App* add_view(CLI::App& app, ViewOptions& options) {
 
 CLI::App* add_tour(CLI::App& app, TourOptions& options) {
   CLI::App* command =
-      app.add_subcommand("tour", "Make a film of each shipped scene, from a second before its first touch.");
-  command->footer("Example: encounter tour --out films");
+      add_command(app, "tour", "Make a film of each shipped scene, from a second before its first touch.",
+                  "tour --out films");
   command->add_option("--out", options.out, "folder for the films")->check(unnamed)->capture_default_str();
   command->add_option("--for-s", options.seconds, "length of each film, s of experiment")
       ->capture_default_str();
@@ -89,9 +89,9 @@ CLI::App* add_tour(CLI::App& app, TourOptions& options) {
 }
 
 CLI::App* add_shadow(CLI::App& app, ShadowOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "shadow", "Compare a record with the twin, channel by channel; exit code 1 if one diverges.");
-  command->footer("Example: encounter shadow press.encrec");
+  CLI::App* command = add_command(
+      app, "shadow", "Compare a record with the twin, channel by channel; exit code 1 if one diverges.",
+      "shadow press.encrec");
   command->add_option("record", options.record, "file written by run --record")->required();
   command->add_option("--set", options.set,
                       "override the record's own set-up, for example truth.tracker.latency_ms=3.5");
@@ -101,8 +101,8 @@ CLI::App* add_shadow(CLI::App& app, ShadowOptions& options) {
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
-  CLI::App* command = app.add_subcommand("run", "Run a scene and report what happened.");
-  command->footer("Example: encounter run tennis_ball --record press.encrec");
+  CLI::App* command = add_command(app, "run", "Run a scene and report what happened.",
+                                  "run tennis_ball --record press.encrec");
   scene_options(command, options);
   command->add_option("--pace", options.pace, "free, wall, or seconds of experiment per second of wall time")
       ->capture_default_str();
@@ -126,10 +126,10 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
 }
 
 CLI::App* add_check(CLI::App& app, CheckOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "check",
-      "Check a scene and its rig without moving anything: mistakes, parts, frames, stability, cost.");
-  command->footer("Example: encounter check tennis_ball --rig laboratory");
+  CLI::App* command = add_command(
+      app, "check",
+      "Check a scene and its rig without moving anything: mistakes, parts, frames, stability, cost.",
+      "check tennis_ball --rig laboratory");
   scene_options(command, options);
   CLI::Option* resolved = command->add_flag(
       "--resolved", options.resolved, "print a scene file that runs alone, with only what the scene builds");
@@ -148,8 +148,8 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
 }
 
 CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
-  CLI::App* command = app.add_subcommand("fake", "Answer for the devices of a rig on their real protocols.");
-  command->footer("Example: encounter fake fakes");
+  CLI::App* command =
+      add_command(app, "fake", "Answer for the devices of a rig on their real protocols.", "fake fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
   command->add_option("--scene", options.scene, "scene of the simulated world; default: the tennis ball")
       ->check(unnamed);
@@ -166,9 +166,9 @@ CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
 }
 
 CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "devices", "Ask the devices of a rig how often and how late they answer; nothing moves.");
-  command->footer("Example: encounter devices fakes");
+  CLI::App* command = add_command(
+      app, "devices", "Ask the devices of a rig how often and how late they answer; nothing moves.",
+      "devices fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
   command->add_option("--scene", options.scene, "scene whose devices are asked; default: the tennis ball")
       ->check(unnamed);
@@ -179,9 +179,8 @@ CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
 }
 
 CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("replay", "Compute a record again; exit code 1 if any output differs.");
-  command->footer("Example: encounter replay press.encrec");
+  CLI::App* command = add_command(app, "replay", "Compute a record again; exit code 1 if any output differs.",
+                                  "replay press.encrec");
   command->add_option("record", options.record, "file written by run --record")->required();
   command
       ->add_option("--frames", options.frames,
@@ -193,8 +192,8 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
 
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* command =
-      app.add_subcommand("export", "Write a record as a table or for a viewer, or a scene for MuJoCo.");
-  command->footer("Example: encounter export press.encrec --csv press.csv");
+      add_command(app, "export", "Write a record as a table or for a viewer, or a scene for MuJoCo.",
+                  "export press.encrec --csv press.csv");
   command->add_option("record", options.record, "file written by run --record, or a scene")->required();
   command->add_option("xml", options.xml, "MJCF file to write (scene only); MuJoCo's simulate opens it")
       ->check(unnamed);
@@ -212,18 +211,17 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
 }
 
 CLI::App* add_params(CLI::App& app, ParamsOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "params", "List every name that --set takes: unit, value, source, confidence (CSV).");
-  command->footer("Example: encounter params tennis_ball");
+  CLI::App* command =
+      add_command(app, "params", "List every name that --set takes: unit, value, source, confidence (CSV).",
+                  "params tennis_ball");
   scene_options(command, options);
   command->add_flag("--json", options.json, "JSON instead of CSV");
   return command;
 }
 
 CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("bench", "Run benchmarks; exit code 1 if a figure is out of bounds.");
-  command->footer("Example: encounter bench paper-2020 --out out");
+  CLI::App* command = add_command(app, "bench", "Run benchmarks; exit code 1 if a figure is out of bounds.",
+                                  "bench paper-2020 --out out");
   command->add_option("names", options.names,
                       "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
   command
@@ -250,9 +248,9 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
 }
 
 CLI::App* add_fit(CLI::App& app, FitOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "fit", "Turn a measured loop (CSV) into a response file, or find the ball behind it.");
-  command->footer("Example: encounter fit loop.csv --out models/responses/foam.toml");
+  CLI::App* command =
+      add_command(app, "fit", "Turn a measured loop (CSV) into a response file, or find the ball behind it.",
+                  "fit loop.csv --out models/responses/foam.toml");
   command->add_option("loop", options.loops, "CSV with time_s, deflection_mm, force_N, repeat")->required();
   command->add_option("--out", options.out, "response file to write, models/responses/NAME.toml")
       ->check(unnamed);
@@ -273,9 +271,9 @@ CLI::App* add_fit(CLI::App& app, FitOptions& options) {
 }
 
 CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "nearest", "Print signed distance, nearest surface point and normal of each point of a CSV file.");
-  command->footer("Example: encounter nearest models/meshes/hare.glb points.csv");
+  CLI::App* command = add_command(
+      app, "nearest", "Print signed distance, nearest surface point and normal of each point of a CSV file.",
+      "nearest models/meshes/hare.glb points.csv");
   command->add_option("surface", options.what, "mesh file, points in its axes; or SCENE#object, points in W")
       ->required();
   command->add_option("points", options.points, "CSV file with the header x_m,y_m,z_m")->required();
@@ -283,9 +281,8 @@ CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
 }
 
 CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
-  CLI::App* command =
-      app.add_subcommand("mesh", "Write a closed mesh to try things with (.glb, .obj or .stl).");
-  command->footer("Example: encounter mesh ball --fine 71 --out ball.glb");
+  CLI::App* command = add_command(app, "mesh", "Write a closed mesh to try things with (.glb, .obj or .stl).",
+                                  "mesh ball --fine 71 --out ball.glb");
   command->add_option("name", options.name, "ball, cube, hare, knot or turned_part")->required();
   command->add_option("--out", options.out, "file")->required()->check(unnamed);
   command->add_option("--fine", options.fine, "3 to 400, fineness; a ball has 20 n^2 triangles");
@@ -294,9 +291,10 @@ CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
 }
 
 CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "questionnaire", "Ask a person the paper's questions, keep the answers, show mean, range and counts.");
-  command->footer("Example: encounter questionnaire vhmr_2020 --store answers.csv");
+  CLI::App* command =
+      add_command(app, "questionnaire",
+                  "Ask a person the paper's questions, keep the answers, show mean, range and counts.",
+                  "questionnaire vhmr_2020 --store answers.csv");
   command->add_option("form", options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
   command->add_option("--store", options.store, "CSV file to add the answers to; it keeps its content")
@@ -374,12 +372,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   add(app, add_nearest, nearest, code);
   add(app, add_mesh, mesh, code);
   add(app, add_questionnaire, questionnaire, code);
-  CLI::App* scenes_command = app.add_subcommand("scenes", "List the shipped scenes.");
-  scenes_command->footer("Example: encounter scenes");
+  CLI::App* scenes_command = add_command(app, "scenes", "List the shipped scenes.", "scenes");
   scenes_command->callback([&] { code = scenes(); });
   CLI::App* doctor_command =
-      app.add_subcommand("doctor", "Report whether this machine is ready, and what to do if not.");
-  doctor_command->footer("Example: encounter doctor");
+      add_command(app, "doctor", "Report whether this machine is ready, and what to do if not.", "doctor");
   doctor_command->callback([&] { code = doctor(); });
   check_subcommand(app, argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});

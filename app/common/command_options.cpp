@@ -19,6 +19,13 @@ std::string unnamed(const std::string& text) {
   return text.empty() ? "expected a name, and this one is empty" : std::string();
 }
 
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& sentence,
+                      const std::string& example) {
+  CLI::App* command = parent.add_subcommand(name, sentence);
+  command->footer("Example: encounter " + example);
+  return command;
+}
+
 void force_option(CLI::App* command, bool& force) {
   command->add_flag("--force", force, "replace existing files");
 }

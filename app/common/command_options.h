@@ -13,6 +13,10 @@ namespace enc::app {
 std::string bad_seed(const std::string& text);
 std::string unnamed(const std::string& text);
 
+// A subcommand whose help begins with a sentence and ends with an example, "run tennis_ball".
+CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& sentence,
+                      const std::string& example);
+
 void force_option(CLI::App* command, bool& force);
 void json_option(CLI::App* command, bool& json);
 // The options of a command that may move real devices: armed, lockstep, yes, not_real_time.
