@@ -28,7 +28,7 @@ namespace {
 // The file, or standard output for "-".
 class Output {
  public:
-  Output(const std::string& path, models::Existing existing) {
+  Output(const std::string& path, models::OverwritePolicy existing) {
     if (path != "-") file_.emplace(path, existing);
   }
   void write(std::string_view text) {
@@ -163,7 +163,7 @@ int export_record(const ExportOptions& options) {
   const std::string csv = options.csv.empty() ? "-" : options.csv;
   const bool mcap = !options.mcap.empty();
   models::note_input(options.record);
-  RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
+  RecordReader record(options.record, options.partial ? PartialRead::yes : PartialRead::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
   const std::string ledger = options.ledger ? ledger_of(record, options.record) : "";

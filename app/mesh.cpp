@@ -58,12 +58,12 @@ int mesh(const MeshOptions& options) {
 namespace {
 
 // A surface and its pose: in its own axes, or in W.
-struct Placed {
+struct SurfacePlacement {
   Surface surface;
   Pose<'W', 'O'> X_WO = Pose<'W', 'O'>::identity();
 };
 
-Placed object_of(const std::string& scene_path, const std::string& name) {
+SurfacePlacement object_of(const std::string& scene_path, const std::string& name) {
   const models::Setup setup = models::load(scene_path, "");
   print_notes(setup.notes);
   const Scene scene = trial::prepare_setup(setup);
@@ -76,7 +76,7 @@ Placed object_of(const std::string& scene_path, const std::string& name) {
                           models::advice(name, names)));
 }
 
-Placed placed(const std::string& what) {
+SurfacePlacement placed(const std::string& what) {
   if (const auto mark = what.rfind('#'); mark != std::string::npos)
     return object_of(what.substr(0, mark), what.substr(mark + 1));
   const models::CheckedMesh solid = models::load_solid(what);
@@ -91,13 +91,13 @@ int nearest(const NearestOptions& options) {
   const std::vector<Vec3> all = models::parse_places(
       models::csv_text(options.points, "list of points", "a CSV file with the header x_m,y_m,z_m"),
       options.points);
-  const Placed object = placed(options.what);
+  const SurfacePlacement object = placed(options.what);
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   fmt::format_to(to, "distance_m,x_m,y_m,z_m,nx,ny,nz,triangle\n");
   std::int32_t hint = -1;
   for (const Vec3& p : all) {
-    const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(p), hint);
+    const SurfacePoint near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(p), hint);
     hint = near.feature;
     const Point<'W'> at = object.X_WO * near.point;
     const Vec<'W'> n = object.X_WO * near.normal;

@@ -52,7 +52,7 @@ bool same(const std::array<double, N>& a, const std::array<double, N>& b) {
 
 // A link lost during the run does not count as a difference: the record then reports a fault, whatever vision
 // reported.
-std::string difference(const Stamped<TrackedTool>& recorded, const Stamped<TrackedTool>& seen) {
+std::string difference(const Measurement<TrackedTool>& recorded, const Measurement<TrackedTool>& seen) {
   if (recorded.value.tool != seen.value.tool)
     return fmt::format("the tool: recorded {}, seen {}", recorded.value.tool, seen.value.tool);
   if (recorded.t != seen.t)
@@ -83,7 +83,7 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
     }
   }();
   SeenAgain result;
-  Stamped<TrackedTool> seen;
+  Measurement<TrackedTool> seen;
   RecordedTick frame;
   for (record.rewind(); record.next(frame);) {
     result.told += vision->poll(frame.tick.t, seen) ? 1 : 0;
@@ -100,7 +100,7 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
 }  // namespace
 
 int replay(const ReplayOptions& options) {
-  RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
+  RecordReader record(options.record, options.partial ? PartialRead::yes : PartialRead::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
   if (record.ticks() == 0)

@@ -12,20 +12,20 @@
 namespace enc::app {
 namespace {
 
-using trial::Certified;
+using trial::ObjectCertificate;
 
 // One line for each existing class.
-std::string class_lines(const std::vector<Certified>& all, const char* before) {
-  Said said;
-  for (const Certified& one : all) said.emplace_back(trial::name_of(one), trial::class_text(one));
+std::string class_lines(const std::vector<ObjectCertificate>& all, const char* before) {
+  Statements said;
+  for (const ObjectCertificate& one : all) said.emplace_back(trial::name_of(one), trial::class_text(one));
   std::string text;
-  for (const SaidOf& group : grouped(said))
+  for (const SharedStatement& group : grouped(said))
     text += fmt::format("{}{}: {}\n", before, listed(group.names), group.what);
   return text;
 }
 
 // The smallest margin to instability.
-double margin_of(const Certified& one) {
+double margin_of(const ObjectCertificate& one) {
   double least = INFINITY;
   for (const certificate::Row& row : one.certificate.rows)
     if (row.name.starts_with("exact") || row.name == "admittance" || row.name == "large_signal")
@@ -53,7 +53,7 @@ std::string margin_text(const certificate::Row& row) {
 }
 
 // The place of an arm's certificate, which holds for one place only.
-std::string place_text(const Certified& one) {
+std::string place_text(const ObjectCertificate& one) {
   if (!one.place.finite() || one.free_tip()) return {};
   const auto rounded = [](double metres) { return std::round(metres * 1e4) * 0.1 + 0.0; };  // mm, avoids -0
   return fmt::format(" at [{:.1f}, {:.1f}, {:.1f}] mm, {},", rounded(one.place.xyz[0]),
@@ -61,7 +61,7 @@ std::string place_text(const Certified& one) {
                      one.pressed ? "where it is pressed" : "the worst place tried");
 }
 
-std::string rows_text(const Certified& one) {
+std::string rows_text(const ObjectCertificate& one) {
   std::string text =
       fmt::format("  bounds of {}{} N/mm, and how many times what it asks for is within them\n",
                   trial::name_of(one), place_text(one).empty() ? "," : place_text(one));
@@ -73,8 +73,8 @@ std::string rows_text(const Certified& one) {
 
 }  // namespace
 
-const Certified& nearest_its_bound(const std::vector<Certified>& certificates) {
-  const auto order = [](const Certified& one) {
+const ObjectCertificate& nearest_its_bound(const std::vector<ObjectCertificate>& certificates) {
+  const auto order = [](const ObjectCertificate& one) {
     return std::tuple(one.beyond()    ? 0
                       : one.unknown() ? 1
                                       : 2,
@@ -84,10 +84,10 @@ const Certified& nearest_its_bound(const std::vector<Certified>& certificates) {
                            [&](const auto& a, const auto& b) { return order(a) < order(b); });
 }
 
-std::string stability_text(const models::Setup& setup, const std::vector<Certified>& certificates) {
+std::string stability_text(const models::Setup& setup, const std::vector<ObjectCertificate>& certificates) {
   if (certificates.empty()) return {};
   std::string text = "\nstability\n" + class_lines(certificates, "  ");
-  for (const Certified& one : certificates)
+  for (const ObjectCertificate& one : certificates)
     if (one.beyond() || one.unknown())
       text += (one.beyond() ? "  BEYOND: " : "  NOT KNOWN: ") + trial::refusal_text(setup, one) + "\n";
   const MachineWords& words = words_of(setup.scene);
@@ -100,7 +100,7 @@ std::string stability_text(const models::Setup& setup, const std::vector<Certifi
   return text + rows_text(nearest_its_bound(certificates));
 }
 
-std::string stability_lines(const std::vector<Certified>& certificates) {
+std::string stability_lines(const std::vector<ObjectCertificate>& certificates) {
   return class_lines(certificates, "stability   ");
 }
 

@@ -15,14 +15,14 @@ struct Keys {
   void declare(Settings& table) { table.value({.name = "address", .meaning = "of the sensor"}, address); }
 };
 
-class Steady final : public ForceSensor {
+class ConstantSensor final : public ForceSensor {
  public:
-  explicit Steady(const Offer& offer) {
+  explicit ConstantSensor(const Offer& offer) {
     keys_.declare(offer.table);
   }  // connect; throw Error without an answer
   std::string describe() const override { return "steady at " + keys_.address; }
   // Return the newest sample; a driver never waits here.
-  Stamped<Wrench> read(Time now) noexcept override {
+  Measurement<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
   }
 
@@ -31,7 +31,7 @@ class Steady final : public ForceSensor {
 };
 
 constexpr DriverModule kDriver{.settings = [](Settings& table) { Keys{}.declare(table); },
-                               .force = make<ForceSensor, Steady>};
+                               .force = make<ForceSensor, ConstantSensor>};
 constexpr ModuleInfo kInfo{.name = "steady", .driver = &kDriver};
 
 }  // namespace

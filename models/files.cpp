@@ -107,7 +107,7 @@ std::string read_file(const std::string& path, std::size_t most, std::string& wh
   return why.empty() ? text : std::string();
 }
 
-OutFile::OutFile(std::string path, Existing existing) : path_(std::move(path)), existing_(existing) {
+OutFile::OutFile(std::string path, OverwritePolicy existing) : path_(std::move(path)), existing_(existing) {
   struct stat s {};
   const bool there = stat(path_.c_str(), &s) == 0;
   if (there && S_ISDIR(s.st_mode)) fail(EISDIR);
@@ -138,7 +138,7 @@ bool OutFile::is_ours() const {
 
 void OutFile::refuse_existing() const {
   struct stat s {};
-  if (existing_ == Existing::replace || lstat(path_.c_str(), &s) != 0) return;
+  if (existing_ == OverwritePolicy::replace || lstat(path_.c_str(), &s) != 0) return;
   throw Error(
       fmt::format("{}: is there already; expected a new file; choose another name, or give --force "
                   "to replace it",
@@ -189,7 +189,7 @@ void OutFile::remove_left_over() {
   }
   if (!lock()) refuse_other_run();
   if (!is_ours()) return;
-  if (s.st_size > 0 && existing_ == Existing::keep) {
+  if (s.st_size > 0 && existing_ == OverwritePolicy::keep) {
     close();
     throw Error(
         fmt::format("{}: is left of a run that did not end; look at it, then remove it, or give "
@@ -217,8 +217,8 @@ std::FILE* OutFile::stream() const {
 
 void OutFile::keep() {
   if (aside_ != path_) {
-    const int failed = existing_ == Existing::replace ? std::rename(aside_.c_str(), path_.c_str())
-                                                      : rename_to_free(aside_, path_);
+    const int failed = existing_ == OverwritePolicy::replace ? std::rename(aside_.c_str(), path_.c_str())
+                                                             : rename_to_free(aside_, path_);
     if (failed != 0) {
       spared_ = true;
       throw Error(fmt::format("{}: cannot be put in its place: {}; it is whole in {}", path_,
@@ -240,7 +240,7 @@ void OutFile::fail(int why) const {
                   path_, std::strerror(why)));
 }
 
-void write_file(const std::string& path, std::string_view text, Existing existing) {
+void write_file(const std::string& path, std::string_view text, OverwritePolicy existing) {
   OutFile file(path, existing);
   file.write(text);
   file.keep();

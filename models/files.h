@@ -14,14 +14,16 @@ namespace enc::models {
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t most, std::string& why);
 void note_input(const std::string& path);  // other code has read it or will read it
 
-enum class Existing { keep, replace };  // replace: --force
+enum class OverwritePolicy { keep, replace };  // replace: --force
 
-[[nodiscard]] inline Existing existing(bool force) { return force ? Existing::replace : Existing::keep; }
+[[nodiscard]] inline OverwritePolicy existing(bool force) {
+  return force ? OverwritePolicy::replace : OverwritePolicy::keep;
+}
 
 class OutFile {
  public:
   // Throws Error in one line if the file may not or cannot be written.
-  OutFile(std::string path, Existing existing);
+  OutFile(std::string path, OverwritePolicy existing);
   ~OutFile();  // removes a file that was not kept
   OutFile(const OutFile&) = delete;
   OutFile& operator=(const OutFile&) = delete;
@@ -45,12 +47,12 @@ class OutFile {
   [[noreturn]] void fail(int why) const;
 
   std::string path_, aside_;
-  Existing existing_;
+  OverwritePolicy existing_;
   int fd_ = -1;
   bool spared_ = false;
 };
 
-void write_file(const std::string& path, std::string_view text, Existing existing);
+void write_file(const std::string& path, std::string_view text, OverwritePolicy existing);
 
 // Makes the folder if necessary, and locks other runs out of it during its lifetime.
 class OutFolder {

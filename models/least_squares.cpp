@@ -78,13 +78,13 @@ class ActiveSet {
     return normals.householderQr().solve(normal);
   }
 
-  struct Active {
+  struct ActiveConstraint {
     Eigen::VectorXd normal;  // metric of the cost
     double multiplier;
   };
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd x_;
-  std::vector<Active> active_;
+  std::vector<ActiveConstraint> active_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ std::int64_t now_ns() { return std::chrono::nanoseconds(Wall::now().time_since_e
 
 }  // namespace
 
-void Paced::wait_until(std::int64_t due_ns) {
+void PacedClock::wait_until(std::int64_t due_ns) {
   constexpr std::int64_t kSlice = 50'000'000;  // ns
   for (std::int64_t now = now_ns(); now < due_ns; now = now_ns()) {
     if (stopped_ && stopped_()) return;
@@ -22,7 +22,7 @@ void Paced::wait_until(std::int64_t due_ns) {
   }
 }
 
-Tick Paced::next() {
+Tick PacedClock::next() {
   Tick tick = clock_->next();
   missed_ = 0;
   if (!started_) {
@@ -42,7 +42,7 @@ Tick Paced::next() {
     ++lateness_.times;
     lateness_.total += static_cast<double>(late) / 1e9;
     lateness_.longest = std::max(lateness_.longest, static_cast<double>(late) / 1e9);
-    if (late_ == Late::wait) {
+    if (late_ == LatePolicy::wait) {
       start_ns_ += late;
       return tick;
     }

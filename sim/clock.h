@@ -1,4 +1,4 @@
-// Paced wraps any clock and makes it follow wall time, at a factor.
+// PacedClock wraps any clock and makes it follow wall time, at a factor.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace enc::sim {
 
 // Treatment of cycles that the wall clock has passed, because the process was stopped or the machine is busy.
 // Neither mode makes them up in a burst.
-enum class Late : std::uint8_t {
+enum class LatePolicy : std::uint8_t {
   // Loses no cycle: experiment time continues later where it was. Only for pure simulations: a tick happens
   // at another moment, but is unchanged.
   wait,
@@ -20,11 +20,11 @@ enum class Late : std::uint8_t {
   skip
 };
 
-class Paced final : public Clock {
+class PacedClock final : public Clock {
  public:
   // factor: seconds of experiment for each second of wall time; must be positive. `stopped`: called during
   // waits, at least 20 times a second; if true, next() returns early.
-  Paced(std::unique_ptr<Clock> clock, double factor, Late late, std::function<bool()> stopped = {})
+  PacedClock(std::unique_ptr<Clock> clock, double factor, LatePolicy late, std::function<bool()> stopped = {})
       : clock_(std::move(clock)), factor_(factor), late_(late), stopped_(std::move(stopped)) {}
   Tick next() override;
   // Cycles skipped before the last tick; a clock that waits skips none.
@@ -36,7 +36,7 @@ class Paced final : public Clock {
 
   std::unique_ptr<Clock> clock_;
   double factor_;
-  Late late_;
+  LatePolicy late_;
   std::function<bool()> stopped_;
   bool started_ = false;
   std::int64_t start_ns_ = 0;  // wall clock at the first tick, plus the time waited

@@ -392,7 +392,7 @@ class SimManipulator final : public Manipulator {
   [[nodiscard]] Reach reach() const override {
     return {truth_.speed, truth_.acceleration, world_.machine->machine()};
   }
-  Stamped<TipSample> read(Time) noexcept override {
+  Measurement<TipSample> read(Time) noexcept override {
     const HexapodPlant::State& s = world_.machine->state();
     return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
   }
@@ -408,7 +408,7 @@ class SimArm final : public HapticArm {
  public:
   SimArm(World& world, const ArmAbility& ability) : world_(world), ability_(ability) {}
   [[nodiscard]] ArmAbility ability() const override { return ability_; }
-  Stamped<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
+  Measurement<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
   void stop() noexcept override {
     command(Vec<'R'>::zero());
@@ -424,7 +424,7 @@ class SimArm final : public HapticArm {
 class SimForceSensor final : public ForceSensor {
  public:
   explicit SimForceSensor(World& world) : world_(world) {}
-  Stamped<Wrench> read(Time) noexcept override { return world_.force->sample(); }
+  Measurement<Wrench> read(Time) noexcept override { return world_.force->sample(); }
 
  private:
   World& world_;
@@ -433,7 +433,7 @@ class SimForceSensor final : public ForceSensor {
 class SimTracker final : public PoseTracker {
  public:
   explicit SimTracker(World& world) : world_(world) {}
-  bool poll(Time, Stamped<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
+  bool poll(Time, Measurement<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
 
  private:
   World& world_;
@@ -443,7 +443,7 @@ class SimDisplay final : public Display {
  public:
   explicit SimDisplay(World& world) : world_(world) {}
   void show(const View& view) noexcept override { world_.display->show(view); }
-  bool poll(Time, Stamped<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
+  bool poll(Time, Measurement<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
 
  private:
   World& world_;
@@ -452,7 +452,7 @@ class SimDisplay final : public Display {
 class SimGripper final : public Gripper {
  public:
   explicit SimGripper(World& world) : world_(world) {}
-  Stamped<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
+  Measurement<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
   void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
   void stop() noexcept override {}  // without a command it keeps its state
 

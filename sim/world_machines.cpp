@@ -14,19 +14,19 @@ namespace enc::sim {
 
 namespace {
 
-struct Faced {
+struct FacingSurface {
   std::size_t object = 0;
   Vec<'W'> normal;
 };
 
 // The surface that the prop represents: the one nearest to the finger.
-Faced nearest_surface(const Scene& scene, const Point<'W'>& p) {
-  Faced faced;
+FacingSurface nearest_surface(const Scene& scene, const Point<'W'>& p) {
+  FacingSurface faced;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (object.least_distance(p) >= least) continue;
-    const Nearest at = object.surface.nearest(object.X_WO.inverse() * p);
+    const SurfacePoint at = object.surface.nearest(object.X_WO.inverse() * p);
     if (at.distance >= least) continue;
     least = at.distance;
     faced = {i, object.X_WO * at.normal};
@@ -63,7 +63,7 @@ void World::face_prop(double h) {
   if (!prepared_.objects.empty()) {
     const bool told = twin_.arm.facing == PropFacing::told;
     const Vec<'R'>& wanted = arm->state().facing_wanted;
-    const Faced to =
+    const FacingSurface to =
         nearest_surface(prepared_, !told && truth_.tool_tip.finite() ? truth_.tool_tip : truth_.tip);
     const Object& object = prepared_.objects[to.object];
     const Vec<'W'> normal = told && wanted.finite() ? X_WR_ * wanted : to.normal;
@@ -114,7 +114,7 @@ BallContact probed_ball(const WorldSpec& spec) {
     throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
                 "object." + object.name + ".shape");
   constexpr double kDeepest = 8e-3;  // m: end of the plant's table
-  if (spec.prepared.probe()->depth > kDeepest)
+  if (spec.prepared.indentation()->depth > kDeepest)
     throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
@@ -137,14 +137,14 @@ Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth) {
 
 void World::set_up_hexapod(const WorldSpec& spec) {
   machine.emplace(spec.twin.hexapod, spec.seed);
-  if (spec.prepared.probe()) ball.emplace(probed_ball(spec));
+  if (spec.prepared.indentation()) ball.emplace(probed_ball(spec));
   if (spec.scene.pusher)
     pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
                    spec.prepared.tip_radius, spec.seed);
   if (pusher) programme_time_ = pusher->duration();
-  if (const IndentationTask* probe = spec.prepared.probe())
+  if (const IndentationTask* probe = spec.prepared.indentation())
     programme_time_ = enc::programme_time(spec.prepared, *probe);
-  if (spec.prepared.travel()) programme_time_ = spec.prepared.travel()->duration();
+  if (spec.prepared.tracking()) programme_time_ = spec.prepared.tracking()->duration();
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
   platform_qpos_ = m->jnt_qposadr[platform];

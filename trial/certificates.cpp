@@ -46,7 +46,7 @@ void add_row(std::vector<certificate::Row>& rows, const char* name, const char* 
 
 // Softens the object until the loop oscillates. If the search reaches its end, or the object oscillates
 // unchanged, the row gives only one side.
-void add_large_signal(Certified& at, const Steadiness& loop, const Object& object, double ramp) {
+void add_large_signal(ObjectCertificate& at, const Steadiness& loop, const Object& object, double ramp) {
   const bool swings = at.swing > 0.0;
   const double share = swings ? 1.0 : loop.least_share(object.response, object.limit, ramp);
   add_row(at.certificate.rows, "large_signal",
@@ -59,17 +59,18 @@ void add_large_signal(Certified& at, const Steadiness& loop, const Object& objec
 
 }  // namespace
 
-std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Scene& scene, bool whole) {
+std::vector<ObjectCertificate> hexapod_certificates(const models::Setup& setup, const Scene& scene,
+                                                    bool whole) {
   if (!scene.has_force) return {};
   const Steadiness loop(setup.rig);
   const double ramp = ramp_of(setup), linear = lowest_stable_stiffness(loop_of(setup.rig));
   const bool damped = setup.rig.admittance.damping == Damping::observed;
-  std::vector<Certified> found;
+  std::vector<ObjectCertificate> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (std::isnan(object.limit)) continue;  // a real object
-    Certified at{setup.scene.objects[i].name, softest_of(object.response, object.limit), {}};
-    const Steadiness::Worst worst = loop.worst(object.response, object.limit, ramp);
+    ObjectCertificate at{setup.scene.objects[i].name, softest_of(object.response, object.limit), {}};
+    const Steadiness::WorstDepth worst = loop.worst(object.response, object.limit, ramp);
     at.depth = worst.depth;
     at.swing = worst.swing;
     at.ramp = ramp;
@@ -108,7 +109,7 @@ bool is_pressed(const models::Setup& setup, std::size_t i) {
 PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i) {
   if (is_pressed(setup, i)) return press_point(setup.scene, *setup.scene.user);
   const Object& object = scene.objects[i];
-  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  const SurfacePoint near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
   return {object.X_WO * near.point, object.X_WO * near.normal};
 }
 
@@ -165,7 +166,7 @@ std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std
   if (planned || object.met_in_its_middle()) return places;
   const Vec3 normal = touched.at.normal.e(), across = normal.unitOrthogonal();
   for (const Vec3& way : {across, Vec3(-across), Vec3(normal.cross(across)), Vec3(across.cross(normal))}) {
-    const Nearest near =
+    const SurfacePoint near =
         object.surface.nearest(object.X_OW * (touched.at.point + Vec<'W'>(Vec3(kBeside * way))));
     const Point<'W'> at = object.X_WO * near.point;
     PerJoint q = touched.joints;
@@ -182,8 +183,9 @@ double compared_at(const Place& first, double asked) {
   return critical > 0.0 && std::isfinite(critical) ? critical : asked;
 }
 
-Certified certified(const std::string& object, const Place& place, double asked) {
-  Certified found{object, asked, certificate::certify(place.loop.loop, place.loop.steps, place.loop.asked)};
+ObjectCertificate certified(const std::string& object, const Place& place, double asked) {
+  ObjectCertificate found{object, asked,
+                          certificate::certify(place.loop.loop, place.loop.steps, place.loop.asked)};
   found.place = place.at;
   found.pressed = place.pressed;
   return found;
@@ -221,13 +223,14 @@ std::vector<Candidate> candidates_of(const models::Setup& setup, const Scene& sc
 
 }  // namespace
 
-std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene, bool /*whole*/) {
+std::vector<ObjectCertificate> arm_certificates(const models::Setup& setup, const Scene& scene,
+                                                bool /*whole*/) {
   const Impedance& law = impedance_of(scene);
   Place home;
   home.at = Point<'W'>(0, 0, 0);
   home.loop = loop_at(law, hand_of(setup.rig), scene.dt, law.arm.zero(),
                       scene.X_WR.inverse() * Vec<'W'>(0, 0, 1), law.rig.stiffness, Interaction::slide);
-  std::vector<Certified> found{certified("", home, law.rig.stiffness)};
+  std::vector<ObjectCertificate> found{certified("", home, law.rig.stiffness)};
   const std::vector<Candidate> all = candidates_of(setup, scene);
   std::map<std::tuple<double, Interaction, Class>, std::size_t> worst;
   const auto alike = [](const Candidate& one) { return std::tuple(one.asked, one.kind, one.look); };
@@ -235,12 +238,12 @@ std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene&
     const auto [at, fresh] = worst.try_emplace(alike(all[i]), i);
     if (!fresh && all[i].worst.radius > all[at->second].worst.radius) at->second = i;
   }
-  std::map<std::size_t, Certified> whole;
+  std::map<std::size_t, ObjectCertificate> whole;
   for (const auto& [key, i] : worst)
     whole.emplace(i, certified(setup.scene.objects[i].name, all[i].worst, all[i].asked));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t of = worst.at(alike(all[i]));
-    Certified& one = found.emplace_back(whole.at(of));
+    ObjectCertificate& one = found.emplace_back(whole.at(of));
     if (of != i) one.like = std::exchange(one.object, setup.scene.objects[i].name);
   }
   return found;
@@ -309,13 +312,13 @@ std::string beyond_text(const ArmStrength& at) {
   return {};
 }
 
-bool Certified::beyond() const {
+bool ObjectCertificate::beyond() const {
   const Class verdict = certificate.verdict;
   if (free_tip()) return verdict == Class::held || verdict == Class::local || verdict == Class::unstable;
   return verdict == Class::unheld || verdict == Class::local || verdict == Class::unstable;
 }
 
-std::string name_of(const Certified& certified) {
+std::string name_of(const ObjectCertificate& certified) {
   return certified.object.empty() ? "the tip that nobody touches" : "object '" + certified.object + "'";
 }
 
@@ -341,7 +344,7 @@ std::string mend_of(const models::Setup& setup, const std::string& missing) {
 
 }  // namespace
 
-std::string class_text(const Certified& certified) {
+std::string class_text(const ObjectCertificate& certified) {
   const certificate::Certificate& of = certified.certificate;
   const std::string words(word_of(of.verdict));
   if (certified.unknown()) return words + ": " + missing_text(of);
@@ -352,7 +355,7 @@ std::string class_text(const Certified& certified) {
   return text;
 }
 
-std::string refusal_text(const models::Setup& setup, const Certified& certified) {
+std::string refusal_text(const models::Setup& setup, const ObjectCertificate& certified) {
   const certificate::Certificate& of = certified.certificate;
   if (certified.unknown())
     return fmt::format("whether {} is stable is not known: {}; {}", name_of(certified), missing_text(of),
@@ -387,7 +390,7 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
       certified.asked < held.low ? "stiffer" : "softer");
 }
 
-std::string key_of(const Certified& certified) {
+std::string key_of(const ObjectCertificate& certified) {
   if (certified.unknown() && !certified.certificate.missing.starts_with("what")) return "rig.arm.loop";
   return certified.free_tip() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
 }

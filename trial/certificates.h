@@ -12,7 +12,7 @@
 
 namespace enc::trial {
 
-struct Certified {
+struct ObjectCertificate {
   std::string object;  // empty: the free tip of an arm
   // N/m, along the normal. Arm: the highest stiffness that it renders there; other machines: the lowest.
   double asked = kUnset;
@@ -36,23 +36,23 @@ struct Certified {
 };
 
 // `whole`: includes the rows that take longer than the class, the bounds of a force-measuring machine.
-[[nodiscard]] std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene,
-                                                     bool whole = false);
+[[nodiscard]] std::vector<ObjectCertificate> certificates_of(const models::Setup& setup, const Scene& scene,
+                                                             bool whole = false);
 
 // The certificates of each family of machines (family.h). An arm's are always whole.
-[[nodiscard]] std::vector<Certified> hexapod_certificates(const models::Setup& setup, const Scene& scene,
-                                                          bool whole);
-[[nodiscard]] std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene,
-                                                      bool whole);
+[[nodiscard]] std::vector<ObjectCertificate> hexapod_certificates(const models::Setup& setup,
+                                                                  const Scene& scene, bool whole);
+[[nodiscard]] std::vector<ObjectCertificate> arm_certificates(const models::Setup& setup, const Scene& scene,
+                                                              bool whole);
 
 // "object 'wall'", or the other thing that the certificate is for.
-[[nodiscard]] std::string name_of(const Certified& certified);
+[[nodiscard]] std::string name_of(const ObjectCertificate& certified);
 // The class and its subject, in one line without a full stop.
-[[nodiscard]] std::string class_text(const Certified& certified);
+[[nodiscard]] std::string class_text(const ObjectCertificate& certified);
 // The problem and the remedy, in one line without a full stop; empty: stable.
-[[nodiscard]] std::string refusal_text(const models::Setup& setup, const Certified& certified);
+[[nodiscard]] std::string refusal_text(const models::Setup& setup, const ObjectCertificate& certified);
 // The key of the set-up that decides the class.
-[[nodiscard]] std::string key_of(const Certified& certified);
+[[nodiscard]] std::string key_of(const ObjectCertificate& certified);
 
 // Law of an arm; only for the scene of an arm.
 [[nodiscard]] inline const Impedance& impedance_of(const Scene& scene) { return *scene.impedance(); }

@@ -24,7 +24,7 @@ constexpr Family kArm{
     .tip = [](const Inputs& in) { return in.arm.value.tip; },
     .tip_stamp = [](const Inputs& in) { return stamp_of(in.arm); },
     .passivity = [](const State& state) -> const Passivity& {
-      return recall<ImpedanceState>(state).tamed.energy;
+      return recall<ImpedanceState>(state).passivity.energy;
     },
 };
 
@@ -35,7 +35,7 @@ constexpr Family kHexapod{
                     const Scene& /*scene*/) { return std::vector<ArmStrength>(); },
     .passivity_form =
         [](const Scene& scene) {
-          const AdmittanceTask* render = scene.render();
+          const AdmittanceTask* render = scene.admittance();
           return render != nullptr ? render->passivity : PassivityForm::none;
         },
     .joint_units = [](const Scene& /*scene*/) { return std::vector<std::string>(); },
@@ -53,7 +53,7 @@ const Family& family_of(const models::Setup& setup) {
 }
 const Family& family_of(const Scene& scene) { return scene.impedance() != nullptr ? kArm : kHexapod; }
 
-std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene, bool whole) {
+std::vector<ObjectCertificate> certificates_of(const models::Setup& setup, const Scene& scene, bool whole) {
   return family_of(scene).certificates(setup, scene, whole);
 }
 

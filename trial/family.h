@@ -14,7 +14,7 @@ namespace enc::trial {
 
 // s, time of a device's sample; unset: the device has sent none.
 template <class V>
-[[nodiscard]] double stamp_of(const Stamped<V>& sample) {
+[[nodiscard]] double stamp_of(const Measurement<V>& sample) {
   return sample.health == Health::absent ? kUnset : seconds(sample.t.time_since_epoch());
 }
 
@@ -24,7 +24,7 @@ struct Family {
   bool takes_force;
 
   // Used before the first tick.
-  std::vector<Certified> (*certificates)(const models::Setup& setup, const Scene& scene, bool whole);
+  std::vector<ObjectCertificate> (*certificates)(const models::Setup& setup, const Scene& scene, bool whole);
   std::vector<ArmStrength> (*strengths)(const models::Setup& setup, const Scene& scene);
   PassivityForm (*passivity_form)(const Scene& scene);
   // Unit of each joint that the machine reports: "rad", or "m" for a slide.

@@ -30,8 +30,8 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 // Duration of the machine's own programme, s; 10 if it only waits for a person. With a twin, the twin gives
 // the duration.
 double programme_of(const Scene& scene) {
-  if (const IndentationTask* probe = scene.probe()) return programme_time(scene, *probe);
-  return scene.travel() != nullptr ? scene.travel()->duration() : 10.0;
+  if (const IndentationTask* probe = scene.indentation()) return programme_time(scene, *probe);
+  return scene.tracking() != nullptr ? scene.tracking()->duration() : 10.0;
 }
 
 // Pace as a share of wall time; 0: as fast as possible. With real devices everything runs in wall time.
@@ -56,8 +56,8 @@ void refuse_lockstep(const Slots& slots, const TrialOptions& options) {
 
 // Refuses limits for a real machine that a simulated one only reports (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene,
-                   const std::vector<Certified>& certificates) {
-  for (const Certified& one : certificates)
+                   const std::vector<ObjectCertificate>& certificates) {
+  for (const ObjectCertificate& one : certificates)
     if (const std::string why = refusal_text(setup, one); !why.empty())
       throw Error(models::place_of(setup, key_of(one)) + ": " + why + "; a real machine is not armed for it");
   for (const ArmStrength& at : strengths_of(setup, scene))
@@ -140,8 +140,8 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
   if (pace > 0.0)
-    rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
-                                              wall ? sim::Late::skip : sim::Late::wait, options_.stop);
+    rig_.clock = std::make_unique<sim::PacedClock>(
+        std::move(rig_.clock), pace, wall ? sim::LatePolicy::skip : sim::LatePolicy::wait, options_.stop);
 }
 
 // Takes the twin's rig, or an empty rig with a clock.

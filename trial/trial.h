@@ -45,7 +45,7 @@ class Trial {
   [[nodiscard]] const TrialResult& result() const { return result_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
-  [[nodiscard]] const std::vector<Certified>& certificates() const { return certificates_; }
+  [[nodiscard]] const std::vector<ObjectCertificate>& certificates() const { return certificates_; }
   [[nodiscard]] const Tick& now() const { return now_; }  // the last tick
   [[nodiscard]] Rig& rig() { return rig_; }
   [[nodiscard]] Inputs& inputs() { return in_; }
@@ -91,7 +91,7 @@ class Trial {
   RecordWriter* record_ = nullptr;
   bool simulated_ = true;  // every slot is simulated
   bool leads_ = false;     // the twin's machine follows a real one
-  std::vector<Certified> certificates_;
+  std::vector<ObjectCertificate> certificates_;
 };
 
 }  // namespace enc::trial

@@ -63,12 +63,13 @@ struct TrialOptions {
   // Called once, after all computations beforehand, and before a device is connected or a file is made.
   std::function<void()> begins{};
   // Hooks, in the order of a tick; an empty hook is not called.
-  std::function<void(Rig&)> fit_out{};                      // once: replaces devices of the rig
-  std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
-  std::function<void(Inputs&)> disturb{};                   // after reading
-  Law law{};                                                // replaces step()
-  std::function<void(const Glance&)> watch{};               // after the tick
-  std::function<void(double)> progress{};                   // share done, about ten times a second
+  std::function<void(Rig&)> fit_out{};  // once: replaces devices of the rig
+  std::function<void(const Measurement<StereoFrame>&)>
+      look{};                                  // while reading: each pair of a camera's images
+  std::function<void(Inputs&)> disturb{};      // after reading
+  Law law{};                                   // replaces step()
+  std::function<void(const Glance&)> watch{};  // after the tick
+  std::function<void(double)> progress{};      // share done, about ten times a second
 };
 
 struct TrialResult {

@@ -86,9 +86,9 @@ std::string objects_named(const std::vector<std::string>& names) {
   return "objects " + listed(quoted);
 }
 
-std::string lines_of(const Said& said) {
+std::string lines_of(const Statements& said) {
   std::string text;
-  for (const SaidOf& group : grouped(said))
+  for (const SharedStatement& group : grouped(said))
     text += fmt::format("  {}: {}\n", objects_named(group.names), group.what);
   return text;
 }
@@ -120,7 +120,7 @@ std::string softest_text(const models::Setup& setup, const Scene& scene) {
 }
 
 std::string hexapod_limits(const models::Setup& setup, const Scene& scene) {
-  Said said;
+  Statements said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = setup.scene.objects[i].name;
     const Object& object = scene.objects[i];
@@ -165,7 +165,7 @@ std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
 std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
   constexpr std::size_t kMost = 4;
   const bool few = strengths.size() <= kMost;
-  Said said;
+  Statements said;
   std::string beyond;
   for (const trial::ArmStrength& at : strengths) {
     const std::string too_much = trial::beyond_text(at);
@@ -178,7 +178,7 @@ std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
 // An arm has no deflection limit: its motors limit its force.
 std::string arm_limits(const models::Setup& setup, const Scene& scene) {
   const Impedance& law = trial::impedance_of(scene);
-  Said said;
+  Statements said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const double stiffness = std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness;

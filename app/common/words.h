@@ -52,18 +52,19 @@ inline constexpr const char* kNames = "xyz";  // names of the axes
 }
 
 // Statements about named things: names with equal statements share a line.
-using Said = std::vector<std::pair<std::string, std::string>>;  // name, and the statement about it
+using Statements = std::vector<std::pair<std::string, std::string>>;  // name, and the statement about it
 
-struct SaidOf {
+struct SharedStatement {
   std::string what;
   std::vector<std::string> names;
 };
 // Ordered by the first name of each group.
-[[nodiscard]] inline std::vector<SaidOf> grouped(const Said& said) {
-  std::vector<SaidOf> groups;
+[[nodiscard]] inline std::vector<SharedStatement> grouped(const Statements& said) {
+  std::vector<SharedStatement> groups;
   for (const auto& [name, what] : said) {
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&text = what](const SaidOf& group) { return group.what == text; });
+    const auto same =
+        std::find_if(groups.begin(), groups.end(),
+                     [&text = what](const SharedStatement& group) { return group.what == text; });
     if (same == groups.end())
       groups.push_back({what, {name}});
     else

@@ -28,10 +28,10 @@ namespace {
 
 // ---- a response
 
-using models::BranchKnown;
+using models::BranchEstimate;
 using models::LoopFit;
 
-std::string branch_text(const char* name, const BranchKnown& known, double rmse, double rmse_free) {
+std::string branch_text(const char* name, const BranchEstimate& known, double rmse, double rmse_free) {
   std::string text =
       fmt::format("{:11} RMSE {:.4f} N; without constraints {:.4f} N\n", name, rmse, rmse_free);
   double scale = 1.0;
@@ -265,9 +265,9 @@ trial::Pushes read(const std::string& file, double limit, std::vector<std::strin
 
 std::string line(const BallEstimate& e) {
   const BallNumber& n = number(e.number);
-  const char* known = e.known() == trial::Known::well     ? "yes"
-                      : e.known() == trial::Known::poorly ? "poorly"
-                                                          : "NO";
+  const char* known = e.known() == trial::EstimateQuality::well     ? "yes"
+                      : e.known() == trial::EstimateQuality::poorly ? "poorly"
+                                                                    : "NO";
   return fmt::format("{:20}{:>10.5g} +- {:<8.2g}{:>9.2g} %{:>10.2g}   {:<8}{} ({:+.2f})\n", n.name,
                      e.interval.value / n.unit, e.interval.half / n.unit, 100.0 * e.width(), e.alone / n.unit,
                      known, number(e.tied).name, e.correlation);
@@ -293,9 +293,10 @@ std::string remarks(const BallFit& fit) {
   constexpr double kUsualWalk = 0.01;  // N / sqrt(s): five times that of a sensor (sources/force_sensor 2)
   std::string text;
   for (const BallEstimate& e : fit.estimates)
-    if (e.number != trial::kNearer && e.known() != trial::Known::well)
+    if (e.number != trial::kNearer && e.known() != trial::EstimateQuality::well)
       text += fmt::format("note        {} is {}known from these loops: {}\n", number(e.number).name,
-                          e.known() == trial::Known::poorly ? "poorly " : "not ", number(e.number).remedy);
+                          e.known() == trial::EstimateQuality::poorly ? "poorly " : "not ",
+                          number(e.number).remedy);
   if (fit.walk > kUsualWalk)
     text += fmt::format(
         "note        what is left wanders by {:.2g} N/sqrt(s), far more than a sensor: this ball is not "
@@ -310,7 +311,7 @@ std::string remarks(const BallFit& fit) {
 std::string settings(const BallFit& fit) {
   std::string text;
   for (const BallEstimate& e : fit.estimates)
-    if (e.number != trial::kNearer && e.known() != trial::Known::not_at_all)
+    if (e.number != trial::kNearer && e.known() != trial::EstimateQuality::not_at_all)
       text += fmt::format("set         truth.ball.{}={:.5g}\n", number(e.number).name,
                           std::max(0.0, e.interval.value / number(e.number).unit));
   return text;
@@ -343,9 +344,9 @@ std::string json_text(const trial::BallLoops& loops, const BallFit& fit,
     json["numbers"][std::string(n.name)] = {{"value", e.interval.value / n.unit},
                                             {"half", e.interval.half / n.unit},
                                             {"alone_half", e.alone / n.unit},
-                                            {"known", e.known() == trial::Known::well     ? "well"
-                                                      : e.known() == trial::Known::poorly ? "poorly"
-                                                                                          : "no"},
+                                            {"known", e.known() == trial::EstimateQuality::well     ? "well"
+                                                      : e.known() == trial::EstimateQuality::poorly ? "poorly"
+                                                                                                    : "no"},
                                             {"tied_to", std::string(number(e.tied).name)},
                                             {"correlation", e.correlation}};
   }

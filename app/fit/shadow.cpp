@@ -181,7 +181,7 @@ int shadow_command(const ShadowOptions& options) {
         "{}:1:1: is no record; expected a file that `encounter run SCENE --record FILE` has written; {}",
         options.record,
         options.record.ends_with(".toml") ? "run that scene with --record" : "give the name of one"));
-  RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
+  RecordReader record(options.record, options.partial ? PartialRead::yes : PartialRead::no);
   const models::Setup twin = trial::twin_of(record, options.record, options.set);
   for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", models::printable(note));
   const Shadow shadow = trial::shadow(record, options.record, twin);

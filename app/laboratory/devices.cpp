@@ -25,7 +25,7 @@
 namespace enc::app {
 namespace {
 
-struct Probed {
+struct DeviceCheck {
   std::string role, words;  // as in trial::DeviceWords
   bool there = true;
   std::int64_t samples = 0;            // number of new samples in that time
@@ -56,11 +56,11 @@ struct Series {
 };
 
 template <class Sample>
-bool repeats(const Stamped<Sample>&, const Stamped<Sample>&) {
+bool repeats(const Measurement<Sample>&, const Measurement<Sample>&) {
   return false;
 }
 // A measuring tracker never gives equal poses twice.
-bool repeats(const Stamped<TrackedTool>& before, const Stamped<TrackedTool>& now) {
+bool repeats(const Measurement<TrackedTool>& before, const Measurement<TrackedTool>& now) {
   return before.value.tool == now.value.tool && before.value.X_CT.xyz == now.value.X_CT.xyz &&
          before.value.X_CT.xyzw == now.value.X_CT.xyzw;
 }
@@ -92,29 +92,29 @@ std::string words_of(const Vec3& v, double unit) {
   return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x() / unit, v.y() / unit, v.z() / unit);
 }
 
-std::string words_of(const Stamped<TipSample>& tip) {
+std::string words_of(const Measurement<TipSample>& tip) {
   return words_of(tip.value.X_RH.p(), kMillimetre) + " mm, of H in R";
 }
-std::string words_of(const Stamped<Wrench>& said) {
+std::string words_of(const Measurement<Wrench>& said) {
   return words_of(said.value.force.e(), 1.0) + " N, " + words_of(said.value.torque.e(), 1.0) + " N m, in F" +
          (said.health == Health::ok ? "" : fmt::format(", {}", word_of(said.health)));
 }
-std::string words_of(const Stamped<TrackedTool>& tool) {
+std::string words_of(const Measurement<TrackedTool>& tool) {
   return words_of(tool.value.X_CT.p(), kMillimetre) + fmt::format(" mm, of tool {} in C", tool.value.tool);
 }
 template <class Sample>
-std::string words_of(const Stamped<Sample>&) {
+std::string words_of(const Measurement<Sample>&) {
   return "";
 }
 
 // Index of each role in `all`; all.size() or kRoles: none.
-std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Probed>& all) {
+std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<DeviceCheck>& all) {
   std::array<std::size_t, kRoles> place{};
   place.fill(kRoles);
   each_role([&](const auto& role) {
     if (rig.*role.slot == nullptr) return;
     const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Probed& one) { return one.role == role.table; });
+        std::find_if(all.begin(), all.end(), [&](const DeviceCheck& one) { return one.role == role.table; });
     place[static_cast<std::size_t>(role.id)] = static_cast<std::size_t>(found - all.begin());
   });
   return place;
@@ -139,7 +139,7 @@ void listen(const Rig& rig, const Inputs& before, const Inputs& in, Time now,
   });
 }
 
-void tell_times(const Series& of, double seconds, Probed& device) {
+void tell_times(const Series& of, double seconds, DeviceCheck& device) {
   device.samples = static_cast<std::int64_t>(of.ages.size());
   device.rate = static_cast<double>(device.samples) / seconds;
   device.age = percentiles_of(of.ages);
@@ -149,9 +149,9 @@ void tell_times(const Series& of, double seconds, Probed& device) {
 // Makes every real device, reads each for this time at the loop's rate, and releases it. Sends no command:
 // nothing moves. If a machine does not answer, the other devices are not queried, because a run may hold them
 // all and would lose them. `stop` is called before each reading.
-std::vector<Probed> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
-                                  double seconds, const std::function<bool()>& stop) {
-  std::vector<Probed> all;
+std::vector<DeviceCheck> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
+                                       double seconds, const std::function<bool()>& stop) {
+  std::vector<DeviceCheck> all;
   Rig rig;
   trial::DeviceLog log;
   for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
@@ -187,7 +187,7 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
   return all;
 }
 
-std::string line_of(const Probed& device) {
+std::string line_of(const DeviceCheck& device) {
   if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);
   std::string text = fmt::format("{:12} {}\n", device.role, device.words);
   if (device.samples > 0 && !device.last.empty()) text += fmt::format("{:12} {}\n", "", device.last);
@@ -215,7 +215,7 @@ int devices(const LaboratoryOptions& options) {
       probe_devices(setup, load_module, options.seconds, [] { return trial::Signals::caught() != 0; });
   if (found.empty()) fmt::print("every device that the scene names is simulated\n");
   bool all = true;
-  for (const Probed& device : found) {
+  for (const DeviceCheck& device : found) {
     fmt::print("{}", line_of(device));
     all = all && device.there && device.unusable.empty();
   }

@@ -33,7 +33,7 @@ namespace {
 
 enum class Value : std::uint8_t { none, share, time, code };
 
-struct Named {
+struct FaultEntry {
   const char* name;
   Trouble::Kind kind;
   Value value;
@@ -41,7 +41,7 @@ struct Named {
   const char* example;  // example of a value
 };
 
-constexpr std::array<Named, 11> kNames{{
+constexpr std::array<FaultEntry, 11> kNames{{
     {"loss", Trouble::Kind::loss, Value::share, 1.0, "5%"},
     {"jitter", Trouble::Kind::jitter, Value::time, 0.020, "20ms"},
     {"reorder", Trouble::Kind::reorder, Value::share, 1.0, "30%"},
@@ -91,12 +91,13 @@ double code_of(std::string_view text) {
   return unit.empty() && number <= kMostCode && std::floor(number) == number ? number : kUnset;
 }
 
-const Named& named(Trouble::Kind kind) {
-  return *std::find_if(kNames.begin(), kNames.end(), [kind](const Named& one) { return one.kind == kind; });
+const FaultEntry& named(Trouble::Kind kind) {
+  return *std::find_if(kNames.begin(), kNames.end(),
+                       [kind](const FaultEntry& one) { return one.kind == kind; });
 }
 
 // Value of a fault that takes one; unset: the text is not of the right kind.
-double value_of(const Named& fault, std::string_view text) {
+double value_of(const FaultEntry& fault, std::string_view text) {
   switch (fault.value) {
     case Value::share:
       return share_of(text);
@@ -122,14 +123,14 @@ bool cut(std::string_view& text, char mark, std::string_view& behind) {
 
 std::string fault_examples() {
   std::string all;
-  for (const Named& one : kNames)
+  for (const FaultEntry& one : kNames)
     all += fmt::format("{}{}{}{}", all.empty() ? "" : ", ", one.name, *one.example == '\0' ? "" : "=",
                        one.example);
   return all;
 }
 
 std::string text_of(const Trouble& trouble) {
-  const Named& one = named(trouble.kind);
+  const FaultEntry& one = named(trouble.kind);
   switch (one.value) {
     case Value::share:
       return fmt::format("{}={:g}%", one.name, 100.0 * trouble.value);
@@ -169,7 +170,7 @@ Fault fault_of(const std::string& text, const std::string& where) {
   fault.driver = rest.substr(0, colon);
   kind = rest.substr(colon + 1);
   const auto* const found =
-      std::find_if(kNames.begin(), kNames.end(), [kind](const Named& one) { return one.name == kind; });
+      std::find_if(kNames.begin(), kNames.end(), [kind](const FaultEntry& one) { return one.name == kind; });
   if (found == kNames.end()) throw refuse(fmt::format("there is no fault '{}'", kind));
   fault.trouble = {found->kind, found->usual};
   if (!valued) return fault;
@@ -237,8 +238,8 @@ std::vector<std::string> Fakes::describe() const {
 void Fakes::begin() {
   ++begun_;
   world_->restore(first_);
-  std::erase_if(plans_, [](const Planned& plan) { return plan.by_hand && plan.over; });
-  for (Planned& plan : plans_) {
+  std::erase_if(plans_, [](const FaultPlan& plan) { return plan.by_hand && plan.over; });
+  for (FaultPlan& plan : plans_) {
     if (plan.by_hand) {  // a typed fault is not tied to a run: it stays active or scheduled
       plan.from -= now_.t.time_since_epoch();
       if (plan.to != Time::max()) plan.to -= now_.t.time_since_epoch();
@@ -251,7 +252,7 @@ void Fakes::begin() {
   due_ = wall_now() + now_.dt;
 }
 
-Fakes::Planned Fakes::planned(const Fault& fault, const std::string& where) {
+Fakes::FaultPlan Fakes::planned(const Fault& fault, const std::string& where) {
   const auto refuse = [&](const std::string& what) { return Error(fmt::format("{}: {}", where, what)); };
   const auto name = std::find(names_.begin(), names_.end(), fault.driver);
   if (name == names_.end())
@@ -275,17 +276,17 @@ void Fakes::suffer(const Fault& fault, const std::string& where) {
 }
 
 void Fakes::heal() {
-  for (Planned& plan : plans_)
+  for (FaultPlan& plan : plans_)
     if (plan.begun && !plan.over) end(plan);
 }
 
-void Fakes::say(const Planned& plan, const char* what) {
+void Fakes::say(const FaultPlan& plan, const char* what) {
   log_.say(fmt::format("{:.3f} s: {} {} {}", seconds(now_.t.time_since_epoch()), plan.fault.driver, what,
                        text_of(plan.fault.trouble)));
 }
 
 void Fakes::trouble() {
-  for (Planned& plan : plans_) {
+  for (FaultPlan& plan : plans_) {
     if (!plan.begun && now_.t >= plan.from) {
       plan.begun = true;
       plan.fake->suffer(plan.fault.trouble);
@@ -295,7 +296,7 @@ void Fakes::trouble() {
   }
 }
 
-void Fakes::end(Planned& plan) {
+void Fakes::end(FaultPlan& plan) {
   plan.fake->heal(plan.fault.trouble.kind);
   plan.over = true;
   say(plan, "is healed of");

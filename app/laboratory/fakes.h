@@ -58,17 +58,17 @@ class Fakes {
   [[nodiscard]] std::int64_t begun() const { return begun_; }  // number of clients that came
 
  private:
-  struct Planned {
+  struct FaultPlan {
     Fault fault;
     Fake* fake;
     Time from, to;
     bool begun = false, over = false;
     bool by_hand = false;  // typed by hand: not tied to a run
   };
-  [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
+  [[nodiscard]] FaultPlan planned(const Fault& fault, const std::string& where);
   void trouble();  // starts and ends the due faults
-  void end(Planned& plan);
-  void say(const Planned& plan, const char* what);
+  void end(FaultPlan& plan);
+  void say(const FaultPlan& plan, const char* what);
   void advance();
   void begin();
   void wait(Duration most);
@@ -82,7 +82,7 @@ class Fakes {
   Rig rig_;
   std::vector<std::unique_ptr<Fake>> fakes_;
   std::vector<std::string> names_;  // names of their drivers
-  std::vector<Planned> plans_;
+  std::vector<FaultPlan> plans_;
   Tick now_;
   std::int64_t begun_ = 0;
   Duration due_{};  // wall clock at the end of the next period

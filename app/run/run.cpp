@@ -87,9 +87,9 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
 
 // Warnings about unstable rendering, printed before anything moves.
 std::vector<std::string> beyond(const models::Setup& setup,
-                                const std::vector<trial::Certified>& certificates) {
+                                const std::vector<trial::ObjectCertificate>& certificates) {
   std::vector<std::string> lines;
-  for (const trial::Certified& one : certificates)
+  for (const trial::ObjectCertificate& one : certificates)
     if (one.beyond()) lines.push_back("beyond what is stable: " + trial::refusal_text(setup, one));
   return lines;
 }
@@ -119,9 +119,9 @@ trial::TrialOptions trial_options(const RunOptions& options, trial::Operator& pe
 }
 
 // Shows an armed run while it happens.
-class Shown {
+class RunDisplay {
  public:
-  Shown(trial::TrialOptions& options, trial::Operator& person) : person_(person) {
+  RunDisplay(trial::TrialOptions& options, trial::Operator& person) : person_(person) {
     options.watch = [this, counts = std::move(options.watch)](const trial::Glance& glance) {
       counts(glance);
       watch_.see(glance);
@@ -137,8 +137,8 @@ class Shown {
       if (console_) console_->flush();
     };
   }
-  Shown(const Shown&) = delete;
-  Shown& operator=(const Shown&) = delete;
+  RunDisplay(const RunDisplay&) = delete;
+  RunDisplay& operator=(const RunDisplay&) = delete;
   void begin(const models::Setup& setup) {
     std::vector<std::string> objects;
     for (const ObjectSpec& object : setup.scene.objects) objects.push_back(object.name);
@@ -225,15 +225,15 @@ class Steering {
 };
 
 // Calls the window's begins() and ends(); the window uses the trial in between.
-struct Watched {
-  Watched(const RunWindow* by, trial::Trial& trial) : window(by) {
+struct WindowScope {
+  WindowScope(const RunWindow* by, trial::Trial& trial) : window(by) {
     if (window != nullptr && window->begins) window->begins(trial);
   }
-  ~Watched() {
+  ~WindowScope() {
     if (window != nullptr && window->ends) window->ends();
   }
-  Watched(const Watched&) = delete;
-  Watched& operator=(const Watched&) = delete;
+  WindowScope(const WindowScope&) = delete;
+  WindowScope& operator=(const WindowScope&) = delete;
   const RunWindow* window;
 };
 
@@ -262,23 +262,23 @@ void seal(Recording& record, const trial::RunMeasures& measured, const trial::St
 }
 
 // The run's surroundings besides the loop; null: absent.
-struct Beside {
+struct RunSurroundings {
   trial::Operator& person;
   const RunWindow* window;
-  Shown* shown;
+  RunDisplay* shown;
   bool terminal;
   const trial::RunMeasures& measured;
   const trial::SteeringLog& hand;
 };
-struct Ended {
+struct RunOutcome {
   double started;  // CPU s from the start of the process to the first tick
   trial::TrialResult result;
 };
-Ended run_to_end(trial::Trial& trial, Recording* record, const Beside& beside) {
+RunOutcome run_to_end(trial::Trial& trial, Recording* record, const RunSurroundings& beside) {
   trial.record_to(record != nullptr ? &record->writer : nullptr);
   beside.person.listen();
   if (beside.shown != nullptr) beside.shown->begin(trial.setup());
-  const Watched watched(beside.window, trial);
+  const WindowScope watched(beside.window, trial);
   const double started = cpu_seconds();
   trial::TrialResult result = trial.run();
   // Seal first, because a terminal may block the printing.
@@ -332,7 +332,7 @@ int run(const RunOptions& options, const RunWindow* window) {
   trial::RunMeasures measured(setup, how);
   if (window != nullptr) join(*window, person, how);
   const Steering steering(options, setup, window, how);
-  std::optional<Shown> shown;
+  std::optional<RunDisplay> shown;
   if (moves) shown.emplace(how, person);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal && !shown && window == nullptr) how.progress = show_progress;
@@ -343,7 +343,7 @@ int run(const RunOptions& options, const RunWindow* window) {
     if (const int code = asked_first(person, trial); code != 0) return code;
   const trial::WallTime begun = trial::wall_time();
   const std::unique_ptr<Recording> record = record_for(options, setup, trial, begun);
-  const Beside beside{person, window, shown ? &*shown : nullptr, terminal, measured, steering.log()};
+  const RunSurroundings beside{person, window, shown ? &*shown : nullptr, terminal, measured, steering.log()};
   const auto [started, result] = run_to_end(trial, record.get(), beside);
   const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
   RunReport report{setup, trial.scene(), result, measured, strengths, trial.certificates(), options};

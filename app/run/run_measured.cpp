@@ -102,7 +102,7 @@ Json ledger_json(const RunReport& r) {
 std::string ledger_line(const RunReport& r) {
   const std::vector<trial::ContactLedger> all = r.measured.ledger.contacts();
   if (all.empty())
-    return r.result.contacts > 0 && r.scene.probe()
+    return r.result.contacts > 0 && r.scene.indentation()
                ? "ledger      nothing rendered: a real object is pressed\n"
                : "";
   const auto most = std::max_element(all.begin(), all.end(),
@@ -253,11 +253,11 @@ Json push_json(const PushFigures& p) {
 }
 
 std::string push_text(const RunReport& r) {
-  if (!r.scene.probe()) return "";
+  if (!r.scene.indentation()) return "";
   const auto& pushes = r.measured.pushes.pushes();
-  const std::string asked = fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(),
-                                        r.scene.probe()->repeats, r.scene.probe()->depth * kMmPerM,
-                                        r.scene.probe()->speed * kMmPerM);
+  const std::string asked = fmt::format(
+      "pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(), r.scene.indentation()->repeats,
+      r.scene.indentation()->depth * kMmPerM, r.scene.indentation()->speed * kMmPerM);
   if (pushes.empty())
     return asked + fmt::format("note        the machine never pushed; {}\n", last_notice(r.result));
   const Json list = list_of(pushes, push_json);
@@ -314,7 +314,7 @@ std::string axes_text(const std::array<TravelAxis, 3>& axes, trial::ErrorSum Tra
 }
 
 std::string travel_text(const RunReport& r) {
-  if (r.scene.travel() == nullptr) return "";
+  if (r.scene.tracking() == nullptr) return "";
   const trial::TravelSums& sums = r.measured.travel.sums();
   if (sums.size() == 0) return "tracking    not measured: the tracker reported no tool on the way\n";
   const std::array<TravelAxis, 3> axes = travel_axes(sums);
@@ -444,12 +444,12 @@ Json measured_json(const RunReport& r) {
   if (trial::controlled(r.scene))
     json["passivity"] = list_of(r.measured.passivity.contacts(), passivity_json);
   json["ledger"] = ledger_json(r);
-  if (r.scene.probe()) {
+  if (r.scene.indentation()) {
     json["pushes"] = list_of(r.measured.pushes.pushes(), push_json);
     json["repeats_within_N"] = r.measured.pushes.spread();
     json["force_error_N"] = r.measured.pushes.force_error();
   }
-  if (r.scene.travel() != nullptr) json["tracking"] = travel_json(r);
+  if (r.scene.tracking() != nullptr) json["tracking"] = travel_json(r);
   json.update(machine_of(r).totals(r));
   return json;
 }

@@ -102,9 +102,9 @@ Json rows_json(const std::vector<certificate::Row>& rows) {
   return all;
 }
 
-Json stability_json(const std::vector<trial::Certified>& certificates) {
+Json stability_json(const std::vector<trial::ObjectCertificate>& certificates) {
   Json all = Json::array();
-  for (const trial::Certified& one : certificates) {
+  for (const trial::ObjectCertificate& one : certificates) {
     const certificate::Certificate& of = one.certificate;
     Json json{{"object", one.object},
               {"class", word_of(of.verdict)},
@@ -237,7 +237,7 @@ std::string run_text(const RunReport& r) {
   if (r.result.interrupted) text += "stopped     by a signal or by q, before its end\n";
   text += weak_text(r.setup, r.scene);
   text += stability_lines(r.certificates);
-  for (const trial::Certified& one : r.certificates)
+  for (const trial::ObjectCertificate& one : r.certificates)
     if (one.beyond()) text += "beyond      " + trial::refusal_text(r.setup, one) + "\n";
   for (const trial::ArmStrength& at : r.strengths)
     if (const std::string beyond = trial::beyond_text(at); !beyond.empty())

@@ -20,7 +20,7 @@ struct RunReport {
   const trial::TrialResult& result;
   const trial::RunMeasures& measured;
   const std::vector<trial::ArmStrength>& strengths;
-  const std::vector<trial::Certified>& certificates;
+  const std::vector<trial::ObjectCertificate>& certificates;
   const RunOptions& asked;
   // Steps of the simulated world, and the number of them that missed the solver's tolerance.
   std::int64_t steps = 0, unsolved = 0;

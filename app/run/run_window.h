@@ -17,8 +17,8 @@ struct RunWindow {
   std::function<void(trial::Trial&)> begins{};
   // Called once after begins(), however the run ended. The trial is destroyed afterwards.
   std::function<void()> ends{};
-  std::function<void(const trial::Glance&)> watch{};        // after each tick; it must not block
-  std::function<void(const Stamped<StereoFrame>&)> look{};  // see TrialOptions::look
+  std::function<void(const trial::Glance&)> watch{};            // after each tick; it must not block
+  std::function<void(const Measurement<StereoFrame>&)> look{};  // see TrialOptions::look
   std::function<bool()> stop{};
   std::function<bool()> waits{};  // true: the next tick is not due; the hook may sleep briefly
   std::function<trial::Hand()> hand{};

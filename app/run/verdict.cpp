@@ -69,10 +69,10 @@ void add_repeated(const RunReport& r, Lines& lines) {
 
 // Uses ground truth if there is one.
 void add_untouched(const RunReport& r, Lines& lines) {
-  using trial::Tried;
+  using trial::PressAttempt;
   if (r.steered) return;
   const auto& tried = r.measured.touches.plan().tried();
-  const auto missed = [](const Tried& t) { return t.missed(); };
+  const auto missed = [](const PressAttempt& t) { return t.missed(); };
   const bool never = tried.empty() ? r.result.contacts == 0 && r.setup.scene.user && r.whole
                                    : std::all_of(tried.begin(), tried.end(), missed);
   if (never)
@@ -80,8 +80,8 @@ void add_untouched(const RunReport& r, Lines& lines) {
   else
     add_tried(r, missed, "touched nothing", lines);
   add_tried(
-      r, [](const Tried& t) { return t.unnoticed(); }, "touched the prop and were no contact to the core",
-      lines);
+      r, [](const PressAttempt& t) { return t.unnoticed(); },
+      "touched the prop and were no contact to the core", lines);
 }
 
 // A finger beside its prop feels an edge, or nothing.
@@ -147,7 +147,7 @@ void add_departures(const RunReport& r, Lines& lines) {
 }
 
 void add_motors(const RunReport& r, Lines& lines) {
-  const auto add = [&](const trial::TouchMeasure::Acted& limit, const char* what) {
+  const auto add = [&](const trial::TouchMeasure::LimitAction& limit, const char* what) {
     if (limit.total > 0.0)
       lines.push_back(
           fmt::format("{}: from {:.2f} s on, for {:.2f} s in all; check names what this pose can hold", what,
@@ -180,7 +180,7 @@ void add_moved(const RunReport& r, Lines& lines) {
 // A certificate beyond its bound counts if it was rendered: after any contact, since the touched object is
 // not known. A free tip counts without a contact.
 void add_unstable(const RunReport& r, Lines& lines) {
-  for (const trial::Certified& one : r.certificates)
+  for (const trial::ObjectCertificate& one : r.certificates)
     if (one.beyond() && (one.free_tip() || r.result.contacts > 0) &&
         (std::isnan(one.ramp) || one.certificate.verdict == certificate::Class::unstable))
       lines.push_back("rendered beyond what is stable: " + trial::refusal_text(r.setup, one));

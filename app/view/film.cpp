@@ -40,9 +40,10 @@ void check_length(double seconds) {
 }
 
 // Films a run with one OpenGL context.
-class Filming {
+class FilmRecorder {
  public:
-  Filming(const ViewOptions& options, const FilmFormat& format, const sim::ViewModule& module, Source& source)
+  FilmRecorder(const ViewOptions& options, const FilmFormat& format, const sim::ViewModule& module,
+               Source& source)
       : options_(options), format_(format), module_(module), source_(source) {}
 
   // Films to the end of the run, or of the requested part.
@@ -122,7 +123,7 @@ FilmReport film(const ViewOptions& options) {
   if (format.folder && !format.ending.empty())
     print_notes({fmt::format(
         "ffmpeg is not installed: {} becomes a folder of PNGs; install ffmpeg for a film", options.video)});
-  const FilmReport report = Filming(options, format, module, source).run(*file);
+  const FilmReport report = FilmRecorder(options, format, module, source).run(*file);
   if (report.frames == 0 && report.signal == 0)
     throw Error(
         fmt::format("{}: the run ends at {:.3f} s; expected --at-s before that; choose an earlier one",

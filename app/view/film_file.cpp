@@ -65,7 +65,7 @@ std::vector<std::string> encoding(const FilmFormat& format, const std::string& f
 
 class EncodedFilm final : public FilmFile {
  public:
-  EncodedFilm(const std::string& path, const FilmFormat& format, models::Existing existing)
+  EncodedFilm(const std::string& path, const FilmFormat& format, models::OverwritePolicy existing)
       : file_(path, existing), ffmpeg_(encoding(format, file_.aside()), Child::Pipe::write) {}
   void add(const Image& frame) override {
     if (!ffmpeg_.write(frame.rgb)) fail(ffmpeg_.wait());
@@ -102,12 +102,12 @@ bool is_there(const std::string& path) {
 
 // Throws Error unless the folder is free, or --force may replace it: it holds frames of a film and nothing
 // else.
-void check_replaceable(const std::string& folder, models::Existing existing) {
+void check_replaceable(const std::string& folder, models::OverwritePolicy existing) {
   if (!is_there(folder)) return;
   std::error_code failed;
   const bool is_folder = fs::symlink_status(folder, failed).type() == fs::file_type::directory;
   if (is_folder && fs::is_empty(folder, failed) && !failed) return;
-  if (existing == models::Existing::keep)
+  if (existing == models::OverwritePolicy::keep)
     throw Error(
         fmt::format("{}: is there already; expected a new folder; choose another name, or give --force to "
                     "replace it",
@@ -143,7 +143,8 @@ void remove_frames(const std::string& folder) {
 
 class FilmFolder final : public FilmFile {
  public:
-  FilmFolder(const std::string& path, models::Existing existing, std::function<std::string(const Image&)> png)
+  FilmFolder(const std::string& path, models::OverwritePolicy existing,
+             std::function<std::string(const Image&)> png)
       : path_(fs::path(path).has_filename() ? path : fs::path(path).parent_path().string()),
         aside_(path_ + ".part"),
         existing_(existing),
@@ -162,7 +163,7 @@ class FilmFolder final : public FilmFile {
   FilmFolder& operator=(const FilmFolder&) = delete;
   void add(const Image& frame) override {
     models::write_file((fs::path(aside_) / frame_name(frames_++)).string(), png_(frame),
-                       models::Existing::keep);
+                       models::OverwritePolicy::keep);
   }
   // rename() replaces only an empty folder.
   void keep() override {
@@ -176,7 +177,7 @@ class FilmFolder final : public FilmFile {
 
  private:
   std::string path_, aside_;
-  models::Existing existing_;
+  models::OverwritePolicy existing_;
   std::function<std::string(const Image&)> png_;
   std::optional<models::OutFolder> lock_;
   std::size_t frames_ = 0;
@@ -203,7 +204,8 @@ FilmFormat film_format(const std::string& path) {
 }
 
 std::unique_ptr<FilmFile> open_film(const std::string& path, const FilmFormat& format,
-                                    models::Existing existing, std::function<std::string(const Image&)> png) {
+                                    models::OverwritePolicy existing,
+                                    std::function<std::string(const Image&)> png) {
   if (format.folder) return std::make_unique<FilmFolder>(path, existing, std::move(png));
   return std::make_unique<EncodedFilm>(path, format, existing);
 }

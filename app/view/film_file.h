@@ -30,7 +30,7 @@ class FilmFile {
 // Writes to PATH.part until keep(). Throws Error if a file exists there and may not be replaced, or if ffmpeg
 // fails, as add() and keep() do. `png`: the bytes of an image.
 [[nodiscard]] std::unique_ptr<FilmFile> open_film(const std::string& path, const FilmFormat& format,
-                                                  models::Existing existing,
+                                                  models::OverwritePolicy existing,
                                                   std::function<std::string(const Image&)> png);
 
 }  // namespace enc::app

@@ -66,7 +66,7 @@ int through_camera(const ViewOptions& options) {
   how.seed = options.seed;
   how.seconds = options.at.value_or(4.0);
   how.drivers = load_module;
-  how.look = [&](const Stamped<StereoFrame>& frame) {
+  how.look = [&](const Measurement<StereoFrame>& frame) {
     const ImageView& from = frame.value.left;
     left.emplace(from.width, from.height);
     std::copy_n(from.rgb, left->rgb.size(), left->rgb.begin());

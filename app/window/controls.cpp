@@ -208,15 +208,15 @@ void Controls::follow(const Point<'W'>& tip) {
   if (follows_ && tip.finite()) camera_.look_at = tip;
 }
 
-Wishes Controls::take_wishes() {
-  const Wishes now = wishes_;
+RunRequests Controls::take_wishes() {
+  const RunRequests now = wishes_;
   wishes_.ticks = wishes_.stills = 0;
   wishes_.restarts = wishes_.stops = wishes_.resumes = wishes_.changes_tool = wishes_.newest = false;
   wishes_.seek.reset();
   return now;
 }
 
-std::vector<Controls::Help> Controls::help_lines(Of of) {
+std::vector<Controls::Help> Controls::help_lines(RunKind of) {
   static constexpr std::array kHand{Help{"left drag", "move the tool; Shift: ten times finer"},
                                     Help{"click", "the tool goes above that place"},
                                     Help{"G", "grab: the tool follows the mouse, until G"},
@@ -246,11 +246,11 @@ std::vector<Controls::Help> Controls::help_lines(Of of) {
   static constexpr std::array kEnd{Help{"H", "this page"}, Help{"Q", "end"}};
   std::vector<Help> lines;
   const auto add = [&](const auto& more) { lines.insert(lines.end(), more.begin(), more.end()); };
-  if (of == Of::simulated) add(kHand);
+  if (of == RunKind::simulated) add(kHand);
   add(kView);
-  if (of == Of::simulated) add(kSimulated);
-  if (of == Of::real) add(kReal);
-  if (of == Of::record) add(kRecord);
+  if (of == RunKind::simulated) add(kSimulated);
+  if (of == RunKind::real) add(kReal);
+  if (of == RunKind::record) add(kRecord);
   add(kEnd);
   return lines;
 }

@@ -12,7 +12,7 @@
 namespace enc::app {
 
 // Requests to the run. Pausing, stepping and speed apply to simulated runs only.
-struct Wishes {
+struct RunRequests {
   // Requested position of the tool's tip; unset: the scene's own hand moves.
   std::optional<Point<'W'>> hand{};
   bool paused = false;
@@ -61,7 +61,7 @@ class Controls {
   [[nodiscard]] double y() const { return y_; }
   [[nodiscard]] bool follows() const { return follows_; }
   // The lasting requests, and the single requests since the last call.
-  [[nodiscard]] Wishes take_wishes();
+  [[nodiscard]] RunRequests take_wishes();
   void paused_at_event() {
     wishes_.paused = true;
     wishes_.to_event = false;
@@ -70,8 +70,8 @@ class Controls {
   struct Help {
     std::string_view key, what;
   };
-  enum class Of : std::uint8_t { simulated, real, record };
-  [[nodiscard]] static std::vector<Help> help_lines(Of of);
+  enum class RunKind : std::uint8_t { simulated, real, record };
+  [[nodiscard]] static std::vector<Help> help_lines(RunKind of);
 
  private:
   void see_key(const sim::WindowEvent& event, const Surroundings& around);
@@ -87,7 +87,7 @@ class Controls {
   [[nodiscard]] Mat3 axes() const;  // columns in W: right, up and away
 
   sim::Camera home_, camera_;
-  Wishes wishes_;
+  RunRequests wishes_;
   bool grabbed_ = false, help_ = false, charts_ = true, follows_ = false;
   bool on_bar_ = false;  // the left button was pressed there
   int insets_ = 0;       // number of requests for another set

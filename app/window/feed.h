@@ -18,7 +18,7 @@ namespace enc::app {
 
 // A still, and the run's status, which is drawn only for the present.
 struct Snapshot {
-  Still still;
+  RunSnapshot still;
   trial::RunStatus status;
 };
 
@@ -64,7 +64,7 @@ class CameraFeed {
   CameraFeed& operator=(const CameraFeed&) = delete;
 
   // Run's thread: look() before the tracker sees a frame, see() after each tick.
-  void look(const Stamped<StereoFrame>& frame) { frame_ = frame.value; }
+  void look(const Measurement<StereoFrame>& frame) { frame_ = frame.value; }
   void see();
 
   // Window's thread.

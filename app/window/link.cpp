@@ -13,7 +13,7 @@ void Link::set(bool& what, bool value) {
   changed_.notify_all();
 }
 
-void Link::wish(const Wishes& wishes) {
+void Link::wish(const RunRequests& wishes) {
   if (wishes.hand && wishes.hand->xyz != told_.xyz) {
     told_ = *wishes.hand;
     hand_.write(told_);

@@ -17,7 +17,7 @@ namespace enc::app {
 class Link {
  public:
   // ---- window's side
-  void wish(const Wishes& wishes);
+  void wish(const RunRequests& wishes);
   [[nodiscard]] bool take_event();  // true: the awaited change of mode came, and the run is paused
   void end() { ends_ = true; }
   // Blocks until the run is about to begin; false: it ended without beginning.
@@ -49,9 +49,9 @@ class Link {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool begun_ = false, drawing_ = false, ended_ = false, closed_ = false, over_ = false, refused_ = false;
-  bool wall_ = false;        // the run keeps the wall clock
-  Point<'W'> told_;          // newest position sent by the window
-  Latest<Point<'W'>> hand_;  // window to run, as all below except event_
+  bool wall_ = false;             // the run keeps the wall clock
+  Point<'W'> told_;               // newest position sent by the window
+  LatestValue<Point<'W'>> hand_;  // window to run, as all below except event_
   std::atomic<bool> changes_tool_ = false;
   std::atomic<std::uint8_t> faults_ = 0;
   std::uint8_t told_faults_ = 0;  // run's side

@@ -37,7 +37,7 @@ void add_core(const Moment& m, sim::ViewRequest& request) {
   if (target.finite()) ball(target, kTarget);
 }
 
-std::string mode_text(const Still& still) {
+std::string mode_text(const RunSnapshot& still) {
   if (still.halted) return "STOPPED BY HAND (R resumes)";
   const std::uint32_t why = still.out.why & kHoldReasons;
   return std::string(mode_name(still.out.mode)) + (why != 0 ? ": " + why_text(why) : "");
@@ -55,7 +55,7 @@ std::string faults_text(std::uint8_t faults) {
 
 }  // namespace
 
-Show::Show(trial::Trial& trial, sim::ViewWindow& window, const What& what)
+Show::Show(trial::Trial& trial, sim::ViewWindow& window, const ShowOptions& what)
     : trial_(trial),
       window_(window),
       what_(what),
@@ -66,7 +66,7 @@ Show::Show(trial::Trial& trial, sim::ViewWindow& window, const What& what)
   window_.forget();
 }
 
-void Show::add(const Still& still) {
+void Show::add(const RunSnapshot& still) {
   timeline_.add(still);
   if (!controls_) controls_.emplace(camera_for(moment_of(trial_, still, data_.get()), false));
 }
@@ -113,9 +113,9 @@ void Show::inset(const Moment& m, sim::ViewRequest& request) const {
   }
 }
 
-Wishes Show::see(const std::vector<sim::WindowEvent>& events) {
+RunRequests Show::see(const std::vector<sim::WindowEvent>& events) {
   for (const sim::WindowEvent& event : events) controls_->see(event, around());
-  const Wishes wishes = controls_->take_wishes();
+  const RunRequests wishes = controls_->take_wishes();
   if (wishes.newest) timeline_.show_newest();
   if (wishes.seek) timeline_.seek(*wishes.seek);
   if (wishes.stills != 0) timeline_.step(wishes.stills);
@@ -123,17 +123,17 @@ Wishes Show::see(const std::vector<sim::WindowEvent>& events) {
 }
 
 Surroundings Show::around() {
-  const Still& shown = timeline_.shown();
+  const RunSnapshot& shown = timeline_.shown();
   Surroundings around;
   around.width = window_.width();
   around.height = window_.height();
   around.tip = shown.truth.tool_tip;
-  around.real = what_.of == Controls::Of::real;
-  around.played = what_.of == Controls::Of::record;
+  around.real = what_.of == Controls::RunKind::real;
+  around.played = what_.of == Controls::RunKind::record;
   around.past = timeline_.past();
   // An empty hand on its way to the other tool can also be steered.
   const bool hand = trial_.setup().scene.user.has_value() && shown.truth.tool_tip.finite();
-  around.steerable = what_.of == Controls::Of::simulated && hand && !around.past;
+  around.steerable = what_.of == Controls::RunKind::simulated && hand && !around.past;
   around.recording = what_.recording;
   around.above = [this](double x, double y) { return above(x, y); };
   around.over = [this](int object) { return over(object); };
@@ -147,7 +147,7 @@ std::optional<Point<'W'>> Show::above(double x, double y) {
   std::optional<Point<'W'>> place;
   double least = 0.01;  // m: a point farther from every object belongs to the machine
   for (const Object& object : trial_.scene().objects) {
-    const Nearest near = object.surface.nearest(object.X_WO.inverse() * *seen);
+    const SurfacePoint near = object.surface.nearest(object.X_WO.inverse() * *seen);
     if (!(std::abs(near.distance) < least)) continue;
     least = std::abs(near.distance);
     place = object.X_WO * near.point + kHover * (object.X_WO * near.normal);
@@ -165,8 +165,8 @@ std::optional<Point<'W'>> Show::over(int object) const {
   return at.point + kHover * at.normal;
 }
 
-void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
-  const Still& shown = timeline_.shown();
+void Show::draw(const RunRequests& wishes, const trial::RunStatus* status) {
+  const RunSnapshot& shown = timeline_.shown();
   const Moment m = moment_of(trial_, shown, data_.get());
   controls_->follow(m.truth.tool_tip);
   sim::ViewRequest request = depict(m, controls_->camera(), false);
@@ -186,14 +186,14 @@ void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
   window_.draw(request);
 }
 
-void Show::write(const Moment& m, const Wishes& wishes, const trial::RunStatus* status,
+void Show::write(const Moment& m, const RunRequests& wishes, const trial::RunStatus* status,
                  sim::ViewRequest& request) {
   const auto row = [&](const std::string& name, const std::string& value) {
     request.names += (request.names.empty() ? "" : "\n") + name;
     request.values += (request.values.empty() ? "" : "\n") + value;
   };
   // A real machine moves on while the user looks at the past, so its present mode comes first.
-  const bool real = what_.of == Controls::Of::real;
+  const bool real = what_.of == Controls::RunKind::real;
   row("mode", mode_text(real ? timeline_.newest() : timeline_.shown()));
   if (real && timeline_.past()) row("shown", mode_text(timeline_.shown()));
   const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
@@ -217,22 +217,22 @@ void Show::write(const Moment& m, const Wishes& wishes, const trial::RunStatus* 
   }
 }
 
-std::string Show::hand_text(const Moment& m, const Wishes& wishes) {
-  if (what_.of == Controls::Of::real) return "at the real devices";
+std::string Show::hand_text(const Moment& m, const RunRequests& wishes) {
+  if (what_.of == Controls::RunKind::real) return "at the real devices";
   if (!trial_.setup().scene.user) return "none";
   std::string tool;
   if (m.truth.tool < 0)
     tool = "empty, ";
   else if (trial_.scene().tools.size() > 1)
     tool = trial_.setup().scene.tools[static_cast<std::size_t>(m.truth.tool)].name + ", ";
-  if (what_.of == Controls::Of::record) return tool + "recorded";
+  if (what_.of == Controls::RunKind::record) return tool + "recorded";
   if (!wishes.hand) return tool + "the scene's: drag to take it";
   return tool + (controls_->grabbed() ? "yours (G lets go)" : "yours");
 }
 
-std::string Show::time_text(const Moment& m, const Wishes& wishes) {
+std::string Show::time_text(const Moment& m, const RunRequests& wishes) {
   const double t = seconds(m.now.t.time_since_epoch());
-  if (what_.of == Controls::Of::record)
+  if (what_.of == Controls::RunKind::record)
     return fmt::format("{:.3f} s{}", t,
                        wishes.paused ? ", stopped" : fmt::format(", x {:.3g}", wishes.speed));
   if (timeline_.past()) return fmt::format("{:.3f} s, {:.3f} s ago", t, seconds_of(timeline_.newest()) - t);

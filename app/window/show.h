@@ -17,8 +17,8 @@ namespace enc::app {
 
 class Show {
  public:
-  struct What {
-    Controls::Of of = Controls::Of::simulated;
+  struct ShowOptions {
+    Controls::RunKind of = Controls::RunKind::simulated;
     bool recording = false;        // a restart would replace the record
     bool cameras = false;          // the scene's camera has images
     std::size_t most_stills = 0;   // number of stills kept; the oldest go first
@@ -26,9 +26,9 @@ class Show {
   };
 
   // The trial must have a twin. It and the window must outlive this.
-  Show(trial::Trial& trial, sim::ViewWindow& window, const What& what);
+  Show(trial::Trial& trial, sim::ViewWindow& window, const ShowOptions& what);
 
-  void add(const Still& still);
+  void add(const RunSnapshot& still);
   void add(const ChartSample& sample) { charts_.add(sample); }
   void add(CameraFeed::Pictures&& pictures);
   [[nodiscard]] bool shows(Controls::Insets insets) const;  // true for pictures of the present
@@ -40,9 +40,9 @@ class Show {
   }  // shown until the next message; empty: no message
 
   // Handles events in order; returns the wishes for the run. Valid once there is a still.
-  [[nodiscard]] Wishes see(const std::vector<sim::WindowEvent>& events);
+  [[nodiscard]] RunRequests see(const std::vector<sim::WindowEvent>& events);
   // `status`: status of the present; null for a record.
-  void draw(const Wishes& wishes, const trial::RunStatus* status);
+  void draw(const RunRequests& wishes, const trial::RunStatus* status);
 
  private:
   using Wall = std::chrono::steady_clock;
@@ -50,14 +50,14 @@ class Show {
   [[nodiscard]] std::optional<Point<'W'>> above(double x, double y);
   [[nodiscard]] std::optional<Point<'W'>> over(int object) const;
   void inset(const Moment& m, sim::ViewRequest& request) const;
-  void write(const Moment& m, const Wishes& wishes, const trial::RunStatus* status,
+  void write(const Moment& m, const RunRequests& wishes, const trial::RunStatus* status,
              sim::ViewRequest& request);
-  [[nodiscard]] std::string hand_text(const Moment& m, const Wishes& wishes);
-  [[nodiscard]] std::string time_text(const Moment& m, const Wishes& wishes);
+  [[nodiscard]] std::string hand_text(const Moment& m, const RunRequests& wishes);
+  [[nodiscard]] std::string time_text(const Moment& m, const RunRequests& wishes);
 
   trial::Trial& trial_;
   sim::ViewWindow& window_;
-  What what_;
+  ShowOptions what_;
   sim::DataPtr data_;  // the shown moment
   Timeline timeline_;
   Charts charts_;

@@ -241,7 +241,7 @@ class SceneFile {
 };
 
 // Thrown on the run's thread when its window could not be opened.
-struct NotShown {};
+struct WindowFailure {};
 
 // One run on its own thread.
 class Run {
@@ -258,7 +258,7 @@ class Run {
       feed_->see(glance);
       if (cameras_) cameras_->see();
     };
-    hooks_.look = [this](const Stamped<StereoFrame>& frame) {
+    hooks_.look = [this](const Measurement<StereoFrame>& frame) {
       if (cameras_) cameras_->look(frame);
     };
     hooks_.stop = [this] { return link_.ends(); };
@@ -272,7 +272,7 @@ class Run {
     thread_.begin([this] {
       try {
         code_ = app::run(options_, &hooks_);
-      } catch (const NotShown&) {  // the window's thread reports it
+      } catch (const WindowFailure&) {  // the window's thread reports it
       } catch (...) {
         failed_ = std::current_exception();
       }
@@ -314,7 +314,7 @@ class Run {
     trial_ = &trial;
     feed_.emplace(trial);
     if (trial.setup().scene.camera && trial.setup().rig.camera.driver == "sim") cameras_.emplace(trial);
-    if (!link_.begin(trial.result().keeps_wall_time)) throw NotShown{};
+    if (!link_.begin(trial.result().keeps_wall_time)) throw WindowFailure{};
   }
 
   RunOptions options_;
@@ -347,7 +347,7 @@ bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
       continue;
     }
     if (link.take_event()) show.controls().paused_at_event();
-    const Wishes wishes = show.see(events);
+    const RunRequests wishes = show.see(events);
     events.clear();
     link.wish(wishes);
     if (wishes.restarts || (file != nullptr && file->renewed(message))) {
@@ -373,16 +373,16 @@ void yield() {
 }
 
 // Clears the pointer to a run when the run is gone.
-struct Forget {
+struct RunGuard {
   Run*& run;
-  ~Forget() { run = nullptr; }
+  ~RunGuard() { run = nullptr; }
 };
 
 // Shows how much of a record is read. Returns false if the user cancels.
 bool show_reading(double ticks, double all, Show& show, sim::ViewWindow& window) {
   std::vector<sim::WindowEvent> events;
   if (!window.poll(events)) return false;
-  const Wishes wishes = show.see(events);
+  const RunRequests wishes = show.see(events);
   if (wishes.ends) return false;
   show.say(fmt::format("reading the record: {:.0f} %", 100.0 * ticks / all));
   show.draw(wishes, nullptr);
@@ -396,7 +396,7 @@ void play(Show& show, sim::ViewWindow& window) {
   show.timeline().seek(0.0);
   Wall::time_point before = Wall::now();
   while (window.poll(events)) {
-    Wishes wishes = show.see(events);
+    RunRequests wishes = show.see(events);
     if (wishes.ends) break;
     const Wall::time_point now = Wall::now();
     if (wishes.to_event) {
@@ -422,11 +422,11 @@ int show_record(const std::string& path, const sim::WindowModule& module) {
   const std::int64_t each =
       std::max<std::int64_t>(10, playback.ticks() / static_cast<std::int64_t>(kStills) + 1);
   const auto samples = static_cast<std::size_t>(playback.ticks() / Sampler::kEach + 1);
-  Show show(
-      playback.trial(), *window,
-      {Controls::Of::record, true, false, static_cast<std::size_t>(playback.ticks() / each + 2), samples});
+  Show show(playback.trial(), *window,
+            {Controls::RunKind::record, true, false, static_cast<std::size_t>(playback.ticks() / each + 2),
+             samples});
   Sampler sampler;
-  Still still;
+  RunSnapshot still;
   std::int64_t ticks = 0;
   const auto see = [&](const trial::Glance& glance) {
     const ChartSample sample = sampler.sample(glance);
@@ -453,8 +453,8 @@ int show_record(const std::string& path, const sim::WindowModule& module) {
 // the user wants a restart.
 bool show_live(Run& run, sim::ViewWindow& window, bool recording, SceneFile& file) {
   Show show(run.trial(), window,
-            {run.real() ? Controls::Of::real : Controls::Of::simulated, recording, run.cameras() != nullptr,
-             kStills, kSamples});
+            {run.real() ? Controls::RunKind::real : Controls::RunKind::simulated, recording,
+             run.cameras() != nullptr, kStills, kSamples});
   return show_run(run, show, window, run.real() || recording ? nullptr : &file);
 }
 
@@ -492,7 +492,7 @@ int window(const ViewOptions& asked) {
     Run run(options, thread);
     if (!run.link().wait_for_begin()) return run.code();
     shown = &run;
-    const Forget forget{shown};
+    const RunGuard forget{shown};
     if (!run.real()) yield();  // a real machine's run keeps its priority: the stop key must never wait
     try {
       if (!window) window = module->open("Encounter: " + options.scene, kWidth, kHeight, lost);

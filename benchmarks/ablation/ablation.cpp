@@ -83,7 +83,7 @@ class Form {
   std::unique_ptr<PoseTracker> vision_;
   int file_ = -1;  // in memory
   std::unique_ptr<RecordWriter> record_;
-  Stamped<TrackedTool> unused_;
+  Measurement<TrackedTool> unused_;
   std::int64_t ticks_ = 0, touched_ = 0;
   std::int64_t pictures_ = 0, surfaces_ = 0;  // seen by vision; drawn by the display
   Time drawn_{};

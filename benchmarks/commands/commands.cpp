@@ -383,7 +383,7 @@ class Session {
     for (const Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
     context_.models = models::models_dir();
     report_.background = load_background(context_.models);
-    if (is_default(options)) committed_ = Committed::load(context_.models);
+    if (is_default(options)) committed_ = CommittedResults::load(context_.models);
     context_.seed = options.seed;
     context_.repeats = options.repeats;
     context_.quick = options.quick;
@@ -485,7 +485,7 @@ class Session {
     if (options_.out.empty()) return;
     const std::string results = (std::filesystem::path(options_.out) / "results.json").string();
     if (!std::filesystem::exists(results)) return write();
-    const models::OutFile writable(results, models::Existing::replace);
+    const models::OutFile writable(results, models::OverwritePolicy::replace);
   }
   void write() const {
     if (!options_.out.empty()) write_report(options_.out, report_);
@@ -513,7 +513,7 @@ class Session {
   std::atomic<bool> stopping_{false};
   bool confirmed_ = false;               // of the worker
   std::vector<std::string> fell_short_;  // ids
-  Committed committed_;
+  CommittedResults committed_;
   std::vector<std::string> differ_;  // ids
 };
 

@@ -23,31 +23,31 @@ double number_or_unset(const Reference& table, std::size_t row, std::string_view
 
 }  // namespace
 
-Committed Committed::load(const std::string& models) {
+CommittedResults CommittedResults::load(const std::string& models) {
   if (!std::filesystem::exists(models + "/../benchmarks/reference/" + kFile)) return {};
-  Committed all;
+  CommittedResults all;
   all.take(Reference::load(models, kFile));
   return all;
 }
 
-Committed Committed::parse(std::string_view text, const std::string& name) {
-  Committed all;
+CommittedResults CommittedResults::parse(std::string_view text, const std::string& name) {
+  CommittedResults all;
   all.take(Reference::parse(text, name));
   return all;
 }
 
-void Committed::take(const Reference& table) {
+void CommittedResults::take(const Reference& table) {
   for (std::size_t row = 0; row < table.rows(); ++row)
     all_[table.text(row, "id")] = {number_or_unset(table, row, "value"), number_or_unset(table, row, "least"),
                                    number_or_unset(table, row, "most"), table.text(row, "commit")};
 }
 
-const CommittedFigure* Committed::find(const std::string& id) const {
+const CommittedFigure* CommittedResults::find(const std::string& id) const {
   const auto at = all_.find(id);
   return at == all_.end() ? nullptr : &at->second;
 }
 
-bool Committed::differs(const Figure& figure) const {
+bool CommittedResults::differs(const Figure& figure) const {
   const CommittedFigure* then = find(figure.id);
   if (then == nullptr || figure.cost || figure.absent) return false;
   if (std::isnan(figure.twin) || std::isnan(then->value))

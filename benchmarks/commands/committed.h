@@ -16,12 +16,12 @@ struct CommittedFigure {
   std::string commit;  // that measured it
 };
 
-class Committed {
+class CommittedResults {
  public:
-  Committed() = default;
+  CommittedResults() = default;
   // Loads from the folder beside `models`; empty if the file does not exist, as in an installed program.
-  static Committed load(const std::string& models);
-  static Committed parse(std::string_view text, const std::string& name);
+  static CommittedResults load(const std::string& models);
+  static CommittedResults parse(std::string_view text, const std::string& name);
 
   // Null if this file does not have the figure.
   [[nodiscard]] const CommittedFigure* find(const std::string& id) const;

@@ -136,8 +136,8 @@ ContourGap contour_gap(const Contour& a, const Contour& b, double ball_radius) {
   return gap;
 }
 
-GapAlong gap_along(const Contour& a, const Contour& b) {
-  GapAlong gap;
+GapProfile gap_along(const Contour& a, const Contour& b) {
+  GapProfile gap;
   double length = 0.0;
   for (const Vec2& p : spaced(a)) {
     const Vec2 other = nearest(b, p);

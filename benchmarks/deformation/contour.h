@@ -25,10 +25,10 @@ struct ContourGap {
 [[nodiscard]] ContourGap contour_gap(const Contour& a, const Contour& b, double ball_radius);
 
 // Distance of b outside a (negative: inside), along a; x is the length along a from the pole; m.
-struct GapAlong {
+struct GapProfile {
   std::vector<double> length, outside;
 };
-[[nodiscard]] GapAlong gap_along(const Contour& a, const Contour& b);
+[[nodiscard]] GapProfile gap_along(const Contour& a, const Contour& b);
 
 // The dent is the region inside the undeformed ball and above the contour. Overlap: the common part over the
 // union.

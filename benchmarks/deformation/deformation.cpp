@@ -42,20 +42,21 @@ Contour seen_contour(const Surface& ball, double tip_radius, double depth,
   contour.reserve(kPoints + 1);
   for (int i = 0; i <= kPoints; ++i) {
     const double polar = M_PI * i / kPoints;
-    const Nearest at = ball.nearest(Point<'O'>(radius * std::sin(polar), 0.0, radius * std::cos(polar)));
+    const SurfacePoint at = ball.nearest(Point<'O'>(radius * std::sin(polar), 0.0, radius * std::cos(polar)));
     const Point<'O'> seen = displaced(field, at.point, at.normal).point;
     contour.emplace_back(seen.xyz[0], seen.xyz[2]);
   }
   return contour;
 }
 
-struct Seen {
+struct ContourComparison {
   Contour contour;
   ContourGap gap;
   Overlap common;
 };
 
-void add_depth(BenchResult& result, std::size_t depth, const Seen& probe, const Seen& stylus) {
+void add_depth(BenchResult& result, std::size_t depth, const ContourComparison& probe,
+               const ContourComparison& stylus) {
   const int mm = static_cast<int>(std::lround(kMmPerM * fig11_depths()[depth]));
   const Role role = mm == 4 ? Role::predicted : Role::calibrated;
   const std::string from =
@@ -87,12 +88,12 @@ Series line(const std::string& name, const Contour& contour, double radius) {
 }
 
 void add_plots(BenchResult& result, double radius, const Fig11Contours& reference,
-               const std::vector<Seen>& probe, const std::vector<Seen>& stylus) {
+               const std::vector<ContourComparison>& probe, const std::vector<ContourComparison>& stylus) {
   Contour round;
   for (int i = 0; i <= 180; ++i)
     round.emplace_back(radius * std::sin(0.5 * M_PI * i / 180), radius * std::cos(0.5 * M_PI * i / 180));
   const auto contours = [&](const std::string& id, const std::string& title, const Contour& pressed,
-                            const Seen& seen) {
+                            const ContourComparison& seen) {
     Plot plot{id, title, "from the axis (mm)", "height over the ball's middle (mm)"};
     plot.series = {line("pressed ball", pressed, radius), line("seen ball", seen.contour, radius),
                    line("undeformed", round, radius)};
@@ -106,7 +107,7 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
     const double mm = kMmPerM * fig11_depths()[d];
     contours(fmt::format("deformation_fig11_{:g}mm", mm), fmt::format("Fig 11: {:g} mm under the probe", mm),
              reference.probe[d], probe[d]);
-    const GapAlong gap = gap_along(probe[d].contour, reference.probe[d]);
+    const GapProfile gap = gap_along(probe[d].contour, reference.probe[d]);
     Series series{fmt::format("{:g} mm deep", mm)};
     for (std::size_t i = 0; i < gap.length.size(); i += 4)
       series.add(kMmPerM * gap.length[i], kMmPerM * gap.outside[i]);
@@ -154,10 +155,11 @@ void run(Bench& bench) {
   const Fig11Contours reference = load_fig11(context.models);
   const auto seen = [&](double tip_radius, double depth, const Contour& pressed) {
     const Contour contour = seen_contour(ball, tip_radius, depth);
-    return Seen{contour, contour_gap(contour, pressed, radius), overlap(contour, pressed, radius)};
+    return ContourComparison{contour, contour_gap(contour, pressed, radius),
+                             overlap(contour, pressed, radius)};
   };
-  std::vector<Seen> probe;
-  std::vector<Seen> stylus;
+  std::vector<ContourComparison> probe;
+  std::vector<ContourComparison> stylus;
   for (std::size_t d = 0; d < fig11_depths().size(); ++d) {
     probe.push_back(seen(probe_radius, fig11_depths()[d], reference.probe[d]));
     stylus.push_back(seen(kStylus, fig11_depths()[d], reference.stylus[d]));

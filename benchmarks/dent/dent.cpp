@@ -42,10 +42,10 @@ struct Cloud {
 
 // The reference: pushes each vertex in by a Gaussian of equal depth and width, in double, then sums the
 // triangles' area-weighted normals at their corners and normalises them. All buffers exist beforehand.
-struct Straight {
+struct DentReference {
   const Mesh& mesh;
   std::vector<Vec3> points, normals;
-  explicit Straight(const Mesh& ball)
+  explicit DentReference(const Mesh& ball)
       : mesh(ball), points(ball.vertices.size()), normals(ball.vertices.size()) {}
   void update(const Vec3& contact, const Vec3& n, double depth, double width) {
     const double scale = -1.0 / (width * width);
@@ -73,7 +73,7 @@ constexpr int kUpdates = 20;
 // Ours; ours with a dent so wide that no vertex is skipped; straight: kUpdates each.
 Race race(const Mesh& ball, const Surface& surface, const DentSample& dent, std::size_t rounds) {
   Cloud cloud(ball);
-  Straight straight(ball);
+  DentReference straight(ball);
   const Vec3 n = dent.tip.centre.e().normalized();
   const Vec3 contact = surface.nearest(dent.tip.centre).point.e();
   const double radius = std::get<Sphere>(surface.shape()).radius;

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
 
-struct Meeting {
+struct TouchResult {
   double miss = kUnset, delay = kUnset;  // m, s: values of a hand that touched
   double simulated = 0.0;                // s
 };
 
-Meeting meet(models::Setup setup, double speed, std::uint64_t seed) {
+TouchResult meet(models::Setup setup, double speed, std::uint64_t seed) {
   setup.scene.user->approach = {speed};
-  Meeting meeting;
+  TouchResult meeting;
   const trial::PressMeasure measure = trial::measured_run(setup, seed, meeting.simulated);
   meeting.miss = measure.presses().front().miss;
   meeting.delay = measure.presses().front().first_force_delay;
@@ -50,8 +50,8 @@ void run(Bench& bench) {
     const auto id = [&](const char* what, const char* statistic) {
       return fmt::format("{}.{:.0f}.{}", what, kSpeeds[i] * 1e3, statistic);
     };
-    const std::vector<double> touched = known(meetings[i], &Meeting::miss);
-    const std::vector<double> delays = known(meetings[i], &Meeting::delay);
+    const std::vector<double> touched = known(meetings[i], &TouchResult::miss);
+    const std::vector<double> delays = known(meetings[i], &TouchResult::delay);
     const Value miss = median_of(touched) * kMmPerM;
     const double bound = trial::miss_bound(setup, kSpeeds[i]) * kMmPerM;
     const std::string note = fmt::format("{} seeds at {:.0f} mm/s; bound from rig and twin: {:.2f} mm",

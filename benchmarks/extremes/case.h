@@ -59,7 +59,7 @@ struct Number {
   bool cost = false;       // Figure::cost
 };
 
-struct Found {
+struct CaseResult {
   std::string did, criterion;  // the table's text: the action and the criterion
   std::vector<Number> numbers{};
   double simulated = 0.0;  // s
@@ -72,7 +72,7 @@ struct Found {
 
 struct Case {
   std::string id;  // tokens between the benchmark's name and those of a number
-  std::function<Found(const BenchContext&)> run;
+  std::function<CaseResult(const BenchContext&)> run;
 };
 using Cases = std::vector<Case>;
 
@@ -85,7 +85,7 @@ struct Run {
                          const std::function<void(const trial::Glance&)>& also = {});
 // Adds the numbers that every case reports of its runs: ticks on which the judge found a violation, and
 // warnings of the engine.
-void add_soundness(const Run& run, Found& found);
+void add_soundness(const Run& run, CaseResult& found);
 
 // The tables of cases, one for each file.
 void add_walls(Cases& cases, bool quick);
@@ -97,8 +97,8 @@ void add_refusals(Cases& cases, bool quick);
 void add_soaks(Cases& cases, bool quick, bool full);
 // Hours of both machines, one after the other because memory is measured for the whole program.
 // Runs them immediately and adds them to `cases` and `found`.
-void add_long(Bench& bench, Cases& cases, std::vector<Found>& found);
+void add_long(Bench& bench, Cases& cases, std::vector<CaseResult>& found);
 // Force over the stiffness of the arm's walls.
-void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<Found>& found);
+void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<CaseResult>& found);
 
 }  // namespace enc::bench::extremes

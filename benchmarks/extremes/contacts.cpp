@@ -37,20 +37,20 @@ std::string name_of(const char* machine, double stiffness) {
 }
 
 // The finger presses as in the scene; the last half of its hold is watched.
-Found arm_wall(const BenchContext& context, double stiffness) {
+CaseResult arm_wall(const BenchContext& context, double stiffness) {
   const models::Setup setup =
       load_scene(context, "wall",
                  {fmt::format("behaviour.phantom_wall.stiffness_N_per_mm={:g}", stiffness / 1e3),
                   fmt::format("user.push_N={:g}", kPush)});
-  Found found{fmt::format("wall.toml at {:g} N/m, pressed with 4 N", stiffness),
-              "the sheet's peak for at most a cycle more; named where beyond the law",
-              {}};
+  CaseResult found{fmt::format("wall.toml at {:g} N/m, pressed with 4 N", stiffness),
+                   "the sheet's peak for at most a cycle more; named where beyond the law",
+                   {}};
   trial::TrialOptions options{.seed = context.seed};
   Swing swing;
   const Run run = judged(setup, options, [&](const trial::Glance& g) {
     if (g.truth.phase == sim::Phase::hold) swing.see(g);
   });
-  const trial::Certified wall = trial::certificates_of(setup, trial::prepare_setup(setup)).back();
+  const trial::ObjectCertificate wall = trial::certificates_of(setup, trial::prepare_setup(setup)).back();
   const std::string beyond = trial::refusal_text(setup, wall);
   found.numbers = {
       {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
@@ -66,12 +66,12 @@ Found arm_wall(const BenchContext& context, double stiffness) {
 }
 
 // Pushed from outside with up to 30 N.
-Found machine_wall(const BenchContext& context, double stiffness) {
+CaseResult machine_wall(const BenchContext& context, double stiffness) {
   const models::Setup setup = load_scene(
       context, "stiffness", {fmt::format("behaviour.spring.stiffness_N_per_mm={:g}", stiffness / 1e3)});
-  Found found{fmt::format("stiffness.toml at {:g} N/m, pushed with 30 N", stiffness),
-              "commands within speed, acceleration and reach; at most 100 N",
-              {}};
+  CaseResult found{fmt::format("stiffness.toml at {:g} N/m, pushed with 30 N", stiffness),
+                   "commands within speed, acceleration and reach; at most 100 N",
+                   {}};
   trial::TrialOptions options{.seed = context.seed};
   Swing swing;
   const Run run = judged(setup, options, [&](const trial::Glance& g) {
@@ -91,12 +91,13 @@ Found machine_wall(const BenchContext& context, double stiffness) {
 constexpr double kDeep = 20e-3, kTop = 25e-3;  // m: of the finger; of the wall over the waiting prop
 
 // Vision detects the finger for the first time when it is 20 mm inside the wall.
-Found deep_finger(const BenchContext& context) {
+CaseResult deep_finger(const BenchContext& context) {
   const models::Setup setup =
       load_scene(context, "wall",
                  {"object.wall.position_mm=[0,0,25]", "user.push_N=2", "user.press_s=0.5", "user.hold_s=2",
                   "user.release_s=0.5", "user.rest_s=1", "user.approach_mm_s=[100]"});
-  Found found{"wall.toml, finger first seen 20 mm inside", "pushed out at <= 50 mm/s, within the force", {}};
+  CaseResult found{
+      "wall.toml, finger first seen 20 mm inside", "pushed out at <= 50 mm/s, within the force", {}};
   bool seen = false;
   double fastest = 0.0, deepest = 0.0;
   trial::TrialOptions options{.seed = context.seed};
@@ -121,11 +122,11 @@ Found deep_finger(const BenchContext& context) {
 }
 
 // The machine's tip is 20 mm inside of the ball when the loop begins.
-Found deep_tip(const BenchContext& context) {
+CaseResult deep_tip(const BenchContext& context) {
   const models::Setup setup = load_scene(context, "tennis_ball",
                                          {"object.ball.position_mm=[0,0,-13]", "user.approach_mm_s=[20]",
                                           "user.press_s=1", "user.release_s=1", "user.approach_from_mm=50"});
-  Found found{
+  CaseResult found{
       "tennis_ball.toml, tip starts 20 mm inside", "out at <= 50 mm/s, never deeper, not outside", {}};
   double least = kInfinite, back = 0.0, outside = -kInfinite, first = kUnset;
   trial::TrialOptions options{.seed = context.seed};
@@ -170,14 +171,14 @@ void see_hit(const trial::Glance& g, bool arm, Hit& hit) {
 }
 
 // The hand can reach that speed because it has 50 N.
-Found impact(const BenchContext& context, bool arm, double speed) {
+CaseResult impact(const BenchContext& context, bool arm, double speed) {
   const models::Setup setup = load_scene(context, arm ? "wall" : "tennis_ball",
                                          {fmt::format("user.approach_mm_s=[{:g}]", speed * kMmPerM),
                                           fmt::format("user.approach_from_mm={:g}", 300.0 * speed),
                                           "user.approach_tilt_deg=0", "user.press_s=1", "user.release_s=1"});
-  Found found{fmt::format("{}.toml, touched at {:g} m/s", arm ? "wall" : "tennis_ball", speed),
-              "stopped, not gone through; at 1 m/s at most 1.5 mm into each other",
-              {}};
+  CaseResult found{fmt::format("{}.toml, touched at {:g} m/s", arm ? "wall" : "tennis_ball", speed),
+                   "stopped, not gone through; at 1 m/s at most 1.5 mm into each other",
+                   {}};
   trial::TrialOptions options{.seed = context.seed};
   Hit hit;
   double before = 0.0;
@@ -201,12 +202,13 @@ Found impact(const BenchContext& context, bool arm, double speed) {
 }
 
 // Hard objects beside a soft one, with two tools [VHMR 5: training].
-Found training(const BenchContext& context) {
+CaseResult training(const BenchContext& context) {
   const models::Setup setup =
       load_scene(context, "training", {fmt::format("user.session.duration_s={}", context.quick ? 20 : 60)});
-  Found found{"training.toml, 50 to 200 N/mm beside 0.5",
-              "each press one contact; never outside; no deeper than the limit and two steps of the machine",
-              {}};
+  CaseResult found{
+      "training.toml, 50 to 200 N/mm beside 0.5",
+      "each press one contact; never outside; no deeper than the limit and two steps of the machine",
+      {}};
   trial::PressMeasure presses(setup);
   double limit = kUnset;
   trial::TrialOptions options{.seed = context.seed};
@@ -237,7 +239,7 @@ Found training(const BenchContext& context) {
 // device has.
 
 // Vision sees the tool move 0.2 m aside and back, twice: the movement, and what is seen of the tip.
-struct Leaving {
+struct ToolExcursion {
   static constexpr double kFar = 0.2, kTurn = 3.0, kFrom = 1.0;  // m, s
   double now = 0.0;                                              // s
   double unreachable = 0.0;                                      // ticks with a target out of reach
@@ -264,8 +266,9 @@ struct WorstHand {
 };
 
 // The place where a tool meets a tip that comes from the side is chance: one hand is not enough.
-WorstHand worst_of_hands(const models::Setup& setup, std::uint64_t seed, Leaving& leaving) {
-  trial::TrialOptions options{.seconds = Leaving::kFrom + 2.0 * Leaving::kTurn + 1.6, .fit_out = keep_clean};
+WorstHand worst_of_hands(const models::Setup& setup, std::uint64_t seed, ToolExcursion& leaving) {
+  trial::TrialOptions options{.seconds = ToolExcursion::kFrom + 2.0 * ToolExcursion::kTurn + 1.6,
+                              .fit_out = keep_clean};
   options.disturb = [&](Inputs& in) { leaving.disturb(in); };
   constexpr std::uint64_t kHands = 4;
   WorstHand worst;
@@ -281,14 +284,14 @@ WorstHand worst_of_hands(const models::Setup& setup, std::uint64_t seed, Leaving
   return worst;
 }
 
-Found leaves(const BenchContext& context, bool arm) {
+CaseResult leaves(const BenchContext& context, bool arm) {
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "plane",
                  {"user.approach_mm_s=[10]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"});
-  Found found{fmt::format("{}.toml, 200 mm aside and back, twice", arm ? "wall" : "plane"),
-              "within reach, never near a singular pose; back in place 1.2 s later",
-              {}};
-  Leaving leaving;
+  CaseResult found{fmt::format("{}.toml, 200 mm aside and back, twice", arm ? "wall" : "plane"),
+                   "within reach, never near a singular pose; back in place 1.2 s later",
+                   {}};
+  ToolExcursion leaving;
   const WorstHand worst = worst_of_hands(setup, context.seed, leaving);
   found.numbers = {{"clamped.value", leaving.unreachable, "", {}, "ticks with a target out of reach"},
                    {"back.max", leaving.back * kMmPerM, "mm", at_most(arm ? 3.0 : 1.0),
@@ -305,13 +308,13 @@ Found leaves(const BenchContext& context, bool arm) {
 }
 
 // Up and down about the pause distance, by 3 mm at 1 Hz with 50 um of noise: within the hysteresis.
-Found trembles(const BenchContext& context, bool arm) {
+CaseResult trembles(const BenchContext& context, bool arm) {
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "plane",
                  {"user.approach_mm_s=[1]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"});
-  Found found{fmt::format("{}.toml, trembles where following ends", arm ? "wall" : "plane"),
-              "followed or not: no more than one change of mode",
-              {}};
+  CaseResult found{fmt::format("{}.toml, trembles where following ends", arm ? "wall" : "plane"),
+                   "followed or not: no more than one change of mode",
+                   {}};
   const double pause = setup.scene.follow.pause;
   double now = 0.0;
   Mode before = Mode::away;
@@ -337,14 +340,14 @@ Found trembles(const BenchContext& context, bool arm) {
 }
 
 // A sensor with a range of 12 N, of which its load takes 9 N.
-Found saturated(const BenchContext& context) {
+CaseResult saturated(const BenchContext& context) {
   const models::Setup setup =
       load_scene(context, "tennis_ball",
                  {"truth.force.range_N=12", "truth.force.zero_N=0", "user.approach_mm_s=[50]",
                   "user.approach_from_mm=30", "user.press_s=1.5", "user.depth_mm=4"});
-  Found found{"tennis_ball.toml, force sensor at its range",
-              "a hold on each such tick and on no other; at rest in it",
-              {}};
+  CaseResult found{"tennis_ball.toml, force sensor at its range",
+                   "a hold on each such tick and on no other; at rest in it",
+                   {}};
   double wrong = 0.0, ticks = 0.0, moved = 0.0, held_for = 0.0;
   Vec3 before = Vec3::Zero();
   trial::TrialOptions options{.seed = context.seed};
@@ -365,14 +368,14 @@ Found saturated(const BenchContext& context) {
 }
 
 // A tool presses with 40 N on a machine that carries 30 N, of which its load takes 9 N.
-Found overloaded(const BenchContext& context) {
+CaseResult overloaded(const BenchContext& context) {
   constexpr double kStiffness = 10e3;  // N/m
   const models::Setup setup =
       load_scene(context, "plane",
                  {"behaviour.wall.stiffness_N_per_mm=10", "rig.manipulator.payload_N=30", "user.push_N=40"});
-  Found found{"plane.toml, 40 N on a machine that carries 30 N",
-              "said; the tip goes no deeper than 30 N have it",
-              {}};
+  CaseResult found{"plane.toml, 40 N on a machine that carries 30 N",
+                   "said; the tip goes no deeper than 30 N have it",
+                   {}};
   double said = 0.0, deepest = 0.0;
   trial::TrialOptions options{.seed = context.seed};
   const Run run = judged(setup, options, [&](const trial::Glance& g) {
@@ -387,7 +390,7 @@ Found overloaded(const BenchContext& context) {
   return found;
 }
 
-Found coincident(const BenchContext& context, bool arm) {
+CaseResult coincident(const BenchContext& context, bool arm) {
   models::Setup setup = load_scene(context, arm ? "keypad" : "tennis_ball",
                                    arm ? std::vector<std::string>{}
                                        : std::vector<std::string>{"user.approach_mm_s=[50]", "user.press_s=1",
@@ -396,9 +399,9 @@ Found coincident(const BenchContext& context, bool arm) {
   ObjectSpec again = objects[arm ? 4 : 0];  // the object that is pressed
   again.name += "_again";
   objects.push_back(again);
-  Found found{fmt::format("{}.toml, its object there twice", arm ? "keypad" : "tennis_ball"),
-              "one of them, the same each time: no change in 100 cycles",
-              {}};
+  CaseResult found{fmt::format("{}.toml, its object there twice", arm ? "keypad" : "tennis_ball"),
+                   "one of them, the same each time: no change in 100 cycles",
+                   {}};
   std::uint64_t hash = 0;
   double most = 0.0;
   for (int i = 0; i < 2; ++i) {
@@ -437,7 +440,7 @@ void add_walls(Cases& cases, bool quick) {
                      [=](const BenchContext& context) { return machine_wall(context, stiffness); }});
 }
 
-void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<Found>& found) {
+void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<CaseResult>& found) {
   Series told{.name = "commanded", .mark = Mark::both},
       touch{.name = "true, on the finger", .mark = Mark::both};
   Series limit{.name = "what the device has"}, push{.name = "what the finger pushes with"};

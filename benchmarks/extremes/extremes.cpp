@@ -20,7 +20,7 @@ namespace {
 constexpr double kRings = 0.05e-3;  // m rms: what goes farther rings
 
 // The quantity that is compared.
-enum class Compared : std::uint8_t {
+enum class ComparedQuantity : std::uint8_t {
   swing,  // rms swing of the tip while the finger holds
   way     // the tool's path from the first touch on
 };
@@ -30,7 +30,7 @@ struct Study {
   const char* title;
   const char* scene;
   const char* table;  // TOML table of step and integrator
-  Compared compared;
+  ComparedQuantity compared;
   double seconds;  // s
   std::vector<std::string> set;
   double within;                       // %: bound of the default
@@ -44,7 +44,7 @@ Study ringing(const char* id, const char* title, const char* stiffness) {
           title,
           "wall",
           "truth.arm",
-          Compared::swing,
+          ComparedQuantity::swing,
           4.9,
           {stiffness, "user.push_N=4", "user.approach_mm_s=[100]", "user.press_s=1", "user.hold_s=1.5"},
           25.0};
@@ -59,7 +59,7 @@ const std::vector<Study>& studies() {
        "arm, touched at 5 m/s: way of the finger",
        "wall",
        "truth.arm",
-       Compared::way,
+       ComparedQuantity::way,
        1.5,
        {"user.approach_mm_s=[5000]", "user.approach_from_mm=1500", "user.approach_tilt_deg=0",
         "user.press_s=0.3", "user.hold_s=0.1", "user.release_s=0.3", "user.rest_s=0.2"},
@@ -68,7 +68,7 @@ const std::vector<Study>& studies() {
        "hexapod, tool of 1 g: its way",
        "tennis_ball",
        "truth.world",
-       Compared::way,
+       ComparedQuantity::way,
        1.5,
        {"tool.stylus.mass_kg=0.001", "user.approach_mm_s=[200]", "user.press_s=0.3", "user.release_s=0.3",
         "user.approach_from_mm=50"},
@@ -79,7 +79,7 @@ const std::vector<Study>& studies() {
   return kStudies;
 }
 
-struct Stepped {
+struct StepSetting {
   std::string integrator;
   double step;  // s
 };
@@ -99,7 +99,7 @@ double rms_about_mean(std::vector<double> all) {
   return rms(all);
 }
 
-Outcome run_once(const Study& study, const BenchContext& context, const Stepped& at,
+Outcome run_once(const Study& study, const BenchContext& context, const StepSetting& at,
                  const std::vector<std::string>& more = {}) {
   Outcome found;
   // A hand without drift, so that each run touches at the same place.
@@ -134,7 +134,7 @@ Outcome run_once(const Study& study, const BenchContext& context, const Stepped&
 // % of the converged run's; NaN with the reason if the run failed, or if just one of the two rings.
 double error_of(const Study& study, const Outcome& converged, Outcome& found) {
   if (!found.failure.empty()) return kUnset;
-  if (study.compared == Compared::swing) {
+  if (study.compared == ComparedQuantity::swing) {
     if ((found.swing > kRings) != (converged.swing > kRings)) {
       found.failure = found.swing > kRings ? "rings, where it does not" : "is still, where it rings";
       return kUnset;
@@ -151,14 +151,14 @@ double error_of(const Study& study, const Outcome& converged, Outcome& found) {
   return 100.0 * std::sqrt(sum / size);
 }
 
-struct Tried {
+struct StudyTrial {
   const Study* study;
-  Stepped at;
+  StepSetting at;
   double error = kUnset, cost = kUnset;  // %; s of CPU for each second
   std::string failure{};
 };
 
-bool is_default(const Tried& point, const BenchContext& context) {
+bool is_default(const StudyTrial& point, const BenchContext& context) {
   const models::Setup setup = load_scene(context, point.study->scene);
   const sim::Stepping shipped = setup.twin.stepping(setup.scene);
   return shipped.integrator == point.at.integrator && std::abs(shipped.timestep - point.at.step) < 1e-9;
@@ -166,11 +166,11 @@ bool is_default(const Tried& point, const BenchContext& context) {
 
 // Rounds go through all points, so that a slow moment of the machine does not hit one alone.
 void race(const BenchContext& context, int rounds, const std::map<const Study*, Outcome>& converged,
-          std::vector<Tried>& points) {
+          std::vector<StudyTrial>& points) {
   std::vector<std::vector<double>> costs(points.size());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < points.size(); ++i) {
-      Tried& point = points[i];
+      StudyTrial& point = points[i];
       Outcome found = run_once(*point.study, context, point.at);
       point.error = error_of(*point.study, converged.at(point.study), found);
       point.failure = found.failure;
@@ -180,7 +180,7 @@ void race(const BenchContext& context, int rounds, const std::map<const Study*, 
   for (std::size_t i = 0; i < points.size(); ++i) points[i].cost = median(costs[i]);
 }
 
-void draw(Bench& bench, const std::vector<std::string>& integrators, const std::vector<Tried>& points) {
+void draw(Bench& bench, const std::vector<std::string>& integrators, const std::vector<StudyTrial>& points) {
   Plot plot{.id = "work_precision",
             .title = "Error against run time at the edges",
             .x_label = "CPU time for one second of experiment (s)",
@@ -202,7 +202,7 @@ void draw(Bench& bench, const std::vector<std::string>& integrators, const std::
   const auto draw_all = [&](std::size_t in, const std::string& name, bool paper, const auto& wanted) {
     Series there{.name = name, .mark = paper ? Mark::points : Mark::both, .paper = paper, .panel = in};
     Series failed{.name = name + ", failed", .mark = Mark::crosses, .panel = in};
-    for (const Tried& point : points)
+    for (const StudyTrial& point : points)
       if (panel.at(point.study) == in && wanted(point))
         (point.failure.empty() ? there : failed).add(point.cost, point.error);
     plot.series.push_back(std::move(there));
@@ -210,8 +210,10 @@ void draw(Bench& bench, const std::vector<std::string>& integrators, const std::
   };
   for (std::size_t in = 0; in < plot.panels.size(); ++in) {
     for (const std::string& integrator : integrators)
-      draw_all(in, integrator, false, [&](const Tried& point) { return point.at.integrator == integrator; });
-    draw_all(in, "as shipped", true, [&](const Tried& point) { return is_default(point, bench.context); });
+      draw_all(in, integrator, false,
+               [&](const StudyTrial& point) { return point.at.integrator == integrator; });
+    draw_all(in, "as shipped", true,
+             [&](const StudyTrial& point) { return is_default(point, bench.context); });
   }
   bench.plot(std::move(plot));
 }
@@ -225,7 +227,7 @@ bool holds(const Number& n) {
 }
 
 // The numbers that have bounds, except those bounded by zero.
-std::string measured(const Found& found) {
+std::string measured(const CaseResult& found) {
   std::string text;
   for (const Number& n : found.numbers) {
     const bool none = n.bounds.low == 0.0 && n.bounds.high == 0.0;
@@ -238,7 +240,7 @@ std::string measured(const Found& found) {
 }
 
 // "holds", or each number that misses its bounds; STATED for a criterion that cannot be met.
-std::string verdict_of(const Found& found) {
+std::string verdict_of(const CaseResult& found) {
   std::string missed, stated;
   const auto add = [](std::string& text, const std::string& more) {
     text += (text.empty() ? "" : ", ") + more;
@@ -256,7 +258,7 @@ std::string verdict_of(const Found& found) {
 }
 
 // Each study's converged run.
-std::map<const Study*, Outcome> converged_runs(Bench& bench, const Stepped& fine) {
+std::map<const Study*, Outcome> converged_runs(Bench& bench, const StepSetting& fine) {
   std::vector<const Study*> each;
   for (const Study& study : studies()) each.push_back(&study);
   const std::vector<Outcome> references =
@@ -267,7 +269,7 @@ std::map<const Study*, Outcome> converged_runs(Bench& bench, const Stepped& fine
 }
 
 // The figures of a point that is the default.
-void judge_default(Bench& bench, const Tried& p) {
+void judge_default(Bench& bench, const StudyTrial& p) {
   const std::string id = fmt::format("work_precision.{}.", p.study->id);
   const std::string note = fmt::format("default: {} at {:g} us", p.at.integrator, p.at.step * 1e6);
   bench.figure(id + "failed.value", p.failure.empty() ? 0.0 : 1.0, "", exactly(p.study->refused ? 1.0 : 0.0),
@@ -282,7 +284,7 @@ void add_error_over_time(Bench& bench) {
       full ? std::vector<std::string>{"rk4", "implicitfast", "euler", "discrete"}
            : std::vector<std::string>{"rk4", "implicitfast"};
   const int halved = full ? 5 : 3;
-  std::vector<Tried> points;
+  std::vector<StudyTrial> points;
   for (const Study& study : studies())
     for (const std::string& integrator : integrators)
       for (int i = 0; i < halved; ++i) points.push_back({&study, {integrator, std::ldexp(1e-3, -i)}});
@@ -293,7 +295,7 @@ void add_error_over_time(Bench& bench) {
   Table table{"work_precision",
               "Error against run time at the edges",
               {"case", "integrator", "time step (us)", "error (%)", "CPU s per s", "failure"}};
-  for (const Tried& p : points) {
+  for (const StudyTrial& p : points) {
     table.add(p.study->id, p.at.integrator, fmt::format("{:g}", p.at.step * 1e6),
               p.failure.empty() ? fmt::format("{:.3g}", p.error) : "", fmt::format("{:.3g}", p.cost),
               p.failure);
@@ -317,7 +319,7 @@ void run(Bench& bench) {
   add_places(cases, quick);
   add_refusals(cases, quick);
   add_soaks(cases, quick, bench.context.full);
-  std::vector<Found> all = bench.each(cases, [&](const Case& one) { return one.run(bench.context); });
+  std::vector<CaseResult> all = bench.each(cases, [&](const Case& one) { return one.run(bench.context); });
   if (!quick) add_long(bench, cases, all);
   Table table{"cases", "Extreme cases", {"case", "what is done", "criterion", "verdict"}};
   double missed = 0.0, stated = 0.0;
@@ -356,7 +358,7 @@ Run judged(const models::Setup& setup, trial::TrialOptions options,
   return run;
 }
 
-void add_soundness(const Run& run, Found& found) {
+void add_soundness(const Run& run, CaseResult& found) {
   found.numbers.push_back(
       {"broken.value", static_cast<double>(run.judge.broken()), "", exactly(0.0),
        run.judge.first().empty() ? "ticks that the judge objects to" : run.judge.first()});

@@ -17,10 +17,10 @@ namespace {
 
 // Repeats at each poll the last sample of the device, whatever happened to it.
 template <class Role, class Sample>
-class Clean : public Role {
+class CleanDevice : public Role {
  public:
-  explicit Clean(std::unique_ptr<Role> device) : device_(std::move(device)) {}
-  bool poll(Time now, Stamped<Sample>& newest) noexcept override {
+  explicit CleanDevice(std::unique_ptr<Role> device) : device_(std::move(device)) {}
+  bool poll(Time now, Measurement<Sample>& newest) noexcept override {
     device_->poll(now, newest_);
     newest = newest_;
     return true;
@@ -30,12 +30,12 @@ class Clean : public Role {
   std::unique_ptr<Role> device_;
 
  private:
-  Stamped<Sample> newest_;
+  Measurement<Sample> newest_;
 };
-using CleanTracker = Clean<PoseTracker, TrackedTool>;
-class CleanDisplay final : public Clean<Display, DentSample> {
+using CleanTracker = CleanDevice<PoseTracker, TrackedTool>;
+class CleanDisplay final : public CleanDevice<Display, DentSample> {
  public:
-  using Clean::Clean;
+  using CleanDevice::CleanDevice;
   void show(const View& view) noexcept override { device_->show(view); }
 };
 
@@ -62,16 +62,16 @@ class Recovery {
   bool was_spoiled_ = false;
 };
 
-Found spoiled(const BenchContext& context, bool arm, bool quick) {
+CaseResult spoiled(const BenchContext& context, bool arm, bool quick) {
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "tennis_ball",
                  {"user.press_s=2", "user.hold_s=4", "user.depth_mm=4", "user.approach_mm_s=[50]",
                   "user.approach_from_mm=40", "user.repeats=9"});
-  Found found{fmt::format("{}.toml, NaN, Inf, -Inf, 1e12 in each input", arm ? "wall" : "tennis_ball"),
-              "command as the judge wants it; no hold on the next good tick",
-              {}};
+  CaseResult found{fmt::format("{}.toml, NaN, Inf, -Inf, 1e12 in each input", arm ? "wall" : "tennis_ball"),
+                   "command as the judge wants it; no hold on the next good tick",
+                   {}};
   Inputs none;
-  Spoil count;
+  InputSpoiler count;
   fields(count, none);
   constexpr std::int64_t kFrom = 1500;  // ticks: it follows, or is in contact
   const std::int64_t number = 4 * count.seen / (quick ? 4 : 1);
@@ -89,7 +89,7 @@ Found spoiled(const BenchContext& context, bool arm, bool quick) {
     now = tick++ >= next && fresh && done < number;
     if (!now) return;
     next = tick + kEvery;
-    Spoil one{static_cast<int>(quick ? done : done / 4), static_cast<Junk>(done % 4)};
+    InputSpoiler one{static_cast<int>(quick ? done : done / 4), static_cast<Junk>(done % 4)};
     fields(one, in);
     ++done;
   };
@@ -119,12 +119,12 @@ models::Setup approach(const BenchContext& context, bool arm, const std::vector<
 }
 
 // The tool is approaching: it is seen for the last time at 1.5 s.
-Found dropout(const BenchContext& context, bool arm, double length) {
+CaseResult dropout(const BenchContext& context, bool arm, double length) {
   constexpr double kAt = 1.5, kExtrapolated = 0.1, kStops = 0.2;  // s
   const models::Setup setup = approach(context, arm,
                                        {fmt::format("truth.tracker.blackout_at_s={:g}", kAt),
                                         fmt::format("truth.tracker.blackout_for_s={:g}", length)});
-  Found found{
+  CaseResult found{
       fmt::format("{}.toml, tool unseen for {:g} ms at 40 mm/s", arm ? "wall" : "tennis_ball", 1e3 * length),
       "within 1.5 mm for 100 ms, then at rest within 200 ms; back at once",
       {}};
@@ -181,12 +181,12 @@ Link link_of(const BenchContext& context, const Network::Faults& faults) {
   return link;
 }
 
-Found network(const BenchContext& context, const char* what, const Network::Faults& faults) {
+CaseResult network(const BenchContext& context, const char* what, const Network::Faults& faults) {
   const Link clean = link_of(context, {}), bad = link_of(context, faults);
   const bool twice = faults.twice > 0.0;
-  Found found{fmt::format("tennis_ball.toml, {}", what),
-              twice ? "the same bits as without" : "rms of the believed place at most 0.13 mm",
-              {}};
+  CaseResult found{fmt::format("tennis_ball.toml, {}", what),
+                   twice ? "the same bits as without" : "rms of the believed place at most 0.13 mm",
+                   {}};
   found.numbers = {
       {"rms.value", bad.rms * kMmPerM, "mm", at_most(0.13),
        "of the believed place along its worst axis, registered without error"},
@@ -201,9 +201,9 @@ Found network(const BenchContext& context, const char* what, const Network::Faul
 }
 
 // Ticks that pass without the loop, every 0.7 s: the simulated world continues.
-class Stalling final : public Clock {
+class StallClock final : public Clock {
  public:
-  Stalling(std::unique_ptr<Clock> clock, std::int64_t cycles) : clock_(std::move(clock)), cycles_(cycles) {}
+  StallClock(std::unique_ptr<Clock> clock, std::int64_t cycles) : clock_(std::move(clock)), cycles_(cycles) {}
   Tick next() override {
     constexpr std::int64_t kBetween = 700;
     missed_ = ++calls_ % kBetween == 0 ? cycles_ : 0;
@@ -217,14 +217,15 @@ class Stalling final : public Clock {
   std::int64_t cycles_, calls_ = 0, missed_ = 0;
 };
 
-Found stall(const BenchContext& context, bool arm, std::int64_t cycles) {
-  Found found{fmt::format("{}.toml, {} cycles missed, again and again", arm ? "wall" : "tennis_ball", cycles),
-              "a hold on each, none a tick later, no wind-up",
-              {}};
+CaseResult stall(const BenchContext& context, bool arm, std::int64_t cycles) {
+  CaseResult found{
+      fmt::format("{}.toml, {} cycles missed, again and again", arm ? "wall" : "tennis_ball", cycles),
+      "a hold on each, none a tick later, no wind-up",
+      {}};
   std::int64_t stalls = 0, held = 0, late = 0;
   bool before = false;
   trial::TrialOptions options{.seed = context.seed, .seconds = 8.0};
-  options.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<Stalling>(std::move(rig.clock), cycles); };
+  options.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<StallClock>(std::move(rig.clock), cycles); };
   const Run run = judged(approach(context, arm), options, [&](const trial::Glance& g) {
     const bool now = g.in.missed > 0, holds = g.out.mode == Mode::hold;
     stalls += now ? 1 : 0;
@@ -279,7 +280,7 @@ void Storm::begin() {
   constexpr int kKinds = 10;
   kind_ = static_cast<int>(random_() % kKinds);
   Inputs none;
-  Spoil count;
+  InputSpoiler count;
   fields(count, none);
   field_ = static_cast<int>(random_() % static_cast<std::uint64_t>(count.seen));
   junk_ = static_cast<Junk>(random_() % 4);
@@ -291,7 +292,7 @@ void Storm::begin() {
 }
 
 void Storm::spoil(Inputs& in) {
-  Spoil one{field_, junk_};
+  InputSpoiler one{field_, junk_};
   switch (kind_) {
     case 1:  // the tool has no news
       if (!std::exchange(freezes_, true)) frozen_ = in.tool;

@@ -22,7 +22,7 @@ inline constexpr auto kJunk = {Junk::nan, Junk::infinite, Junk::negative_infinit
 
 // A visitor of fields(): counts the numbers and puts junk in the `wanted`-th (-1: in no number). Hold and
 // resume signals are no device samples.
-struct Spoil {
+struct InputSpoiler {
   int wanted = -1;
   Junk junk = Junk::nan;
   int seen = 0;
@@ -70,7 +70,7 @@ class Network {
  private:
   struct Packet {
     Time due{};
-    Stamped<TrackedTool> sample;
+    Measurement<TrackedTool> sample;
   };
   [[nodiscard]] double share() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
 
@@ -78,7 +78,7 @@ class Network {
   std::mt19937_64 random_;
   Time newest_{-Duration(1)};
   std::deque<Packet> under_way_;
-  Stamped<TrackedTool> shown_;  // that came last
+  Measurement<TrackedTool> shown_;  // that came last
 };
 
 // All faults at random, one a second, until `quiet_from`.
@@ -102,7 +102,7 @@ class Storm {
   int kind_ = 0, field_ = 0;
   Junk junk_ = Junk::nan;
   Vec3 shift_{0, 0, 0};
-  Stamped<TrackedTool> frozen_;
+  Measurement<TrackedTool> frozen_;
   bool freezes_ = false;
 };
 

@@ -11,7 +11,7 @@ namespace enc::bench::extremes {
 namespace {
 
 // A visitor: an infinite number is always wrong; NaN means unset.
-struct Infinite {
+struct InfinityCheck {
   std::string_view where;
   template <class T>
   void operator()(std::string_view name, T& x) {
@@ -65,7 +65,7 @@ void Judge::judge_time(const trial::Glance& glance) {
 
 void Judge::judge_numbers(const trial::Glance& glance) {
   Outputs out = glance.out;
-  Infinite infinite;
+  InfinityCheck infinite;
   fields(infinite, out);
   if (!infinite.where.empty()) wrong(glance, fmt::format("'{}' is infinite", infinite.where));
   const sim::Truth& truth = glance.truth;

@@ -16,12 +16,12 @@ namespace enc::bench::extremes {
 namespace {
 
 // The answer of a whole trial of a second to a set-up: refusal, divergence, or success.
-struct Said {
+struct TrialAnswer {
   std::string refusal;
   bool sound = true;  // if not refused: all finite and no warning
 };
-Said said(const BenchContext& context, const std::string& scene, const std::vector<std::string>& set,
-          const std::function<void(models::Setup&)>& change = {}) {
+TrialAnswer said(const BenchContext& context, const std::string& scene, const std::vector<std::string>& set,
+                 const std::function<void(models::Setup&)>& change = {}) {
   try {
     models::Setup setup = load_scene(context, scene, set);
     if (change) change(setup);
@@ -34,7 +34,7 @@ Said said(const BenchContext& context, const std::string& scene, const std::vect
 }
 
 // The refusal is one line that names the parameter.
-bool names(const Said& said, const std::string& parameter) {
+bool names(const TrialAnswer& said, const std::string& parameter) {
   return said.refusal.find(parameter) != std::string::npos && said.refusal.find('\n') == std::string::npos;
 }
 
@@ -44,8 +44,9 @@ double refused_in(const BenchContext& context, const std::string& scene, const s
   return names(said(context, scene, {set}), parameter) ? 1.0 : 0.0;
 }
 
-Found masses(const BenchContext& context) {
-  Found found{"tools of 1e-9, 1e-20, 0, -1, NaN kg and of 1 mg, 1 g", "refused, and named, or it runs", {}};
+CaseResult masses(const BenchContext& context) {
+  CaseResult found{
+      "tools of 1e-9, 1e-20, 0, -1, NaN kg and of 1 mg, 1 g", "refused, and named, or it runs", {}};
   constexpr std::array kMasses{"1e-9", "1e-20", "0", "-1", "nan", "1e-6", "1e-3"};
   double refused = 0.0, sound = 0.0;
   for (const char* mass : kMasses) {
@@ -53,8 +54,8 @@ Found masses(const BenchContext& context) {
     refused += refused_in(context, "tennis_ball", fmt::format("tool.stylus.mass_kg={}", mass), "stylus");
   }
   for (const char* mass : {"0.0022", "1", "100"}) {
-    const Said arm = said(context, "wall", {fmt::format("tool.finger.mass_kg={}", mass)});
-    const Said machine = said(context, "tennis_ball", {fmt::format("tool.stylus.mass_kg={}", mass)});
+    const TrialAnswer arm = said(context, "wall", {fmt::format("tool.finger.mass_kg={}", mass)});
+    const TrialAnswer machine = said(context, "tennis_ball", {fmt::format("tool.stylus.mass_kg={}", mass)});
     sound += (arm.refusal.empty() && arm.sound ? 1.0 : 0.0) +
              (machine.refusal.empty() && machine.sound ? 1.0 : 0.0);
   }
@@ -65,8 +66,8 @@ Found masses(const BenchContext& context) {
   return found;
 }
 
-Found steps(const BenchContext& context) {
-  Found found{
+CaseResult steps(const BenchContext& context) {
+  CaseResult found{
       "steps of 5.001 ms to 1e6 s, 0, NaN; loops of 0 to 1e6 Hz", "refused, and named; 5 ms runs sound", {}};
   constexpr std::array kSteps{"5001", "20000", "1e6", "1e12", "0", "-1", "nan"};
   constexpr std::array kRates{"0", "1", "199", "1e6", "nan"};
@@ -81,7 +82,7 @@ Found steps(const BenchContext& context) {
   double sound = 0.0;
   for (const auto& [scene, table] : {std::pair{"wall", "arm"}, {"tennis_ball", "world"}}) {
     std::vector<std::string> set{"rig.loop.rate_hz=200", fmt::format("truth.{}.timestep_us=5000", table)};
-    const Said run = said(context, scene, set);
+    const TrialAnswer run = said(context, scene, set);
     sound += !run.refusal.empty() || run.sound ? 1.0 : 0.0;
     if (!run.refusal.empty())
       found.words += fmt::format("{}{} is refused at 200 Hz", found.words.empty() ? "" : "; ", scene);
@@ -94,8 +95,8 @@ Found steps(const BenchContext& context) {
 }
 
 // Objects out of the machine's reach or at a singular pose of the arm; and a scene without objects.
-Found unreachable(const BenchContext& context) {
-  Found found{"objects out of reach, beside a singular pose; none at all", "refused, and named", {}};
+CaseResult unreachable(const BenchContext& context) {
+  CaseResult found{"objects out of reach, beside a singular pose; none at all", "refused, and named", {}};
   double refused = 0.0;
   constexpr std::array kFar{"[0,0,400]", "[0,0,-300]", "[0,0,1e9]"};
   for (const char* place : kFar) {
@@ -105,7 +106,7 @@ Found unreachable(const BenchContext& context) {
   const auto clear = [](models::Setup& setup) { setup.scene.objects.clear(); };
   double empty = 0.0;
   for (const char* scene : {"wall", "tennis_ball"}) {
-    const Said run = said(context, scene, {}, clear);
+    const TrialAnswer run = said(context, scene, {}, clear);
     empty += !run.refusal.empty() || run.sound ? 1.0 : 0.0;
   }
   found.numbers = {{"refused.percent", 100.0 * refused / (2.0 * kFar.size()), "%", exactly(100.0),
@@ -149,18 +150,19 @@ std::int64_t not_finite(const Mesh& mesh) {
     for (std::size_t k = 4; k < i; ++k) points.emplace_back(0.5 * (points[i] + points[k]));
   std::int64_t wrong = 0;
   for (const Vec3& p : points) {
-    const Nearest near = surface.nearest(Point<'O'>(p));
+    const SurfacePoint near = surface.nearest(Point<'O'>(p));
     const bool unit = near.normal.finite() && std::abs(near.normal.norm() - 1.0) < 1e-9;
     wrong += near.point.finite() && unit && std::isfinite(near.distance) ? 0 : 1;
   }
   // Beyond 1e9 m there is no answer, and the search reports that.
-  const Nearest none = surface.nearest(Point<'O'>(1e12, -1e12, 1e12));
+  const SurfacePoint none = surface.nearest(Point<'O'>(1e12, -1e12, 1e12));
   wrong += none.feature == -1 && !none.point.finite() ? 0 : 1;
   return wrong;
 }
 
-Found meshes(const BenchContext&) {
-  Found found{"11 degenerate meshes", "a list of the bad faces, or repaired with a note; nearest finite", {}};
+CaseResult meshes(const BenchContext&) {
+  CaseResult found{
+      "11 degenerate meshes", "a list of the bad faces, or repaired with a note; nearest finite", {}};
   double answered = 0.0, wrong = 0.0, taken = 0.0;
   for (const BadMesh& bad : kMeshes) {
     const std::string path = "bad.obj", text = std::string(kCorners) + bad.text;

@@ -35,13 +35,13 @@ struct Nominal {
 };
 
 // A run with faults, and its errors after them.
-struct Stormed {
+struct StormResult {
   Run run;
   Nominal after;
 };
 
-Stormed stormed(const models::Setup& setup, trial::TrialOptions options, Storm& faults, double after) {
-  Stormed found;
+StormResult stormed(const models::Setup& setup, trial::TrialOptions options, Storm& faults, double after) {
+  StormResult found;
   Time now{};
   options.disturb = [&](Inputs& in) {
     faults(now, in);
@@ -53,12 +53,12 @@ Stormed stormed(const models::Setup& setup, trial::TrialOptions options, Storm& 
   return found;
 }
 
-Found storm(const BenchContext& context, bool arm, double length) {
+CaseResult storm(const BenchContext& context, bool arm, double length) {
   constexpr double kQuiet = 6.0, kRecovers = 1.0;  // s
   const models::Setup setup = endless(context, arm, length + kQuiet);
-  Found found{fmt::format("{}.toml, a fault a second for {:g} s", arm ? "keypad" : "session", length),
-              "sound on every tick; error as without faults 1 s after the last",
-              {}};
+  CaseResult found{fmt::format("{}.toml, a fault a second for {:g} s", arm ? "keypad" : "session", length),
+                   "sound on every tick; error as without faults 1 s after the last",
+                   {}};
   Storm faults(context.seed + (arm ? 1 : 0), 1.0, length);
   const Storm kept = faults;
   const trial::TrialOptions options{.seed = context.seed, .seconds = length + kQuiet, .fit_out = keep_clean};
@@ -68,7 +68,7 @@ Found storm(const BenchContext& context, bool arm, double length) {
   });
   const auto [run, after] = stormed(setup, options, faults, length + kRecovers);
   faults = Storm(kept);
-  const Stormed again = stormed(setup, options, faults, length + kRecovers);
+  const StormResult again = stormed(setup, options, faults, length + kRecovers);
   found.numbers = {
       {"faults.value", static_cast<double>(faults.faults()), "", at_least(length - 1.0)},
       {"belief.ratio", after.belief / whole.belief, "x", at_most(1.2),
@@ -96,10 +96,10 @@ double resident() {
 }
 
 // Presses for hours without faults: checks for growth, and that the end is like the beginning.
-Found hours(const BenchContext& context, bool arm, double length) {
-  Found found{fmt::format("{}.toml for {:g} s", arm ? "keypad" : "session", length),
-              "memory + less than 1 MiB from a tenth on; time exact to the nanosecond; work as before",
-              {}};
+CaseResult hours(const BenchContext& context, bool arm, double length) {
+  CaseResult found{fmt::format("{}.toml for {:g} s", arm ? "keypad" : "session", length),
+                   "memory + less than 1 MiB from a tenth on; time exact to the nanosecond; work as before",
+                   {}};
   const models::Setup setup = endless(context, arm, length);
   Judge judge;
   double before = kUnset, most = 0.0, drift = 0.0;
@@ -138,7 +138,7 @@ Found hours(const BenchContext& context, bool arm, double length) {
 
 }  // namespace
 
-void add_long(Bench& bench, Cases& cases, std::vector<Found>& found) {
+void add_long(Bench& bench, Cases& cases, std::vector<CaseResult>& found) {
   const double length = bench.context.full ? 36000.0 : 600.0;
   for (const bool arm : {true, false}) {
     cases.push_back({arm ? "arm.hours" : "hexapod.hours", {}});

@@ -38,11 +38,12 @@ struct Outline {
 
 // The part of the hand near a pixel at the rim. Only the finger comes within two diameters of the tip. So
 // skin nearer or farther than cap and finger, however large they are drawn, is another part.
-enum class Seen : std::uint8_t { cap, behind, before };
+enum class RimPart : std::uint8_t { cap, behind, before };
 
-Seen seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTruth& truth, const Pixel& at) {
+RimPart seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTruth& truth,
+             const Pixel& at) {
   const auto x = static_cast<int>(std::lround(at.column)), y = static_cast<int>(std::lround(at.row));
-  if (!truth.skin.whole().contains(x, y) || !truth.skin.at(x, y)) return Seen::behind;
+  if (!truth.skin.whole().contains(x, y) || !truth.skin.at(x, y)) return RimPart::behind;
   const double z = static_cast<double>(
       truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.skin.width) +
                   static_cast<std::size_t>(x)]);
@@ -50,8 +51,8 @@ Seen seen(const Tangent& tangent, const staged::Shot& shot, const sim::PixelTrut
   const double beyond =  // m, beyond the cap's middle
       z * tangent.ray({static_cast<double>(x), static_cast<double>(y)}).dot(tangent.view()) -
       shot.pose.tip.e().norm();
-  if (beyond < -2.0 * radius) return Seen::before;
-  return beyond > 0.5 * radius ? Seen::behind : Seen::cap;
+  if (beyond < -2.0 * radius) return RimPart::before;
+  return beyond > 0.5 * radius ? RimPart::behind : RimPart::cap;
 }
 
 // Seen straight on, the outline is a circle within 60 degrees of the pointing direction: rays go from its
@@ -70,10 +71,10 @@ Outline outline(const RectifiedPair& pair, const staged::Shot& shot, const sim::
   for (int i = -kRays; i <= kRays; ++i) {
     const double angle = ahead + std::numbers::pi / 90.0 * i;
     double far = 0.5 * round;  // farther inside the image of a finger that points away is before its cap
-    Seen what = Seen::cap;
-    for (; what == Seen::cap && far < 2.0 * round; far += kStep)
+    RimPart what = RimPart::cap;
+    for (; what == RimPart::cap && far < 2.0 * round; far += kStep)
       what = seen(tangent, shot, truth, tangent.image({far * std::cos(angle), far * std::sin(angle)}));
-    if (what == Seen::before) continue;
+    if (what == RimPart::before) continue;
     sum += far - 1.5 * kStep;  // between the last step on it and the first beyond
     ++rays;
   }
@@ -169,7 +170,7 @@ constexpr std::array<double, 3> kScales{1.0, 0.75, 1.25};
 constexpr std::size_t kEnough = 1000;  // frames, for a share of 1 % and for the law of depth in six bins
 constexpr std::array<double, 7> kDepths{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};  // m, edges of the bins
 
-struct Found {
+struct TipMeasurement {
   double depth = 0.0, width = 0.0;  // m
   double across = kUnset;           // px, of the cap as drawn, its half width less K / z
   double area = kUnset;             // px, minus K / z: radius of the circle of its outline's area
@@ -179,7 +180,7 @@ struct Found {
   double z = kUnset, place = kUnset;               // m, error in depth and in all
 };
 struct Cell {
-  std::vector<Found> shots;
+  std::vector<TipMeasurement> shots;
   std::size_t empty = 0, mistaken = 0;  // frames of the background alone; background frames with a false tip
   StepCounts steps;
   std::vector<Image> picture;  // first shot: the frame and its skin mask
@@ -201,7 +202,7 @@ FingerTracker tracker(const StereoRig& rig, const SkinModel& skin, double width,
   return {rig, segmentation, tip, TrackSpec{}};
 }
 
-struct Asked {
+struct FingerSetup {
   const sim::CameraModule* camera;
   StereoRig rig;
   SkinModel skin;
@@ -210,9 +211,9 @@ struct Asked {
   std::uint64_t seed;
 };
 
-Found look(std::vector<FingerTracker>& trackers, const Asked& asked, const Shot& shot, const Pair& pair,
-           Time t) {
-  Found found{.depth = shot.pose.tip.xyz[2], .width = shot.look.finger_width};
+TipMeasurement look(std::vector<FingerTracker>& trackers, const FingerSetup& asked, const Shot& shot,
+                    const Pair& pair, Time t) {
+  TipMeasurement found{.depth = shot.pose.tip.xyz[2], .width = shot.look.finger_width};
   const double focal = asked.rig.left.focal_x;
   const Outline cap = outline(trackers.front().pair(), shot, pair.truth);
   const double radius = focal * 0.5 * found.width / found.depth;  // px, K / z
@@ -235,7 +236,7 @@ Found look(std::vector<FingerTracker>& trackers, const Asked& asked, const Shot&
 }
 
 // One background, with many hands before it.
-Cell look_at(const Asked& asked) {
+Cell look_at(const FingerSetup& asked) {
   sim::StageSpec spec;
   spec.camera = asked.rig;
   spec.seed = asked.seed;
@@ -274,14 +275,14 @@ Cell look_at(const Asked& asked) {
   return cell;
 }
 
-std::vector<Found> all_of(const std::vector<Cell>& cells) {
-  std::vector<Found> all;
+std::vector<TipMeasurement> all_of(const std::vector<Cell>& cells) {
+  std::vector<TipMeasurement> all;
   for (const Cell& cell : cells) all.insert(all.end(), cell.shots.begin(), cell.shots.end());
   return all;
 }
-std::vector<double> offs(const std::vector<Found>& shots, std::size_t scale) {
+std::vector<double> offs(const std::vector<TipMeasurement>& shots, std::size_t scale) {
   std::vector<double> values;
-  for (const Found& f : shots)
+  for (const TipMeasurement& f : shots)
     if (!std::isnan(f.off[scale])) values.push_back(f.off[scale]);
   return values;
 }
@@ -289,7 +290,8 @@ double percent(std::size_t of, std::size_t all) {
   return 100.0 * static_cast<double>(of) / static_cast<double>(all);
 }
 
-void judge_tips(Bench& bench, const std::vector<Found>& shots, const std::string& id, double most_median) {
+void judge_tips(Bench& bench, const std::vector<TipMeasurement>& shots, const std::string& id,
+                double most_median) {
   const std::vector<double> off = offs(shots, 0);
   bench.figure(id + ".found.percent", percent(off.size(), shots.size()), "%",
                shots.size() < kEnough ? Bounds{} : at_least(99.0),
@@ -316,20 +318,20 @@ double greatest(const std::vector<double>& values) {
   return most;
 }
 
-void judge_outline(Bench& bench, const std::vector<Found>& shots) {
-  const std::vector<double> across = known(shots, &Found::across);
+void judge_outline(Bench& bench, const std::vector<TipMeasurement>& shots) {
+  const std::vector<double> across = known(shots, &TipMeasurement::across);
   bench.figure("outline.frames.percent", percent(across.size(), shots.size()), "%", at_least(90.0),
                "frames in which nothing hides the rim of the cap's far end, or half of it");
   bench.figure("outline.off.max", greatest(across), "px", at_most(0.5),
                "in these, half the cap's width as drawn against r = K / z: the outline's smaller half axis");
-  bench.figure("outline.area_off.max", greatest(known(shots, &Found::area)), "px",
+  bench.figure("outline.area_off.max", greatest(known(shots, &TipMeasurement::area)), "px",
                "likewise, radius of the circle of the outline's area: far from the image's middle a sphere's "
                "outline is longer than wide");
 }
 
-void judge_gross(Bench& bench, const std::vector<Found>& shots, const std::string& id) {
+void judge_gross(Bench& bench, const std::vector<TipMeasurement>& shots, const std::string& id) {
   constexpr double kGross = 3.0;  // px
-  const std::vector<double> errors = known(shots, &Found::disparity);
+  const std::vector<double> errors = known(shots, &TipMeasurement::disparity);
   const auto gross =
       std::count_if(errors.begin(), errors.end(), [](double error) { return std::abs(error) > kGross; });
   bench.figure(id + ".gross.count", static_cast<double>(gross), "frames", exactly(0.0),
@@ -337,16 +339,16 @@ void judge_gross(Bench& bench, const std::vector<Found>& shots, const std::strin
 }
 
 // Z^2 sigma / (f B), with the measured sigma of the disparity.
-void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& shots) {
+void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<TipMeasurement>& shots) {
   const double fb = rig.left.focal_x * rig.X_CD.p().x();
-  const double sigma = rms(known(shots, &Found::disparity));
+  const double sigma = rms(known(shots, &TipMeasurement::disparity));
   bench.figure("disparity.error.rms", sigma, "px", "of the cap's middle");
   judge_gross(bench, shots, "disparity");
   Series seen{.name = "twin", .mark = Mark::both}, law{.name = "Z2 sigma / (f B)"};
   double worst = 0.0, at_600 = kUnset;
   for (std::size_t i = 0; i + 1 < kDepths.size(); ++i) {
     std::vector<double> errors;
-    for (const Found& f : shots)
+    for (const TipMeasurement& f : shots)
       if (f.depth >= kDepths[i] && f.depth < kDepths[i + 1] && !std::isnan(f.z)) errors.push_back(f.z);
     const double z = 0.5 * (kDepths[i] + kDepths[i + 1]), expected = z * z * sigma / fb;
     worst = std::max(worst, std::abs(rms(errors) / expected - 1.0));
@@ -354,7 +356,7 @@ void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& s
     law.add(z * kMmPerM, expected * kMmPerM);
   }
   std::vector<double> near_600;
-  for (const Found& f : shots)
+  for (const TipMeasurement& f : shots)
     if (std::abs(f.depth - 0.6) < 0.05 && !std::isnan(f.place)) near_600.push_back(f.place);
   at_600 = rms(near_600);
   bench.figure("depth.off_law.max", 100.0 * worst, "%", shots.size() < kEnough ? Bounds{} : at_most(30.0),
@@ -384,8 +386,8 @@ void tell_steps(Bench& bench, const std::vector<Cell>& cells) {
 }
 
 // A number of backgrounds, each with hands of its own finger width.
-std::vector<Asked> all_widths(const Asked& like, std::size_t stages) {
-  std::vector<Asked> all(stages, like);
+std::vector<FingerSetup> all_widths(const FingerSetup& like, std::size_t stages) {
+  std::vector<FingerSetup> all(stages, like);
   for (std::size_t i = 0; i < stages; ++i) {
     all[i].width = finger_width(i, stages);
     all[i].seed += i;
@@ -556,9 +558,9 @@ void run(Bench& bench) {
   for (const int width : {640, 320}) {
     const StereoRig rig = head(width);
     const SkinModel skin = learned_skin(module, width);
-    Asked like{&module, rig, skin, kUnset, shots, test_seed(bench.context)};
+    FingerSetup like{&module, rig, skin, kUnset, shots, test_seed(bench.context)};
     const auto cells = bench.each(all_widths(like, stages), look_at);
-    const std::vector<Found> found = all_of(cells);
+    const std::vector<TipMeasurement> found = all_of(cells);
     judge_tips(bench, found, fmt::format("tip.{}", width), width == 640 ? 1.0 : 2.0);
     if (width != 640) continue;
     judge_empty(bench, cells);
@@ -575,7 +577,7 @@ void run(Bench& bench) {
     race(bench, module, skin);
     if (!bench.context.quick) {
       like.seed = kNeverSeen + 500;
-      const std::vector<Found> fresh = all_of(bench.each(all_widths(like, stages / 2), look_at));
+      const std::vector<TipMeasurement> fresh = all_of(bench.each(all_widths(like, stages / 2), look_at));
       judge_tips(bench, fresh, "never_seen", 1.0);
       judge_gross(bench, fresh, "never_seen");
     }

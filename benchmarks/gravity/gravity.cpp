@@ -51,20 +51,20 @@ constexpr std::array<double PhantomGeometry::*, 4> kMasses{&PhantomGeometry::m_a
                                                            &PhantomGeometry::m_be, &PhantomGeometry::m_df};
 
 // Every mass times 1 + off, except those with a bit in `minus`: bit i makes the i-th lighter instead.
-Laden heavier(const Laden& laden, double off, unsigned minus = 0) {
+LoadedArm heavier(const LoadedArm& laden, double off, unsigned minus = 0) {
   ArmMachine machine = laden.arm.machine();
   for (std::size_t i = 0; i < kMasses.size(); ++i)
     machine.phantom.*kMasses[i] *= 1.0 + ((minus >> i & 1U) != 0 ? -off : off);
   for (ChainLink& link : machine.links) link.mass *= 1.0 + off;
   return {Arm(machine), laden.payload};
 }
-Laden with(const Laden& laden, double payload) { return {laden.arm, payload}; }
+LoadedArm with(const LoadedArm& laden, double payload) { return {laden.arm, payload}; }
 
 // Force with which the tip pushes (or must be held) at a pose when the device applies the force that the core
 // computes [eq. 4, 5]: J_real^-T (J_believed^T F_gc - gravity_real). Joints are read in the encoders' steps.
 // N.
-Vec3 residual(const Laden& believed, Compensation form, const Laden& real, const PerJoint& encoder_step,
-              const PerJoint& q) {
+Vec3 residual(const LoadedArm& believed, Compensation form, const LoadedArm& real,
+              const PerJoint& encoder_step, const PerJoint& q) {
   const PerJoint weight = real.arm.gravity(q, real.payload, Payload::exact);
   PerJoint left{};
   for (std::size_t i = 0; i < kMostJoints; ++i) left[i] = -weight[i];
@@ -81,8 +81,8 @@ Vec3 residual(const Laden& believed, Compensation form, const Laden& real, const
   return real.arm.force(real.arm.jacobian(q), left).e();
 }
 
-Spread residuals(const Laden& believed, Compensation form, const Laden& real, const PerJoint& encoder_step,
-                 const ArmBox& box) {
+Spread residuals(const LoadedArm& believed, Compensation form, const LoadedArm& real,
+                 const PerJoint& encoder_step, const ArmBox& box) {
   Spread spread;
   for (const PerJoint& q : box.poses)
     spread.force.push_back(residual(believed, form, real, encoder_step, q).norm());
@@ -377,7 +377,7 @@ GravityRig gravity_rig(const BenchContext& context) {
 void add_statics(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
   const int n = context.quick ? 7 : 15;
   const ArmBox box = place_box(rig.real.arm, n);
-  const auto left = [&](const Laden& believed, Compensation form, const Laden& real) {
+  const auto left = [&](const LoadedArm& believed, Compensation form, const LoadedArm& real) {
     return residuals(believed, form, real, rig.encoder_step, box);
   };
   const auto prop = [&](double mass, Compensation form) {

@@ -15,7 +15,7 @@ namespace enc::bench::gravity {
 inline constexpr double kPlate = 0.020;  // kg, a prop
 
 // A machine and its prop: the masses that gravity acts on.
-struct Laden {
+struct LoadedArm {
   Arm arm;
   double payload = 0.0;  // kg
 };
@@ -23,7 +23,7 @@ enum class Compensation : std::uint8_t { none, published, exact };
 
 // The arm of the scene, as assumed by the core and as simulated.
 struct GravityRig {
-  Laden believed, real;
+  LoadedArm believed, real;
   PerJoint encoder_step{};  // rad
   models::Setup setup;
 };

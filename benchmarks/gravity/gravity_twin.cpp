@@ -33,8 +33,8 @@ struct TwinArm {
   }
 };
 
-TwinArm twin_arm(const Laden& laden, double timestep, mjtIntegrator integrator, const PerJoint& friction = {},
-                 const PerJoint& viscous = {}) {
+TwinArm twin_arm(const LoadedArm& laden, double timestep, mjtIntegrator integrator,
+                 const PerJoint& friction = {}, const PerJoint& viscous = {}) {
   sim::install_mujoco_handlers();
   sim::SpecPtr spec(mj_makeSpec());
   spec->compiler.degree = false;  // limits are in rad
@@ -64,7 +64,7 @@ PerJoint random_pose(const Arm& arm, std::mt19937_64& random) {
 }
 
 // Largest differences of ours from the twin's: gravity, N m, and mass matrix, relative.
-std::array<double, 2> apart(const Laden& laden, TwinArm& twin, const PerJoint& q) {
+std::array<double, 2> apart(const LoadedArm& laden, TwinArm& twin, const PerJoint& q) {
   twin.set(q, {});
   const PerJoint ours = laden.arm.gravity(q, laden.payload, Payload::exact);
   const Mat3 M = twin.body.mass(twin.physics.model(), twin.physics.data());
@@ -72,7 +72,7 @@ std::array<double, 2> apart(const Laden& laden, TwinArm& twin, const PerJoint& q
           (M - laden.arm.mass(q, laden.payload)).norm() / M.norm()};
 }
 
-void add_equations(const Laden& laden, const BenchContext& context, BenchResult& result) {
+void add_equations(const LoadedArm& laden, const BenchContext& context, BenchResult& result) {
   TwinArm twin = twin_arm(laden, 0.001, mjINT_EULER);
   std::mt19937_64 random(context.seed);
   double torque = 0.0, mass = 0.0;
@@ -116,7 +116,7 @@ struct Motion {
 };
 PerJoint per_joint(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Vec3 acceleration(const Laden& laden, const Motion& s) {
+Vec3 acceleration(const LoadedArm& laden, const Motion& s) {
   constexpr double kStep = 1e-5;
   Vec3 load = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -131,7 +131,7 @@ Vec3 acceleration(const Laden& laden, const Motion& s) {
   return -laden.arm.mass(per_joint(s.q), laden.payload).inverse() * (load + Vec3(g[0], g[1], g[2]));
 }
 
-Motion runge_kutta(const Laden& laden, const Motion& s, double h) {
+Motion runge_kutta(const LoadedArm& laden, const Motion& s, double h) {
   const auto slope = [&](const Motion& at) { return Motion{at.rate, acceleration(laden, at)}; };
   const auto go = [&](const Motion& by, double way) {
     return Motion{s.q + way * by.q, s.rate + way * by.rate};
@@ -146,7 +146,7 @@ constexpr double kSample = 0.004;  // s: every time step divides it
 const Motion kStart{{-0.2, 0.35, 0.30}, {4.0, -1.5, 2.0}};
 
 // The tip's path while the joints stay within their limits, in samples.
-std::vector<Vec3> reference(const Laden& laden, int samples) {
+std::vector<Vec3> reference(const LoadedArm& laden, int samples) {
   constexpr int kSteps = 100;  // steps of 40 us in a sample
   std::vector<Vec3> path;
   Motion s = kStart;
@@ -158,15 +158,16 @@ std::vector<Vec3> reference(const Laden& laden, int samples) {
   return path;
 }
 
-struct Worked {
+struct IntegratorResult {
   double error = 0.0;  // m, worst distance from the reference's path
   double cost = 0.0;   // s of CPU time for each second of experiment
 };
-Worked swing(const Laden& laden, const std::vector<Vec3>& path, double timestep, mjtIntegrator integrator,
-             int laps, const PerJoint& friction = {}, const PerJoint& viscous = {}) {
+IntegratorResult swing(const LoadedArm& laden, const std::vector<Vec3>& path, double timestep,
+                       mjtIntegrator integrator, int laps, const PerJoint& friction = {},
+                       const PerJoint& viscous = {}) {
   TwinArm twin = twin_arm(laden, timestep, integrator, friction, viscous);
   const auto steps = static_cast<int>(std::lround(kSample / timestep));
-  Worked worked{0.0, 1e9};
+  IntegratorResult worked{0.0, 1e9};
   for (int lap = 0; lap < laps; ++lap) {
     twin.set(per_joint(kStart.q), per_joint(kStart.rate));
     double spent = 0.0;
@@ -189,7 +190,7 @@ constexpr std::array<std::pair<const char*, mjtIntegrator>, 4> kIntegrators{
      {"rk4", mjINT_RK4}}};
 
 // Error against run time of the swing, of each integrator over its time steps.
-void add_swing_curves(const Laden& laden, const std::vector<Vec3>& path, const BenchContext& context,
+void add_swing_curves(const LoadedArm& laden, const std::vector<Vec3>& path, const BenchContext& context,
                       BenchResult& result) {
   Plot plot{"gravity.swing",
             "A free swing of the arm: error against run time",
@@ -207,7 +208,7 @@ void add_swing_curves(const Laden& laden, const std::vector<Vec3>& path, const B
     Series series{name};
     series.mark = Mark::both;
     for (const double timestep : timesteps) {
-      const Worked worked = swing(laden, path, timestep, integrator, context.quick ? 2 : 5);
+      const IntegratorResult worked = swing(laden, path, timestep, integrator, context.quick ? 2 : 5);
       series.add(worked.cost, worked.error * 1e3);
       table.rows.push_back({name, fmt::format("{:g}", timestep * 1e6),
                             fmt::format("{:.3g}", worked.error * 1e3), fixed(worked.cost, 4)});
@@ -223,19 +224,20 @@ void add_swing_curves(const Laden& laden, const std::vector<Vec3>& path, const B
 }
 
 // Error and cost of the swing with the rig's own integrator and time step.
-void add_swing_as_shipped(const Laden& laden, const std::vector<Vec3>& path, const sim::ArmTruth& truth,
+void add_swing_as_shipped(const LoadedArm& laden, const std::vector<Vec3>& path, const sim::ArmTruth& truth,
                           BenchResult& result) {
   const auto* own = std::find_if(kIntegrators.begin(), kIntegrators.end(),
                                  [&](const auto& i) { return truth.integrator == i.first; });
   if (own == kIntegrators.end()) return;
-  const Worked used = swing(laden, path, truth.timestep, own->second, 5);
+  const IntegratorResult used = swing(laden, path, truth.timestep, own->second, 5);
   add_figure(result, "swing.error.max", kUnset, used.error * 1e3, "mm",
              fmt::format("of the tip, free swing, {} at {:g} us as the rig has it", truth.integrator,
                          truth.timestep * 1e6),
              kUnset, 0.05);
   add_cost(result, "swing.times_real_time", 1.0 / used.cost, "x", "the arm's bodies, without friction");
   const double before = yardstick_now();
-  const Worked rubbed = swing(laden, path, truth.timestep, own->second, 15, truth.friction, truth.viscous);
+  const IntegratorResult rubbed =
+      swing(laden, path, truth.timestep, own->second, 15, truth.friction, truth.viscous);
   const double yardstick = 0.5 * (before + yardstick_now());
   add_cost(result, "twin.times_real_time", 1.0 / rubbed.cost, "x",
            fmt::format("the same with dry and viscous friction, {} at {:g} us; CPU time of the thread",
@@ -245,7 +247,7 @@ void add_swing_as_shipped(const Laden& laden, const std::vector<Vec3>& path, con
 }
 
 void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
-  const Laden& laden = rig.real;
+  const LoadedArm& laden = rig.real;
   const std::vector<Vec3> path = reference(laden, 75);
   if (path.size() < 10) {
     result.note += "no free swing: it leaves the joint limits at once. ";
@@ -257,19 +259,19 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
 
 // Motion of the tip in ten seconds when only gravity compensation drives the motors, at 1 kHz from the
 // encoders' readings; or when nothing drives them.
-struct Still {
+struct DriftTrace {
   std::vector<double> time, way;  // s, mm
   double dexterity = 0.0;         // at the end
 };
-Still left_alone(const GravityRig& rig, double payload, Compensation form, const PerJoint& friction) {
+DriftTrace left_alone(const GravityRig& rig, double payload, Compensation form, const PerJoint& friction) {
   const sim::ArmTruth& truth = rig.setup.twin.arm;
   const Arm& believed = rig.believed.arm;
-  const Laden laden{rig.real.arm, payload};
+  const LoadedArm laden{rig.real.arm, payload};
   TwinArm twin = twin_arm(laden, 0.001, mjINT_RK4, friction, truth.viscous);
   const PerJoint start{0.1, 0.2, 0.4};
   twin.set(start, {});
   const Vec3 home = laden.arm.tip(start).e();
-  Still still;
+  DriftTrace still;
   for (int tick = 0; tick <= 10'000; ++tick) {
     PerJoint q = twin.body.joints(twin.physics.data());
     if (tick % 50 == 0) {
@@ -303,7 +305,7 @@ void add_drift(const GravityRig& rig, BenchResult& result) {
        {"fall.bare.max", "bare tip, not compensated", 0.0, none, true}}};
   Plot plot{"gravity.drift", "Left alone for ten seconds", "time, s", "way of the tip, mm", false, true};
   for (const Case& c : kCases) {
-    const Still still =
+    const DriftTrace still =
         left_alone(rig, c.payload, c.form, c.friction ? rig.setup.twin.arm.friction : PerJoint{});
     Series series{c.name, still.time, still.way};
     for (double& way : series.y) way = std::max(way, 1e-4);

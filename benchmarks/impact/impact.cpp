@@ -23,25 +23,25 @@ Law law_of(const models::Setup& setup, double stiffness) {
   return {stiffness, 1.0, 0.0, 2.0 * kRatio * std::sqrt(stiffness * mass), setup.twin.world.tip_friction};
 }
 
-struct Compared {
+struct TouchComparison {
   FirstTouch touch, reference;
   double cpu = kUnset, simulated = 0.0;
   std::string failure;
   [[nodiscard]] double error() const { return 100.0 * std::abs(touch.grip / reference.grip - 1.0); }  // %
 };
 
-Compared compare(const models::Setup& setup, std::uint64_t seed, double stiffness = 1e5) {
-  const Watched watched = watch_touch(setup, seed);
-  Compared found{watched.touch, {}, watched.cpu, watched.simulated, watched.failure};
+TouchComparison compare(const models::Setup& setup, std::uint64_t seed, double stiffness = 1e5) {
+  const TouchRecord watched = watch_touch(setup, seed);
+  TouchComparison found{watched.touch, {}, watched.cpu, watched.simulated, watched.failure};
   if (!std::isnan(watched.touch.at))
     found.reference = refer(setup, seed, watched, law_of(setup, stiffness), kFine);
   return found;
 }
 
 template <class Of>
-std::vector<double> values(const std::vector<Compared>& all, Of of) {
+std::vector<double> values(const std::vector<TouchComparison>& all, Of of) {
   std::vector<double> known;
-  for (const Compared& one : all)
+  for (const TouchComparison& one : all)
     if (const double value = of(one); !std::isnan(value)) known.push_back(value);
   return known;
 }
@@ -83,8 +83,8 @@ std::vector<Setting> settings() {
 }
 
 // All hands in the order of the settings.
-std::vector<Compared> compare_all(Bench& bench, const std::string& scene, const std::vector<Setting>& all,
-                                  std::size_t hands) {
+std::vector<TouchComparison> compare_all(Bench& bench, const std::string& scene,
+                                         const std::vector<Setting>& all, std::size_t hands) {
   std::vector<std::pair<std::size_t, std::uint64_t>> runs;
   for (std::size_t i = 0; i < all.size(); ++i)
     for (const std::uint64_t seed : bench.seeds(hands)) runs.emplace_back(i, seed);
@@ -95,11 +95,11 @@ std::vector<Compared> compare_all(Bench& bench, const std::string& scene, const 
   });
 }
 
-double breaks_of(const Compared& c) { return static_cast<double>(c.touch.breaks); }
+double breaks_of(const TouchComparison& c) { return static_cast<double>(c.touch.breaks); }
 
 // The touches of all hands with one setting.
-struct Swept {
-  std::vector<Compared> hands;
+struct SweepResult {
+  std::vector<TouchComparison> hands;
   std::vector<double> errors;  // %, of what is felt
   Tail tail;                   // of the errors
   std::ptrdiff_t failed;       // hands
@@ -110,27 +110,27 @@ struct Swept {
     return median(values(hands, of));
   }
 };
-Swept swept(const std::vector<Compared>& found, std::size_t setting, std::size_t hands) {
-  std::vector<Compared> of(found.begin() + static_cast<std::ptrdiff_t>(setting * hands),
-                           found.begin() + static_cast<std::ptrdiff_t>((setting + 1) * hands));
-  std::vector<double> errors = values(of, [](const Compared& c) { return c.error(); });
+SweepResult swept(const std::vector<TouchComparison>& found, std::size_t setting, std::size_t hands) {
+  std::vector<TouchComparison> of(found.begin() + static_cast<std::ptrdiff_t>(setting * hands),
+                                  found.begin() + static_cast<std::ptrdiff_t>((setting + 1) * hands));
+  std::vector<double> errors = values(of, [](const TouchComparison& c) { return c.error(); });
   const auto failed =
-      std::count_if(of.begin(), of.end(), [](const Compared& c) { return !c.failure.empty(); });
+      std::count_if(of.begin(), of.end(), [](const TouchComparison& c) { return !c.failure.empty(); });
   const Tail tail = tail_of(errors, 0.95);
   const double error = failed > 0 ? kUnset : tail.value;
-  const double cost = median(values(of, [](const Compared& c) { return c.cpu; }));
+  const double cost = median(values(of, [](const TouchComparison& c) { return c.cpu; }));
   return {std::move(of), std::move(errors), tail, failed, error, cost};
 }
 
-void add_row(const Setting& setting, const Swept& of, Table& table) {
+void add_row(const Setting& setting, const SweepResult& of, Table& table) {
   table.add(setting.family, setting.name, fmt::format("{:.2g}", median(of.errors)),
             fmt::format("{:.2g}", of.error),
-            fmt::format("{:.3g}", of.middle([](const Compared& c) { return c.touch.peak; })),
-            fmt::format("{:.3g}", of.middle([](const Compared& c) { return c.touch.sampled; })),
+            fmt::format("{:.3g}", of.middle([](const TouchComparison& c) { return c.touch.peak; })),
+            fmt::format("{:.3g}", of.middle([](const TouchComparison& c) { return c.touch.sampled; })),
             fmt::format("{:g}", of.middle(breaks_of)), fmt::format("{:.3g}", of.cost), of.failed);
 }
 
-void judge_default(Bench& bench, const std::string& scene, const Swept& of) {
+void judge_default(Bench& bench, const std::string& scene, const SweepResult& of) {
   bench.figure(scene + ".felt.error.median", median(of.errors), "%", at_most(10.0),
                fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the "
                            "default, against a contact law of its own with a converged step; {} hands",
@@ -138,14 +138,15 @@ void judge_default(Bench& bench, const std::string& scene, const Swept& of) {
   bench.figure(scene + ".felt.error." + of.tail.word, of.error, "%",
                "the same, of 95 % of the hands or of all");
   const Tail newtons = tail_of(
-      values(of.hands, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }), 0.95);
+      values(of.hands, [](const TouchComparison& c) { return std::abs(c.touch.grip - c.reference.grip); }),
+      0.95);
   bench.figure(scene + ".felt.error_N." + newtons.word, newtons.value, "N", at_most(0.1),
                "the same in newtons: the least force that is told is 0.1 N");
   bench.figure(scene + ".breaks.median", of.middle(breaks_of), "",
                "of the contact in that time, at the default");
   bench.figure(scene + ".reference.breaks.median",
-               of.middle([](const Compared& c) { return static_cast<double>(c.reference.breaks); }), "",
-               "the same by the law of its own, 10^5 N/m, damping ratio 0.3: what of it is physics");
+               of.middle([](const TouchComparison& c) { return static_cast<double>(c.reference.breaks); }),
+               "", "the same by the law of its own, 10^5 N/m, damping ratio 0.3: what of it is physics");
 }
 
 // The solver's settings and the time step, for one scene; %.
@@ -153,7 +154,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
   const std::size_t hands = bench.context.count(20, 3);  // 20 have a p95
   std::vector<Setting> all = settings();
   if (bench.context.quick) all.resize(5);
-  const std::vector<Compared> found = compare_all(bench, scene, all, hands);
+  const std::vector<TouchComparison> found = compare_all(bench, scene, all, hands);
   Table table{"sweep_" + scene,
               "First touch of " + scene + ": the solver and the time step",
               {"setting", "step or value", "error of what is felt (%), median",
@@ -162,7 +163,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
   std::vector<CostCurve> curves;
   Series chosen{.name = "default", .mark = Mark::points, .paper = true};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Swept of = swept(found, i, hands);
+    const SweepResult of = swept(found, i, hands);
     if (curves.empty() || curves.back().name != all[i].family) curves.push_back({all[i].family});
     curves.back().cost.push_back(of.cost);
     curves.back().error.push_back(of.error);
@@ -273,13 +274,14 @@ std::vector<Approach> approaches(const Machine& machine, const std::vector<doubl
   return all;
 }
 
-struct Touched {
+struct TouchSummary {
   FirstTouch first;      // of the first hand
   double bounces = 0.0;  // of all hands
 };
-Touched touch_of(const Bench& bench, const Machine& machine, const Approach& approach, std::size_t hands) {
+TouchSummary touch_of(const Bench& bench, const Machine& machine, const Approach& approach,
+                      std::size_t hands) {
   const models::Setup setup = load_scene(bench.context, machine.scene, approach.set);
-  Touched all;
+  TouchSummary all;
   for (const std::uint64_t seed : bench.seeds(hands)) {
     const FirstTouch touch = watch_touch(setup, seed).touch;
     if (seed == bench.context.seed) all.first = touch;

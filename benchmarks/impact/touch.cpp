@@ -84,7 +84,7 @@ class Judge {
   double gone_ = 0.0;  // s, since contact was lost
 };
 
-void judge_steps(const models::Setup& setup, Watched& watched, double step) {
+void judge_steps(const models::Setup& setup, TouchRecord& watched, double step) {
   const auto touched = std::find_if(watched.steps.begin(), watched.steps.end(),
                                     [](const Step& s) { return s.push.norm() > 0.0; });
   if (touched == watched.steps.end()) return;
@@ -106,8 +106,8 @@ void judge_steps(const models::Setup& setup, Watched& watched, double step) {
 
 }  // namespace
 
-Watched watch_touch(const models::Setup& setup, std::uint64_t seed) {
-  Watched watched;
+TouchRecord watch_touch(const models::Setup& setup, std::uint64_t seed) {
+  TouchRecord watched;
   const double h = setup.twin.stepping(setup.scene).timestep;
   try {
     Listener listener;
@@ -181,7 +181,7 @@ struct Contact {
 
 }  // namespace
 
-FirstTouch refer(const models::Setup& setup, std::uint64_t seed, const Watched& measured, const Law& law,
+FirstTouch refer(const models::Setup& setup, std::uint64_t seed, const TouchRecord& measured, const Law& law,
                  double step) {
   const Scene prepared = trial::prepare_setup(setup);
   sim::User user(setup.scene, prepared, setup.twin.hand, seed);

@@ -35,7 +35,7 @@ struct FirstTouch {
   double depth = 0.0;       // m, tool into tip, at most
 };
 
-struct Watched {
+struct TouchRecord {
   FirstTouch touch;
   std::vector<Step> steps;  // 20 ms before the touch to the end of the window
   double cpu = kUnset;      // s of CPU for each second of experiment
@@ -44,7 +44,7 @@ struct Watched {
 };
 
 // Runs until the window ends, or to the end of the run.
-[[nodiscard]] Watched watch_touch(const models::Setup& setup, std::uint64_t seed);
+[[nodiscard]] TouchRecord watch_touch(const models::Setup& setup, std::uint64_t seed);
 
 // A contact law: k d^exponent (1 + c v), where v is the closing speed; it never pulls. Dry friction by
 // bristles.
@@ -58,7 +58,7 @@ struct Law {
 // Simulates the twin's hand and tool against that law, with the tip on the machine's measured path. The hand
 // starts anew at t = 0, so this must be the run's first contact, without drift and without a sine of tremor.
 // `step`: s.
-[[nodiscard]] FirstTouch refer(const models::Setup& setup, std::uint64_t seed, const Watched& measured,
+[[nodiscard]] FirstTouch refer(const models::Setup& setup, std::uint64_t seed, const TouchRecord& measured,
                                const Law& law, double step);
 
 }  // namespace enc::bench::impact

@@ -143,7 +143,7 @@ Child run_child(std::vector<std::string> words, const std::string& input) {
 }
 
 Companion::Companion(std::vector<std::string> words, const std::string& ready, double longest) {
-  using Steady = std::chrono::steady_clock;
+  using SteadyClock = std::chrono::steady_clock;
   const MemoryFile in, out, err;
   const std::string name = short_name(words);
   const std::vector<char*> list = pointers_to(words);
@@ -151,7 +151,7 @@ Companion::Companion(std::vector<std::string> words, const std::string& ready, d
   child_ = fork();
   if (child_ == 0) become(list.data(), in.fd(), out.fd(), err.fd(), parent);
   if (child_ < 0) throw Error(name + ": could not be started: there is no room for another process");
-  const auto until = Steady::now() + std::chrono::duration<double>(longest);
+  const auto until = SteadyClock::now() + std::chrono::duration<double>(longest);
   while (out.text().find(ready) == std::string::npos) {
     int status = 0;
     if (waitpid(child_, &status, WNOHANG) == child_) {
@@ -159,7 +159,7 @@ Companion::Companion(std::vector<std::string> words, const std::string& ready, d
       const bool device = WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ErrorKind::device);
       throw Error(name + ": " + why_ended(err.text()), {}, device ? ErrorKind::device : ErrorKind::input);
     }
-    if (Steady::now() > until) {
+    if (SteadyClock::now() > until) {
       end();
       throw Error(fmt::format("{}: was silent for {:g} s", name, longest), {}, ErrorKind::device);
     }

@@ -119,15 +119,15 @@ struct Point {
   [[nodiscard]] bool good(double accuracy) const { return failure.empty() && error <= accuracy; }
 };
 
-struct Measured {
+struct StudyData {
   std::vector<Point> points;
   std::map<const Form*, double> floor;  // m rms between two converged runs, of elastic legs
 };
 
 // Three runs, interleaved with those of all other points, so that a slow moment of the machine does not hit
 // one point alone.
-Measured measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
-  Measured all;
+StudyData measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
+  StudyData all;
   std::vector<Point>& points = all.points;
   std::map<const Form*, Path> converged;
   for (const Form& form : extent.forms) {
@@ -172,7 +172,7 @@ bool is_default(const Point& point, const models::Setup& setup) {
   return std::abs(point.step - step) < 1e-9 && integrator == point.integrator;
 }
 
-void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Measured& all,
+void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const StudyData& all,
                  const models::Setup& setup, BenchResult& result) {
   const std::vector<Point>& points = all.points;
   for (const Form& form : extent.forms) {
@@ -212,7 +212,7 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
 }
 
 // The points of a study, the compared quantity and the accuracy that the shipped setting shall hold.
-struct Compared {
+struct StudyComparison {
   const trial::Precision& all;
   const PrecisionNorm& norm;
   double accuracy;  // in the study's unit
@@ -222,7 +222,7 @@ struct Compared {
   }
 };
 
-Table precision_table(const Compared& compared) {
+Table precision_table(const StudyComparison& compared) {
   const PrecisionNorm& norm = compared.norm;
   Table table{"precision",
               fmt::format("Error of {} against run time", norm.of),
@@ -239,7 +239,7 @@ Table precision_table(const Compared& compared) {
   return table;
 }
 
-Plot precision_plot(const Compared& compared, const std::string& scene) {
+Plot precision_plot(const StudyComparison& compared, const std::string& scene) {
   const trial::Precision& all = compared.all;
   const PrecisionNorm& norm = compared.norm;
   std::vector<trial::PrecisionPoint> scaled = all.points;
@@ -331,7 +331,7 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set, cons
   const ForceStudy study = force_study(bench.context, bench.result.scene, set, options);
   bench.result.simulated += study.simulated;
   const trial::Precision& all = study.all;
-  const Compared compared{all, norm, accuracy_of(all, norm.accuracy)};
+  const StudyComparison compared{all, norm, accuracy_of(all, norm.accuracy)};
   bench.table(precision_table(compared));
   bench.plot(precision_plot(compared, study.scene));
   const trial::PrecisionPoint* shipped = trial::shipped(all.points);
@@ -352,7 +352,7 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set, cons
 
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result) {
   const Extent extent = extent_of(spec, context);
-  const Measured all = measured(spec, context, extent);
+  const StudyData all = measured(spec, context, extent);
   const std::vector<Point>& points = all.points;
   const models::Setup setup = load_scene(context, spec.scene, spec.set);
   add_figures(spec, extent, context.full, all, setup, result);

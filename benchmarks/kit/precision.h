@@ -37,7 +37,7 @@ struct PrecisionNorm {
   double scale = 1.0;  // factor from the study's unit to `unit`
   // Accuracy in the study's unit; larger if two converged runs differ by more than half of it.
   double accuracy = kForceAccuracy;
-  trial::QuantitiesOf quantities{};
+  trial::QuantityMaker quantities{};
 };
 
 // Adds the diagram, the table and the figures of a benchmark's own scene. The shipped setting must hold the

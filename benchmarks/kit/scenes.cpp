@@ -11,9 +11,9 @@
 
 namespace enc::bench {
 
-OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
-             const std::vector<std::string>& held) {
-  OnRig on{context.models + "/scenes/" + name + ".toml", std::move(own), {}};
+RigScene on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
+                const std::vector<std::string>& held) {
+  RigScene on{context.models + "/scenes/" + name + ".toml", std::move(own), {}};
   on.set.insert(on.set.end(), context.set.begin(), context.set.end());
   on.set.insert(on.set.end(), held.begin(), held.end());
   on.setup = models::load(on.scene, context.rig, on.set);
@@ -56,7 +56,7 @@ std::unique_ptr<Companion> begun_fakes(std::vector<std::string> words) {
   return std::make_unique<Companion>(std::move(words), "ends with SIGINT or SIGTERM", kLongest);
 }
 
-std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on, std::uint64_t seed,
+std::unique_ptr<Companion> fakes_of(const BenchContext& context, const RigScene& on, std::uint64_t seed,
                                     const std::vector<std::string>& more) {
   if (!context.fakes) return nullptr;
   std::vector<std::string> words{context.rig, "--scene", on.scene, "--seed", std::to_string(seed)};

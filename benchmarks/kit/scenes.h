@@ -36,15 +36,15 @@ namespace enc::bench {
 }
 
 // A scene on the user's rig, and the settings that made it so: `encounter fake` gets these settings as well.
-struct OnRig {
+struct RigScene {
   std::string scene;  // file
   std::vector<std::string> set;
   models::Setup setup;
 };
 // Loads models/scenes/<name>.toml; settings in the order of load_scene(). Throws Error if the rig's machine
 // would receive no command.
-[[nodiscard]] OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
-                           const std::vector<std::string>& held = {});
+[[nodiscard]] RigScene on_rig(const BenchContext& context, const std::string& name,
+                              std::vector<std::string> own, const std::vector<std::string>& held = {});
 
 // Options of runs over the devices, and of their twins. `context` must outlive them.
 [[nodiscard]] trial::TrialOptions rig_options(const BenchContext& context);
@@ -58,7 +58,7 @@ void tell(const std::string& line);
 // `encounter fake` with these words; it runs until the object is destroyed.
 [[nodiscard]] std::unique_ptr<Companion> begun_fakes(std::vector<std::string> words);
 // Fakes in place of the devices; null if the user does not want them. `more`: additional settings.
-[[nodiscard]] std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on,
+[[nodiscard]] std::unique_ptr<Companion> fakes_of(const BenchContext& context, const RigScene& on,
                                                   std::uint64_t seed,
                                                   const std::vector<std::string>& more = {});
 

@@ -71,15 +71,15 @@ std::vector<std::uint32_t> middle_of(const std::vector<trial::TrialResult>& runs
 }
 
 // The mesh from its file and its search tree, with the times that they took.
-struct Loaded {
+struct LoadResult {
   models::CheckedMesh solid;
   MeshTree tree;
   std::size_t triangles;
   double file_and_check, wall, cpu;  // s; the last two of all
 };
-Loaded loaded() {
+LoadResult loaded() {
   std::optional<ScratchFile> file(std::in_place, "ball.glb");
-  models::write_mesh(models::geodesic_ball(224), file->path(), models::Existing::keep);
+  models::write_mesh(models::geodesic_ball(224), file->path(), models::OverwritePolicy::keep);
   const double cpu_start = thread_seconds();
   const double start = wall_seconds();
   models::CheckedMesh solid = models::load_solid(file->path());
@@ -92,7 +92,7 @@ Loaded loaded() {
   return {std::move(solid), std::move(tree), triangles, checked - start, ready - start, cpu};
 }
 
-void add_load(Bench& bench, const Loaded& load) {
+void add_load(Bench& bench, const LoadResult& load) {
   bench.cost("load.wall", load.wall, "s",
              fmt::format("{} triangles, .glb; file, check and search tree", load.triangles));
   bench.cost("load.cpu", load.cpu, "s", "the same, CPU time of its thread");
@@ -113,7 +113,7 @@ void add_steps(Bench& bench, const std::vector<trial::TrialResult>& runs) {
 }
 
 void run(Bench& bench) {
-  Loaded load = loaded();
+  LoadResult load = loaded();
   trial::TrialOptions options{.seed = bench.context.seed, .seconds = bench.context.quick ? 10.0 : 40.0};
   Yardstick yardstick;
   options.watch = yardstick.watch();

@@ -61,23 +61,23 @@ std::vector<Point<'O'>> hand_path() {
 }
 
 // Warm start: each query gets the answer of the one before.
-struct Ours {
+struct WarmStart {
   const MeshTree& tree;
   std::int32_t hint = -1;
   double answer(const Point<'O'>& p) {
-    const Nearest at = tree.nearest(p, hint);
+    const SurfacePoint at = tree.nearest(p, hint);
     hint = at.feature;
     return at.distance;
   }
 };
 // The radius hint: the last distance plus the motion of the query since.
-struct Theirs {
+struct RadiusHint {
   NearestPeer& peer;
   double distance = 1.0;
   std::optional<Point<'O'>> before{};
   double answer(const Point<'O'>& p) {
     const double radius = (distance + (before ? (p - *before).norm() : 0.0)) * (1.0 + 1e-5) + 1e-7;
-    const NearestPeer::Found found = peer.nearest(
+    const NearestPeer::NearestPoint found = peer.nearest(
         {static_cast<float>(p.xyz[0]), static_cast<float>(p.xyz[1]), static_cast<float>(p.xyz[2])},
         static_cast<float>(radius));
     before = p;
@@ -110,9 +110,9 @@ struct Jumps {
 };
 Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
   Jumps most;
-  Nearest before = tree.nearest(path.front());
+  SurfacePoint before = tree.nearest(path.front());
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Nearest at = tree.nearest(path[i], before.feature);
+    const SurfacePoint at = tree.nearest(path[i], before.feature);
     most.point = std::max(most.point, (at.point - before.point).norm() - (path[i] - path[i - 1]).norm());
     const double sine = at.normal.e().cross(before.normal.e()).norm();
     most.normal = std::max(most.normal, std::atan2(sine, dot(at.normal, before.normal)));
@@ -125,9 +125,9 @@ Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
 void against_peer(Bench& bench, const MeshTree& tree, NearestPeer* peer, const std::vector<Point<'O'>>& path,
                   std::size_t laps) {
   std::vector<double> ours(kQueries), again(kQueries), theirs(kQueries);
-  std::vector<std::function<void()>> ways{answering(path, ours, Ours{tree}),
-                                          answering(path, again, Ours{tree})};
-  if (peer != nullptr) ways.push_back(answering(path, theirs, Theirs{*peer}));
+  std::vector<std::function<void()>> ways{answering(path, ours, WarmStart{tree}),
+                                          answering(path, again, WarmStart{tree})};
+  if (peer != nullptr) ways.push_back(answering(path, theirs, RadiusHint{*peer}));
   const Race raced = race(laps, ways);
   if (peer != nullptr) {
     bench.cost("ball_100k.ratio_to_embree.median", raced.ratio(2, 0), "x", at_least(2.0),
@@ -159,7 +159,7 @@ void growth(Bench& bench, const std::vector<Point<'O'>>& path, std::size_t laps)
   bench.progress(0.8);
   std::vector<double> distances(kQueries);
   const auto alone = [&](const MeshTree& tree) {
-    const auto way = answering(path, distances, Ours{tree});
+    const auto way = answering(path, distances, WarmStart{tree});
     return race(laps, {way, way});
   };
   const Race few = alone(small), many = alone(large);

@@ -71,7 +71,7 @@ class Embree final : public NearestPeer {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  Found nearest(const std::array<float, 3>& p, float radius) override {
+  NearestPoint nearest(const std::array<float, 3>& p, float radius) override {
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     RTCPointQuery query{};

@@ -19,9 +19,9 @@ cv::Mat seen(const Mask& mask) {
   return {mask.height, mask.width, CV_8UC1, const_cast<std::uint8_t*>(mask.on.data())};
 }
 
-class Subtracting final : public SegmentationPeer {
+class BackgroundPeer final : public SegmentationPeer {
  public:
-  Subtracting(cv::Ptr<cv::BackgroundSubtractor> background, const HueRange& skin)
+  BackgroundPeer(cv::Ptr<cv::BackgroundSubtractor> background, const HueRange& skin)
       : background_(std::move(background)), skin_(skin) {
     cv::setNumThreads(1);
   }
@@ -105,10 +105,10 @@ class Blocks final : public StereoPeer {
 };
 
 std::unique_ptr<SegmentationPeer> mog2(const HueRange& skin) {
-  return std::make_unique<Subtracting>(cv::createBackgroundSubtractorMOG2(), skin);
+  return std::make_unique<BackgroundPeer>(cv::createBackgroundSubtractorMOG2(), skin);
 }
 std::unique_ptr<SegmentationPeer> knn(const HueRange& skin) {
-  return std::make_unique<Subtracting>(cv::createBackgroundSubtractorKNN(), skin);
+  return std::make_unique<BackgroundPeer>(cv::createBackgroundSubtractorKNN(), skin);
 }
 std::unique_ptr<TilePeer> tiles(int side, int bins) { return std::make_unique<Histograms>(side, bins); }
 std::unique_ptr<StereoPeer> stereo(int disparities, int block) {

@@ -15,13 +15,13 @@ namespace enc::bench {
 
 class NearestPeer {
  public:
-  struct Found {
+  struct NearestPoint {
     std::array<float, 3> point;
     float distance;  // m, without sign
   };
   virtual ~NearestPeer() = default;
   // Nearest surface point within `radius` of p, m.
-  virtual Found nearest(const std::array<float, 3>& p, float radius) = 0;
+  virtual NearestPoint nearest(const std::array<float, 3>& p, float radius) = 0;
 };
 
 struct ArmAnswer {

@@ -68,7 +68,7 @@ class LeapingFinger : public PoseTracker {
  public:
   LeapingFinger(std::unique_ptr<PoseTracker> clockwork, const Pose<'C', 'W'>& X_CW, const Way& way)
       : clockwork_(std::move(clockwork)), X_CW_(X_CW), way_(way) {}
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     const bool news = clockwork_->poll(now, newest);
     const bool after = seconds(newest.t.time_since_epoch()) >= kWhen;
     newest.value.X_CT =

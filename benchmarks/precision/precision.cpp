@@ -24,21 +24,21 @@ constexpr int kGlances = 25;
 
 // A hand that approaches an object, and the machine that goes to meet it. Encoders with fine counts and
 // friction without a jump keep the whole motion smooth.
-struct Smooth {
+struct SmoothCase {
   const char* name;
   const char* scene;
   const char* table;  // TOML table of its step
   bool steps;         // the machine moves in microns: only the hand moves smoothly
   std::vector<std::string> set;
 };
-const std::array<Smooth, 2>& smooth() {
-  static const std::array<Smooth, 2> kSmooth{
-      Smooth{"hand", "tennis_ball", "truth.world", true, {}},
-      Smooth{"arm",
-             "wall",
-             "truth.arm",
-             false,
-             {"truth.arm.friction_form=smooth", "truth.arm.counts=[1e9, 1e9, 1e9]"}}};
+const std::array<SmoothCase, 2>& smooth() {
+  static const std::array<SmoothCase, 2> kSmooth{
+      SmoothCase{"hand", "tennis_ball", "truth.world", true, {}},
+      SmoothCase{"arm",
+                 "wall",
+                 "truth.arm",
+                 false,
+                 {"truth.arm.friction_form=smooth", "truth.arm.counts=[1e9, 1e9, 1e9]"}}};
   return kSmooth;
 }
 
@@ -66,7 +66,8 @@ Way falling(const BenchContext& context, const std::string& integrator, double s
   return way;
 }
 
-Way way_of(const BenchContext& context, const Smooth& smooth, const std::string& integrator, double step) {
+Way way_of(const BenchContext& context, const SmoothCase& smooth, const std::string& integrator,
+           double step) {
   Way way;
   std::vector<std::string> set = smooth.set;
   set.push_back(fmt::format("{}.timestep_us={:g}", smooth.table, step * 1e6));
@@ -129,7 +130,7 @@ void add_orders(Bench& bench) {
     fit(
         "fall", integrator,
         [&](const std::string& with, double step) { return falling(bench.context, with, step); }, true);
-    for (const Smooth& one : smooth())
+    for (const SmoothCase& one : smooth())
       fit(
           one.name, integrator,
           [&](const std::string& with, double step) { return way_of(bench.context, one, with, step); },
@@ -150,7 +151,7 @@ struct Norm {
 constexpr std::array kNorms{Norm{"force, N", &PrecisionPoint::error, &trial::Accuracy::force, 1.0},
                             Norm{"path, um", &PrecisionPoint::way, &trial::Accuracy::way, 1e-6}};
 
-struct Carried {
+struct PrecisionAdvice {
   std::string scene;
   const Norm* norm = nullptr;
   const PrecisionPoint *advised = nullptr, *next = nullptr;  // points of the study; null: none
@@ -207,11 +208,11 @@ std::vector<PrecisionPoint> again(const BenchContext& context, const ForceStudy&
   return force_study(context, study.scene, {}, options).all.points;
 }
 
-std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& study) {
-  std::vector<Carried> all;
+std::vector<PrecisionAdvice> carried_out(const BenchContext& context, const ForceStudy& study) {
+  std::vector<PrecisionAdvice> all;
   std::vector<const PrecisionPoint*> points;
   for (const Norm& norm : kNorms) {
-    Carried one{study.scene, &norm};
+    PrecisionAdvice one{study.scene, &norm};
     one.asked = asked_of(study.all.points, norm.error);
     trial::Accuracy most;
     most.*norm.most = one.asked;
@@ -222,14 +223,14 @@ std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& 
     all.push_back(std::move(one));
   }
   const std::vector<PrecisionPoint> judged = again(context, study, points);
-  const auto error_of = [&](Carried& one, const PrecisionPoint* point) {
+  const auto error_of = [&](PrecisionAdvice& one, const PrecisionPoint* point) {
     if (point == nullptr) return kUnset;
     const auto at =
         std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return same(j, *point); });
     if (!at->failure.empty()) one.failure = at->failure;
     return at->failure.empty() ? *at.*one.norm->error : kUnset;
   };
-  for (Carried& one : all) {
+  for (PrecisionAdvice& one : all) {
     one.error = error_of(one, one.advised);
     one.next_error = error_of(one, one.next);
   }
@@ -238,15 +239,15 @@ std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& 
 
 // Follows the advice of `check --advise`: judged by a converged run of another step.
 void add_advice(Bench& bench, const std::vector<ForceStudy>& studies) {
-  const std::vector<std::vector<Carried>> all =
+  const std::vector<std::vector<PrecisionAdvice>> all =
       bench.each(studies, [&](const ForceStudy& study) { return carried_out(bench.context, study); });
   Table table{"advice",
               "Advice carried out: errors by another converged run",
               {"scene", "error of", "asked", "advised", "errs by", "next cheaper", "errs by", "judged"}};
   table.printed = true;
   std::size_t asked = 0, meets = 0, with_next = 0, next_fails = 0;
-  for (const std::vector<Carried>& scene : all)
-    for (const Carried& one : scene) {
+  for (const std::vector<PrecisionAdvice>& scene : all)
+    for (const PrecisionAdvice& one : scene) {
       ++asked;
       meets += one.meets() ? 1 : 0;
       with_next += one.has_next() ? 1 : 0;

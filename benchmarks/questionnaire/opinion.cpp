@@ -30,7 +30,7 @@ std::vector<ItemReference> items_of(const Form& form, const std::string& models)
   return items;
 }
 
-Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all) {
+Table proxy_table(const std::vector<ItemReference>& items, const std::vector<FigureVerdict>& all) {
   Table table{
       "questionnaire",
       "Beside the questionnaire (Fig 14)",
@@ -41,7 +41,7 @@ Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Jud
   for (const ItemReference& item : items)
     for (const std::string& id : item.figures) {
       const auto j =
-          std::find_if(all.begin(), all.end(), [&](const Judged& one) { return one.figure.id == id; });
+          std::find_if(all.begin(), all.end(), [&](const FigureVerdict& one) { return one.figure.id == id; });
       if (j == all.end()) continue;
       table.rows.push_back({item.name, item.text, fmt::format("{:.1f}", item.paper), id,
                             fmt::format("{:.3g}", j->figure.twin), j->figure.unit, felt_name(j->felt)});

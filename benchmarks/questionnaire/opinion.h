@@ -21,7 +21,8 @@ struct ItemReference {
 [[nodiscard]] std::vector<ItemReference> items_of(const Form& form, const std::string& models);
 
 // Empty if no figure was judged.
-[[nodiscard]] Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all);
+[[nodiscard]] Table proxy_table(const std::vector<ItemReference>& items,
+                                const std::vector<FigureVerdict>& all);
 
 struct Opinion {
   double mean = kUnset;

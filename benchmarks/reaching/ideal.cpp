@@ -241,8 +241,8 @@ Task task_of(const IdealSpec& spec, const SeenReach& reach, double told, double 
 }
 
 // Without `within`, which takes longer.
-Ideal ideal_of(const Parts& parts) {
-  Ideal ideal;
+IdealPrediction ideal_of(const Parts& parts) {
+  IdealPrediction ideal;
   ideal.place = Vec2::Zero();
   for (const Part& part : parts.all) ideal.place += part.weight * part.mean;
   ideal.evidence = parts.evidence;
@@ -261,11 +261,11 @@ std::vector<double> last_told(const SeenReach& reach) {
 
 }  // namespace
 
-Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
+IdealPrediction ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
   const Task task = task_of(spec, reach, told, touches);
   if (task.pictures.size() < 3) return {};
   const Parts parts = parts_of(task);
-  Ideal ideal = ideal_of(parts);
+  IdealPrediction ideal = ideal_of(parts);
   // Probability of each part within the circle: its normal distribution, over rings about the place.
   for (const Part& part : parts.all) {
     if (part.weight < 1e-5) continue;

@@ -32,13 +32,14 @@ struct IdealSpec {
   double shortest_way = 0.16, longest_way = 0.20;    // m
 };
 
-struct Ideal {
+struct IdealPrediction {
   Eigen::Vector2d place{kUnset, kUnset};  // best place of a prop for a touch at a given time; mean
   double within = 0.0;                    // probability of a touch within 2 mm of it, by the predictor itself
   double evidence = -HUGE_VAL;            // logarithm of the density of that time, without a common factor
 };
 // Uses the pictures that had arrived by `told`, for a tip that touches at `touches`, s.
-[[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches);
+[[nodiscard]] IdealPrediction ideal_place(const IdealSpec& spec, const SeenReach& reach, double told,
+                                          double touches);
 
 // Place of that predictor's prop at the touch, if an arm carries it: from rest, with each new picture,
 // straight to the place that is then best, with at most this acceleration, m/s^2. It need not stop. For
@@ -51,7 +52,7 @@ struct Ideal {
 struct IdealCourse {
   static constexpr double kEach = 10e-3;  // s, from time to time
   double told = kUnset;                   // s, time of the picture
-  std::vector<Ideal> then;                // estimates from that time on; never empty
+  std::vector<IdealPrediction> then;      // estimates from that time on; never empty
   // Mean of the estimates that are still ahead at a moment, weighted by their probability. Estimates within
   // `soon`, s, come first, because there is still time for later ones.
   [[nodiscard]] Eigen::Vector2d mean(double now, double soon) const;

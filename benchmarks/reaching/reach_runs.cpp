@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kImpact = 0.050;  // s
 
-double along_surface(const trial::Wanted& at, const Point<'W'>& tip) {
+double along_surface(const trial::PropTarget& at, const Point<'W'>& tip) {
   const Vec3 apart = (at.point - tip).e();
   const Vec3 n = at.normal.e();
   return (apart - n.dot(apart) * n).norm();
 }
 
-ReachRan run_one(const BenchContext& context, const ReachRun& run) {
+ReachResult run_one(const BenchContext& context, const ReachRun& run) {
   ReachMeasure measure;
   trial::TrialOptions options;
   options.seed = run.seed;
@@ -100,7 +100,7 @@ void ReachMeasure::see(const trial::Glance& glance) {
 
 // Pictures stay in W until the place of touch is known.
 void ReachMeasure::take_picture(const trial::Glance& glance, double now) {
-  const Stamped<TrackedTool>& told = glance.in.tool;
+  const Measurement<TrackedTool>& told = glance.in.tool;
   if (!std::isnan(now_.met) || told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
   newest_ = told.t;
   const Point<'T'>& tip = glance.scene.tools[static_cast<std::size_t>(told.value.tool)].tip.centre;
@@ -110,7 +110,7 @@ void ReachMeasure::take_picture(const trial::Glance& glance, double now) {
 
 void ReachMeasure::meet(const trial::Glance& glance, double now) {
   const sim::Truth& truth = glance.truth;
-  const trial::Wanted at =
+  const trial::PropTarget at =
       trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
   if (!truth.touching && at.distance > truth.tool_radius) return;
   now_.met = now;
@@ -132,7 +132,7 @@ void ReachMeasure::watch_contact(const trial::Glance& glance, double now) {
   const sim::Truth& truth = glance.truth;
   if (!truth.touching) return;
   now_.touched = true;
-  const trial::Wanted at =
+  const trial::PropTarget at =
       trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
   if (now_.felt < 0 && glance.out.mode == Mode::contact) {
     now_.felt = glance.out.object;
@@ -151,8 +151,8 @@ void reach_at_random(models::Setup& setup, std::int64_t count) {
   user.reaches->count = count;
 }
 
-Settings seen(Seen how) {
-  if (how == Seen::vision) return {};
+Settings seen(FingerTracking how) {
+  if (how == FingerTracking::vision) return {};
   return {"truth.tracker.rate_hz=1000",
           "truth.tracker.latency_ms=1",
           "truth.tracker.noise_mm=[0,0,0]",
@@ -163,8 +163,8 @@ Settings seen(Seen how) {
           "truth.tracker.clocks=\"aligned\""};
 }
 
-std::vector<ReachRan> run_all(const BenchContext& context, const std::vector<ReachRun>& runs) {
-  std::vector<ReachRan> ran(runs.size());
+std::vector<ReachResult> run_all(const BenchContext& context, const std::vector<ReachRun>& runs) {
+  std::vector<ReachResult> ran(runs.size());
   in_parallel(runs.size(), [&](std::size_t i) { ran[i] = run_one(context, runs[i]); });
   return ran;
 }
@@ -190,9 +190,9 @@ ReachRun slide(double speed, int count, std::uint64_t seed) {
                   fmt::format("user.slide_mm_s={}", 1e3 * speed)};
 }
 
-std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran) {
+std::vector<ReachOutcome> joined(const std::vector<ReachResult>& ran) {
   std::vector<ReachOutcome> all;
-  for (const ReachRan& one : ran) all.insert(all.end(), one.reaches.begin(), one.reaches.end());
+  for (const ReachResult& one : ran) all.insert(all.end(), one.reaches.begin(), one.reaches.end());
   return all;
 }
 

@@ -66,8 +66,8 @@ class ReachMeasure {
 using Settings = std::vector<std::string>;
 
 // Tracking of the finger: by the paper's vision, or without delay and noise.
-enum class Seen : std::uint8_t { vision, live };
-[[nodiscard]] Settings seen(Seen how);
+enum class FingerTracking : std::uint8_t { vision, live };
+[[nodiscard]] Settings seen(FingerTracking how);
 
 struct ReachRun {
   std::string scene = "wall";
@@ -75,13 +75,14 @@ struct ReachRun {
   std::uint64_t seed = 1;
   std::int64_t random = 0;  // number of random reaches that replace the scene's programme
 };
-struct ReachRan {
+struct ReachResult {
   std::vector<ReachOutcome> reaches;
   double far_speed = 0.0;                 // m/s
   double simulated = 0.0, seconds = 0.0;  // s; seconds: CPU time
 };
 // Runs all of them, on all cores.
-[[nodiscard]] std::vector<ReachRan> run_all(const BenchContext& context, const std::vector<ReachRun>& runs);
+[[nodiscard]] std::vector<ReachResult> run_all(const BenchContext& context,
+                                               const std::vector<ReachRun>& runs);
 
 // Replaces the programme of the scene's user by `count` random reaches.
 void reach_at_random(models::Setup& setup, std::int64_t count);
@@ -93,7 +94,7 @@ void reach_at_random(models::Setup& setup, std::int64_t count);
 [[nodiscard]] ReachRun slide(double speed, int count, std::uint64_t seed);
 [[nodiscard]] ReachRun operator+(ReachRun run, const Settings& set);
 
-[[nodiscard]] std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran);
+[[nodiscard]] std::vector<ReachOutcome> joined(const std::vector<ReachResult>& ran);
 // One value for each reach that met the surface.
 [[nodiscard]] std::vector<double> misses(const std::vector<ReachOutcome>& reaches);  // m
 // One value for each reach with a rendered object.

@@ -24,7 +24,7 @@ std::vector<double> misses_with(const BenchContext& context, const std::vector<S
   for (const Settings& set : settings)
     for (const double tilt : {20.0, 40.0})
       runs.push_back(steady_reaches(0.2, tilt, kEach, context.seed) + set);
-  const std::vector<ReachRan> ran = run_all(context, runs);
+  const std::vector<ReachResult> ran = run_all(context, runs);
   std::vector<double> p95;
   for (std::size_t i = 0; i < settings.size(); ++i)
     p95.push_back(1e3 * percentile(misses(joined({ran[2 * i], ran[2 * i + 1]})), 0.95));
@@ -63,7 +63,7 @@ void filter_part(const BenchContext& context, BenchResult& result) {
     for (const char* scene : {"wall", "reaching"})
       runs.push_back(random_reaches(scene, 25, context.seed) + settings.back());
   }
-  const std::vector<ReachRan> ran = run_all(context, runs);
+  const std::vector<ReachResult> ran = run_all(context, runs);
   Series random{"random reaches", noise};
   for (std::size_t i = 0; i < noise.size(); ++i)
     random.y.push_back(1e3 * percentile(misses(joined({ran[2 * i], ran[2 * i + 1]})), 0.95));
@@ -90,7 +90,7 @@ struct Steps {
 // Equal reaches with other steps of the physics: error of the impact against fine steps, over the run time.
 void steps_part(const BenchContext& context, BenchResult& result) {
   const auto with = [&](const std::string& integrator, double us) {
-    return steady_reaches(0.2, 20.0, kEach, context.seed) + seen(Seen::live) +
+    return steady_reaches(0.2, 20.0, kEach, context.seed) + seen(FingerTracking::live) +
            Settings{fmt::format("truth.arm.integrator=\"{}\"", integrator),
                     fmt::format("truth.arm.timestep_us={}", us)};
   };
@@ -99,7 +99,7 @@ void steps_part(const BenchContext& context, BenchResult& result) {
   std::vector<ReachRun> runs{with("rk4", 62.5)};
   for (const Steps& steps : all)
     for (const double us : steps.timestep_us) runs.push_back(with(steps.integrator, us));
-  const std::vector<ReachRan> ran = run_all(context, runs);
+  const std::vector<ReachResult> ran = run_all(context, runs);
   const std::vector<double> reference = impacts(ran[0].reaches);
   Plot plot{"reaching_steps",
             "Work and precision of the physics",
@@ -161,8 +161,10 @@ Series distribution(const std::string& name, std::vector<double> seconds) {
   return series;
 }
 
-const char* name_of(Seen how) { return how == Seen::vision ? "seen at 20 Hz, 50 ms late" : "seen live"; }
-std::string key_of(Seen how) { return how == Seen::vision ? "vision." : "live."; }
+const char* name_of(FingerTracking how) {
+  return how == FingerTracking::vision ? "seen at 20 Hz, 50 ms late" : "seen live";
+}
+std::string key_of(FingerTracking how) { return how == FingerTracking::vision ? "vision." : "live."; }
 
 double percent(const std::vector<ReachOutcome>& reaches, const std::function<bool(const ReachOutcome&)>& is) {
   return 100.0 * static_cast<double>(std::count_if(reaches.begin(), reaches.end(), is)) /
@@ -172,9 +174,9 @@ double percent(const std::vector<ReachOutcome>& reaches, const std::function<boo
 const std::array<std::string, 2> kScenes{"wall", "keypad"};
 
 // Reaches for random places of both scenes in turn, by several people at once.
-std::vector<ReachRan> random_runs(const BenchContext& context, Seen how) {
+std::vector<ReachResult> random_runs(const BenchContext& context, FingerTracking how) {
   // A thousand reaches for the wall by a finger that vision tracks.
-  const int people = context.quick ? 1 : !context.full ? 5 : how == Seen::vision ? 100 : 25;
+  const int people = context.quick ? 1 : !context.full ? 5 : how == FingerTracking::vision ? 100 : 25;
   const std::int64_t each = context.quick ? 8 : context.full ? 10 : 12;
   std::vector<ReachRun> runs;
   for (int i = 0; i < people; ++i)
@@ -183,13 +185,13 @@ std::vector<ReachRan> random_runs(const BenchContext& context, Seen how) {
   return run_all(context, runs);
 }
 
-std::vector<ReachOutcome> of_scene(const std::vector<ReachRan>& ran, std::size_t scene) {
-  std::vector<ReachRan> these;
+std::vector<ReachOutcome> of_scene(const std::vector<ReachResult>& ran, std::size_t scene) {
+  std::vector<ReachResult> these;
   for (std::size_t i = scene; i < ran.size(); i += kScenes.size()) these.push_back(ran[i]);
   return joined(these);
 }
 
-void random_figures(Bench& bench, const std::vector<ReachRan>& ran, Seen how, bool bounded) {
+void random_figures(Bench& bench, const std::vector<ReachResult>& ran, FingerTracking how, bool bounded) {
   const std::string key = key_of(how);
   const std::string text = name_of(how);
   const std::vector<ReachOutcome> all = joined(ran);
@@ -224,20 +226,20 @@ void random_figures(Bench& bench, const std::vector<ReachRan>& ran, Seen how, bo
 }
 
 // Whether the prop of an ideal predictor is there when a reach meets, by its kind of prop.
-struct Judged {
+struct ReachVerdict {
   bool counts = false, reached = false, carried = false, followed = false;
   double within = 0.0;
 };
 
 // The first `most` reaches, judged on all cores.
-std::vector<Judged> judged_by_ideal(const IdealSpec& spec, double acceleration,
-                                    const std::vector<ReachOutcome>& wall, std::size_t most) {
+std::vector<ReachVerdict> judged_by_ideal(const IdealSpec& spec, double acceleration,
+                                          const std::vector<ReachOutcome>& wall, std::size_t most) {
   constexpr double kSoon = 0.01;  // s: gives the best ideal predictor
-  std::vector<Judged> all(most);
+  std::vector<ReachVerdict> all(most);
   in_parallel(most, [&](std::size_t i) {
     const ReachOutcome& r = wall[i];
     if (std::isnan(r.met)) return;
-    const Ideal at = ideal_place(spec, r.seen, r.met, r.met);
+    const IdealPrediction at = ideal_place(spec, r.seen, r.met, r.met);
     const Eigen::Vector2d carried = ideal_carried(spec, r.seen, acceleration);
     const Eigen::Vector2d followed = ideal_followed(ideal_courses(spec, r.seen), r.met, acceleration, kSoon);
     const auto there = [&](const Eigen::Vector2d& place) { return (place - r.seen.where).norm() < kThere; };
@@ -250,7 +252,7 @@ std::vector<Judged> judged_by_ideal(const IdealSpec& spec, double acceleration,
 struct IdealCounts {
   double counts = 0.0, reached = 0.0, carried = 0.0, followed = 0.0, within = 0.0, ours = 0.0;
 };
-IdealCounts counts_of(const std::vector<Judged>& all, const std::vector<ReachOutcome>& wall) {
+IdealCounts counts_of(const std::vector<ReachVerdict>& all, const std::vector<ReachOutcome>& wall) {
   IdealCounts sum;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].counts) continue;
@@ -269,7 +271,7 @@ IdealCounts counts_of(const std::vector<Judged>& all, const std::vector<ReachOut
 void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   const BenchContext& context = bench.context;
   const models::Setup setup = load_scene(context, "wall");
-  const bool reach = setup.rig.tracker.foresight == Foresight::reach;  // the scene's motion prediction
+  const bool reach = setup.rig.tracker.foresight == TouchPrediction::reach;  // the scene's motion prediction
   const double acceleration = reach ? setup.rig.arm.reach_acceleration : setup.rig.arm.acceleration;
   IdealSpec spec;
   spec.hand = setup.twin.hand;
@@ -300,8 +302,8 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
 }
 
 // Distribution of the time in which finger and prop come to where they meet.
-Plot lead_plot(const std::vector<ReachRan>& ran, Seen how) {
-  Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
+Plot lead_plot(const std::vector<ReachResult>& ran, FingerTracking how) {
+  Plot plot{how == FingerTracking::live ? "reaching_lead_live" : "reaching_lead",
             std::string("From \"prepare\" until they meet; the finger is ") + name_of(how), "time (ms)",
             "reaches (%)"};
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
@@ -324,23 +326,23 @@ Plot lead_plot(const std::vector<ReachRan>& ran, Seen how) {
 void random_part(Bench& bench) {
   const BenchContext& context = bench.context;
   double far = 0.0;
-  for (const Seen how : {Seen::vision, Seen::live}) {
-    const std::vector<ReachRan> ran = random_runs(context, how);
-    for (const ReachRan& one : ran) {
+  for (const FingerTracking how : {FingerTracking::vision, FingerTracking::live}) {
+    const std::vector<ReachResult> ran = random_runs(context, how);
+    for (const ReachResult& one : ran) {
       far = std::max(far, one.far_speed);
       bench.result.simulated += one.simulated;
     }
     // The bound for vision is a quarter below the measured value, because 60 random reaches scatter.
     bench.figure(key_of(how) + "lead_percent", 100.0 * in_time(joined(ran)), "%",
-                 at_least(context.quick       ? kUnset
-                          : how == Seen::live ? 95.0
-                                              : 50.0),
-                 how == Seen::live
+                 at_least(context.quick                 ? kUnset
+                          : how == FingerTracking::live ? 95.0
+                                                        : 50.0),
+                 how == FingerTracking::live
                      ? "of the reaches in which the machine is within 2 mm of where it is met before it is "
                        "met: the finger is seen live, so that the machine's travel alone counts"
                      : "the same of a finger that vision sees at 20 Hz, 50 ms late");
     random_figures(bench, ran, how, !context.quick);
-    if (how == Seen::vision) add_ideal(bench, of_scene(ran, 0));
+    if (how == FingerTracking::vision) add_ideal(bench, of_scene(ran, 0));
     bench.result.plots.push_back(lead_plot(ran, how));
   }
   bench.figure("far_speed_mm_s", 1e3 * far, "mm/s", at_most(0.1),
@@ -354,7 +356,7 @@ struct Speeds {
 
 constexpr std::array<double, 3> kTilts{0.0, 20.0, 40.0};  // deg
 
-Speeds steady(const BenchContext& context, BenchResult& result, Seen how) {
+Speeds steady(const BenchContext& context, BenchResult& result, FingerTracking how) {
   Speeds speeds{{0.05, 0.1, 0.2}, {}};
   if (!context.quick) speeds.each = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
   std::vector<ReachRun> runs;
@@ -366,12 +368,12 @@ Speeds steady(const BenchContext& context, BenchResult& result, Seen how) {
                                                    : 7,  // reaches for each of three tilts: 21 have a p95
                                     context.seed) +
                      seen(how));
-  const std::vector<ReachRan> ran = run_all(context, runs);
+  const std::vector<ReachResult> ran = run_all(context, runs);
   for (std::size_t i = 0; i < speeds.each.size(); ++i) {
     const auto from = ran.begin() + static_cast<std::ptrdiff_t>(i * kTilts.size());
     speeds.reaches.push_back(joined({from, from + kTilts.size()}));
   }
-  for (const ReachRan& one : ran) result.simulated += one.simulated;
+  for (const ReachResult& one : ran) result.simulated += one.simulated;
   return speeds;
 }
 
@@ -385,7 +387,7 @@ Series over_speed(const std::string& name, const Speeds& speeds, double share, d
 }
 
 // The miss at 50 to 200 mm/s.
-void add_miss_figures(Bench& bench, const Speeds& speeds, Seen how) {
+void add_miss_figures(Bench& bench, const Speeds& speeds, FingerTracking how) {
   for (std::size_t i = 0; i < speeds.each.size(); ++i) {
     const double v = speeds.each[i];
     if (v < 0.05 || v > 0.2) continue;
@@ -411,7 +413,7 @@ void speed_part(Bench& bench) {
               "force (N)",
               true,
               true};
-  for (const Seen how : {Seen::vision, Seen::live}) {
+  for (const FingerTracking how : {FingerTracking::vision, FingerTracking::live}) {
     const Speeds speeds = steady(bench.context, bench.result, how);
     add_miss_figures(bench, speeds, how);
     const bool enough = models::has_percentile(misses(speeds.reaches.front()).size(), 0.95);
@@ -443,11 +445,11 @@ void slide_part(Bench& bench) {
             "error (mm)",
             true,
             true};
-  for (const Seen how : {Seen::vision, Seen::live}) {
+  for (const FingerTracking how : {FingerTracking::vision, FingerTracking::live}) {
     std::vector<ReachRun> runs;
     runs.reserve(speeds.size());
     for (const double v : speeds) runs.push_back(slide(v, context.full ? 5 : 1, context.seed) + seen(how));
-    const std::vector<ReachRan> ran = run_all(context, runs);
+    const std::vector<ReachResult> ran = run_all(context, runs);
     Series series{name_of(how)};
     series.mark = Mark::both;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
@@ -484,7 +486,7 @@ std::vector<ReachRun> rest_runs(const BenchContext& context, const std::vector<F
     for (int i = 0; i < people; ++i)
       runs.push_back(
           random_reaches("wall", context.full ? 8 : 4, context.seed + static_cast<std::uint64_t>(i)) +
-          seen(Seen::vision) + set_of(f));
+          seen(FingerTracking::vision) + set_of(f));
   return runs;
 }
 
@@ -509,7 +511,7 @@ void add_rest(Bench& bench) {
   const BenchContext& context = bench.context;
   const std::vector<Friction> all = frictions(context);
   const int people = context.full ? 8 : 1;
-  const std::vector<ReachRan> ran = run_all(context, rest_runs(context, all, people));
+  const std::vector<ReachResult> ran = run_all(context, rest_runs(context, all, people));
   Table table{"reaching_rest",
               "Speed of the far tip, over the friction of the joints and how it sets in",
               {"friction (N m)", "sets in (ms)", "time step (us)", "reaches", "at most (mm/s)"}};

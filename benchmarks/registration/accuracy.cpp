@@ -12,17 +12,17 @@ namespace enc::bench::registration {
 namespace {
 
 // Results of one seed for every combination.
-struct OneSeed {
+struct SeedResult {
   std::vector<models::Registration> found;
   std::vector<double> seconds;
 };
 
-OneSeed run_seed(const trial::RegistrationRig& rig, const std::vector<trial::TipVisit>& visits,
-                 const AccuracyStudy& study, std::uint64_t seed) {
+SeedResult run_seed(const trial::RegistrationRig& rig, const std::vector<trial::TipVisit>& visits,
+                    const AccuracyStudy& study, std::uint64_t seed) {
   const std::size_t most_frames = visits.front().frames.size();
   const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, seed);
   if (run.unseen > 0) throw Error("a place was not seen; expected all in view; see truth.camera");
-  OneSeed one;
+  SeedResult one;
   for (const std::size_t pairs : study.pairs)
     for (const std::size_t frames : study.frames) {
       const models::PointSet used(run.points.begin(),
@@ -66,7 +66,7 @@ std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig, const tria
     throw Error(
         "the camera sees fewer places of the arm than are wanted; expected its view on the arm; see "
         "frames.W_C");
-  std::vector<OneSeed> seeds(study.seeds);
+  std::vector<SeedResult> seeds(study.seeds);
   in_parallel(
       study.seeds, [&](std::size_t i) { seeds[i] = run_seed(rig, visits, study, study.first_seed + i); },
       progress);
@@ -78,7 +78,7 @@ std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig, const tria
       one.frames = frames;
       one.square.assign(places.targets.size(), 0.0);
       const std::size_t index = all.size();
-      for (const OneSeed& seed : seeds) judge(rig, places, seed.found[index], one);
+      for (const SeedResult& seed : seeds) judge(rig, places, seed.found[index], one);
       for (double& square : one.square) square /= static_cast<double>(study.seeds);
       one.seconds = seeds.front().seconds[index];
       all.push_back(std::move(one));

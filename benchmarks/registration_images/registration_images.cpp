@@ -22,7 +22,7 @@ namespace enc::bench::registration_images {
 namespace {
 
 // One registration.
-struct Asked {
+struct RegistrationCase {
   const sim::CameraModule* camera = nullptr;
   const models::Setup* setup = nullptr;
   const std::vector<trial::TipVisit>* visits = nullptr;
@@ -34,16 +34,16 @@ struct Asked {
 
 // The frames of a place: errors against the truth in the assumed head; px of column, row and disparity, and m
 // along C.
-struct PlaceSeen {
+struct PlaceObservation {
   double depth = kUnset;  // m
   Vec3 bias_px{kUnset, kUnset, kUnset}, scatter_px{kUnset, kUnset, kUnset};
   Vec3 bias{kUnset, kUnset, kUnset}, scatter{kUnset, kUnset, kUnset};
 };
 
-struct Seen {
+struct RegistrationResult {
   Vec3 left_over{kUnset, kUnset, kUnset};  // mean |error| at the pairs, m; NaN: too few places were detected
   Vec3 elsewhere{kUnset, kUnset, kUnset};  // all over the volume in view
-  std::vector<PlaceSeen> places;
+  std::vector<PlaceObservation> places;
   std::size_t frames = 0, found = 0, other = 0;  // other: more than 5 mm from the true place
   std::vector<double> seconds;                   // CPU time of the detection in a pair
 };
@@ -53,7 +53,7 @@ Pose<'W', 'C'> camera_pose(const models::Setup& setup) { return pose_of<'W', 'C'
 // The arm is at rest at a place: it is drawn once, and each frame is exposed with its own noise.
 class StillEyes final : public trial::TipEyes {
  public:
-  explicit StillEyes(const Asked& asked)
+  explicit StillEyes(const RegistrationCase& asked)
       : things_(trial::ball_at_tip(camera_pose(*asked.setup), asked.setup->twin.camera)),
         X_CW_(camera_pose(*asked.setup).inverse()),
         pair_(Rectifier(asked.setup->rig.camera).pair()),
@@ -85,7 +85,7 @@ class StillEyes final : public trial::TipEyes {
   // Stores the detections at the place.
   void finish() {
     if (px_.size() > 1) {
-      PlaceSeen place{depth_};
+      PlaceObservation place{depth_};
       spread(px_, place.bias_px, place.scatter_px);
       spread(off_, place.bias, place.scatter);
       seen.places.push_back(place);
@@ -93,7 +93,7 @@ class StillEyes final : public trial::TipEyes {
     px_.clear();
     off_.clear();
   }
-  Seen seen;
+  RegistrationResult seen;
   staged::Pair pair;
   FoundBall last;
 
@@ -103,7 +103,7 @@ class StillEyes final : public trial::TipEyes {
       stage_->again(frame_++, pair.left, pair.right);
       return;
     }
-    sim::Shown shown;
+    sim::CameraScene shown;
     shown.things = things_(tip);
     stage_->draw(shown, frame_++, pair.left, pair.right);
     drawn_ = true;
@@ -140,11 +140,11 @@ class StillEyes final : public trial::TipEyes {
   std::vector<Vec3> px_, off_;
 };
 
-Seen registered(const Asked& asked) {
+RegistrationResult registered(const RegistrationCase& asked) {
   StillEyes eyes(asked);
   const trial::GuidedRun run = trial::see_visits(*asked.visits, eyes, 0.5);
   eyes.finish();
-  Seen seen = std::move(eyes.seen);
+  RegistrationResult seen = std::move(eyes.seen);
   if (run.points.size() < models::kFewestPairs) return seen;
   const models::Registration found = models::register_points(models::averages(run.points));
   seen.left_over = found.mean_error;
@@ -156,7 +156,7 @@ Seen registered(const Asked& asked) {
 }
 
 // A pair with the detected outline, as a PNG.
-std::string marked_pair(const Asked& asked) {
+std::string marked_pair(const RegistrationCase& asked) {
   StillEyes eyes(asked);
   eyes.see(asked.visits->front().frames.front());
   for (std::size_t side = 0; side < 2; ++side) {
@@ -172,15 +172,16 @@ std::string marked_pair(const Asked& asked) {
 constexpr std::size_t kPairs = 8, kFrames = 20, kFewFrames = 5;
 constexpr const char* kAxisNames = "xyz";
 
-std::vector<double> along(const std::vector<Seen>& all, Vec3 Seen::*what, Eigen::Index axis) {
+std::vector<double> along(const std::vector<RegistrationResult>& all, Vec3 RegistrationResult::*what,
+                          Eigen::Index axis) {
   std::vector<double> values;
   values.reserve(all.size());
-  for (const Seen& one : all) values.push_back((one.*what)(axis)*kMmPerM);
+  for (const RegistrationResult& one : all) values.push_back((one.*what)(axis)*kMmPerM);
   return values;
 }
 
-void add_axes(Bench& bench, const std::string& name, const std::vector<Seen>& all, Vec3 Seen::*what,
-              double paper, const std::string& note) {
+void add_axes(Bench& bench, const std::string& name, const std::vector<RegistrationResult>& all,
+              Vec3 RegistrationResult::*what, double paper, const std::string& note) {
   for (Eigen::Index a = 0; a < 3; ++a) {
     const std::vector<double> values = along(all, what, a);
     const Value value = median_of(values);
@@ -195,17 +196,17 @@ void add_axes(Bench& bench, const std::string& name, const std::vector<Seen>& al
 }
 
 // Over all places of all seeds, px.
-void add_frames(Bench& bench, const std::vector<Seen>& all) {
+void add_frames(Bench& bench, const std::vector<RegistrationResult>& all) {
   constexpr std::array<const char*, 3> kNames{"column", "row", "disparity"};
   std::size_t frames = 0, found = 0, other = 0;
   std::vector<double> seconds;
   std::array<std::vector<double>, 3> bias, scatter;
-  for (const Seen& one : all) {
+  for (const RegistrationResult& one : all) {
     frames += one.frames;
     found += one.found;
     other += one.other;
     seconds.insert(seconds.end(), one.seconds.begin(), one.seconds.end());
-    for (const PlaceSeen& place : one.places)
+    for (const PlaceObservation& place : one.places)
       for (std::size_t i = 0; i < 3; ++i) {
         bias[i].push_back(place.bias_px(static_cast<Eigen::Index>(i)));
         scatter[i].push_back(place.scatter_px(static_cast<Eigen::Index>(i)));
@@ -224,7 +225,7 @@ void add_frames(Bench& bench, const std::vector<Seen>& all) {
   bench.cost("find.time.median", median(seconds) * kMsPerS, "ms", "CPU time of finding the ball in a pair");
 }
 
-Plot over_depth(const std::vector<Seen>& all) {
+Plot over_depth(const std::vector<RegistrationResult>& all) {
   Plot plot{.id = "depth",
             .title = "The ball in the picture: error over its depth",
             .x_label = "depth (mm)",
@@ -233,8 +234,8 @@ Plot over_depth(const std::vector<Seen>& all) {
   Series scatter{.name = "scatter of a frame, along the view", .mark = Mark::points};
   Series bias{.name = "mean of a place, along the view, |error|", .mark = Mark::points};
   Series aside{.name = "mean of a place, across it, |error|", .mark = Mark::points};
-  for (const Seen& one : all)
-    for (const PlaceSeen& place : one.places) {
+  for (const RegistrationResult& one : all)
+    for (const PlaceObservation& place : one.places) {
       scatter.add(place.depth * kMmPerM, place.scatter.z() * kMmPerM);
       bias.add(place.depth * kMmPerM, std::abs(place.bias.z()) * kMmPerM);
       aside.add(place.depth * kMmPerM, place.bias.head<2>().norm() * kMmPerM);
@@ -279,8 +280,8 @@ const std::vector<Variant>& variants() {
 }
 
 // Results of each variant with `seeds` seeds, variant by variant.
-std::vector<Seen> seen_by_variants(Bench& bench, const Asked& base, const std::string& file,
-                                   std::size_t seeds) {
+std::vector<RegistrationResult> seen_by_variants(Bench& bench, const RegistrationCase& base,
+                                                 const std::string& file, std::size_t seeds) {
   std::vector<models::Setup> setups;
   for (const Variant& v : variants()) {
     std::vector<std::string> set = bench.context.set;
@@ -289,7 +290,7 @@ std::vector<Seen> seen_by_variants(Bench& bench, const Asked& base, const std::s
   }
   std::vector<trial::TipVisit> visits = *base.visits;
   for (trial::TipVisit& visit : visits) visit.frames.resize(kFewFrames);
-  std::vector<Asked> all;
+  std::vector<RegistrationCase> all;
   for (std::size_t i = 0; i < variants().size(); ++i)
     for (std::size_t s = 0; s < seeds; ++s) {
       all.push_back(base);
@@ -302,18 +303,18 @@ std::vector<Seen> seen_by_variants(Bench& bench, const Asked& base, const std::s
   return bench.each(all, registered);
 }
 
-std::vector<std::string> row_of(const Variant& variant, const std::vector<Seen>& seen) {
+std::vector<std::string> row_of(const Variant& variant, const std::vector<RegistrationResult>& seen) {
   double frames = 0, found = 0;
   std::size_t other = 0;
   std::vector<double> bias;
-  for (const Seen& one : seen) {
+  for (const RegistrationResult& one : seen) {
     frames += static_cast<double>(one.frames);
     found += static_cast<double>(one.found);
     other += one.other;
-    for (const PlaceSeen& place : one.places) bias.push_back(place.bias_px.z());
+    for (const PlaceObservation& place : one.places) bias.push_back(place.bias_px.z());
   }
   std::vector<std::string> row{variant.name, fixed(100.0 * found / frames, 1), fmt::format("{}", other)};
-  for (Vec3 Seen::*what : {&Seen::left_over, &Seen::elsewhere})
+  for (Vec3 RegistrationResult::*what : {&RegistrationResult::left_over, &RegistrationResult::elsewhere})
     for (Eigen::Index a = 0; a < 3; ++a) {
       const double value = median(along(seen, what, a));
       row.push_back(std::isnan(value) ? "none" : fixed(value, 3));
@@ -322,16 +323,17 @@ std::vector<std::string> row_of(const Variant& variant, const std::vector<Seen>&
   return row;
 }
 
-Table table_of_doubts(Bench& bench, const Asked& base, const std::string& file, std::size_t seeds) {
-  const std::vector<Seen> seen = seen_by_variants(bench, base, file, seeds);
+Table table_of_doubts(Bench& bench, const RegistrationCase& base, const std::string& file,
+                      std::size_t seeds) {
+  const std::vector<RegistrationResult> seen = seen_by_variants(bench, base, file, seeds);
   Table table{
       "doubts",
       "Registration through pictures, five frames at each place: what it depends on, median over seeds",
       {"rig", "frames found (%)", "frames 5 mm off", "left over x (mm)", "y (mm)", "z (mm)",
        "elsewhere x (mm)", "y (mm)", "z (mm)", "bias of a place (px of disparity)"}};
   for (std::size_t i = 0; i < variants().size(); ++i) {
-    const std::vector<Seen> some(seen.begin() + static_cast<std::ptrdiff_t>(i * seeds),
-                                 seen.begin() + static_cast<std::ptrdiff_t>((i + 1) * seeds));
+    const std::vector<RegistrationResult> some(seen.begin() + static_cast<std::ptrdiff_t>(i * seeds),
+                                               seen.begin() + static_cast<std::ptrdiff_t>((i + 1) * seeds));
     table.rows.push_back(row_of(variants()[i], some));
   }
   table.note =
@@ -358,14 +360,14 @@ void run(Bench& bench) {
   trial::DrivenArm arm(setup);
   const std::vector<trial::TipVisit> visits =
       trial::visit_places(arm, places.visited, rig.camera.rate, kFrames);
-  Asked asked{&staged::camera(bench.context), &setup, &visits, &places.targets,
-              staged::test_seed(bench.context)};
-  std::vector<Asked> all(bench.context.count(20, 2), asked);
+  RegistrationCase asked{&staged::camera(bench.context), &setup, &visits, &places.targets,
+                         staged::test_seed(bench.context)};
+  std::vector<RegistrationCase> all(bench.context.count(20, 2), asked);
   for (std::size_t i = 0; i < all.size(); ++i) all[i].seed += i;
-  const std::vector<Seen> seen = bench.each(all, registered);
-  add_axes(bench, "", seen, &Seen::left_over, paper,
+  const std::vector<RegistrationResult> seen = bench.each(all, registered);
+  add_axes(bench, "", seen, &RegistrationResult::left_over, paper,
            "mean |error| at the 8 pairs themselves, 20 frames each: the plain reading of the paper");
-  add_axes(bench, "held_out.", seen, &Seen::elsewhere, paper,
+  add_axes(bench, "held_out.", seen, &RegistrationResult::elsewhere, paper,
            "mean |error| of the same registration all over the volume in view");
   add_frames(bench, seen);
   bench.figure("still.max", most_motion(visits) * kUmPerM, "um", at_most(5.0),

@@ -254,7 +254,7 @@ std::vector<Fact> facts(const Report& report) {
 
 // The tables after the benchmarks, in order. Empty tables are left out.
 std::vector<Table> closing_tables(const Report& report) {
-  const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+  const std::vector<FigureVerdict> all = judged(report.results, report.background.thresholds);
   std::vector<Table> tables{verdict_table(all), threshold_table(all),
                             questionnaire::proxy_table(report.background.items, all), role_table(report),
                             contradiction_table(report.background.contradictions)};

@@ -59,7 +59,7 @@ Json figure_json(const Figure& f) {
           {"cost", f.cost}};
 }
 
-Json judged_json(const Judged& j) {
+Json judged_json(const FigureVerdict& j) {
   const Threshold& t = j.threshold;
   return {{"figure", j.figure.id},
           {"error", number(j.figure.twin)},
@@ -69,7 +69,7 @@ Json judged_json(const Judged& j) {
           {"most", number(t.most)},
           {"over", number(j.over)},
           {"verdict", felt_name(j.felt)},
-          {"paper", j.paper == Felt::not_comparable ? Json(nullptr) : Json(felt_name(j.paper))},
+          {"paper", j.paper == Perception::not_comparable ? Json(nullptr) : Json(felt_name(j.paper))},
           {"compares", t.compares},
           {"rule", t.rule},
           {"source", t.source},
@@ -77,7 +77,7 @@ Json judged_json(const Judged& j) {
 }
 
 void write_whole(const fs::path& path, const std::string& text) {
-  models::write_file(path.string(), text, models::Existing::replace);
+  models::write_file(path.string(), text, models::OverwritePolicy::replace);
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ std::string results_json(const Report& report) {
     json["contradictions"].push_back(
         {{"id", c.id}, {"where", c.where}, {"printed", c.printed}, {"found", c.found}});
   json["verdicts"] = Json::array();
-  for (const Judged& j : judged(report.results, report.background.thresholds))
+  for (const FigureVerdict& j : judged(report.results, report.background.thresholds))
     json["verdicts"].push_back(judged_json(j));
   return json.dump(2) + "\n";
 }
@@ -169,7 +169,7 @@ void write_report(const std::string& folder, const Report& report) {
     for (const Picture& picture : result.pictures) write_whole(at / (picture.id + ".png"), picture.png);
   }
   if (!report.verdict.y_names.empty()) {
-    const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+    const std::vector<FigureVerdict> all = judged(report.results, report.background.thresholds);
     for (const Table& table : {verdict_table(all), threshold_table(all)})
       write_whole(at / (table.id + ".csv"), table_csv(table));
     write_plot(report.verdict);

@@ -95,7 +95,7 @@ class Judges {
       for (const auto& each : peers_) each->learn(image.view());
     }
   }
-  void judge(const Pair& pair, Judged& judged, bool keeps) {
+  void judge(const Pair& pair, PairResult& judged, bool keeps) {
     Mask found(kWidth, kHeight);
     const Mask& truth = pair.truth.skin;
     judged.by[nothing] = compare(found, truth);
@@ -155,13 +155,13 @@ SegmentationPair Material::pair() const {
   return pair;
 }
 
-std::vector<Judged> judge(const Place& place) {
+std::vector<PairResult> judge(const Place& place) {
   Scene scene(place);
   Judges judges(place, scene.background());
-  std::vector<Judged> all;
+  std::vector<PairResult> all;
   for (const Take& take : place.takes) {
     const Pair& pair = scene.take(take);
-    Judged judged{.take = take, .hand = Scene::share(pair)};
+    PairResult judged{.take = take, .hand = Scene::share(pair)};
     judges.judge(pair, judged, place.keeps);
     if (place.keeps) {
       judged.shown.background = scene.background().back();
@@ -203,9 +203,9 @@ std::string interval_text(const Mean& share, int digits) {
   return fmt::format("{:.{}f}..{:.{}f}", percent.least, digits, percent.most, digits);
 }
 
-Score score(std::span<const Judged> pairs, Method method, const Filter& of) {
+Score score(std::span<const PairResult> pairs, Method method, const Filter& of) {
   std::vector<double> correct, positives, negatives, iou;
-  for (const Judged& pair : pairs) {
+  for (const PairResult& pair : pairs) {
     const auto& found = pair.by[method];
     if (!found || (of && !of(pair))) continue;
     correct.push_back(found->correct());
@@ -220,7 +220,7 @@ double apart(const Mean& a, const Mean& b) {
   return std::abs(a.value - b.value) / std::sqrt(a.half * a.half + b.half * b.half);
 }
 
-void add_rows(Table& table, const std::string& row, std::span<const Judged> pairs, const Filter& of) {
+void add_rows(Table& table, const std::string& row, std::span<const PairResult> pairs, const Filter& of) {
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
     const Score s = score(pairs, static_cast<Method>(i), of);
     if (s.pairs > 0)

@@ -42,17 +42,17 @@ struct Place {
   bool keeps = false;  // its images
 };
 
-struct Shown {
+struct PairImages {
   Image background, image;
   Mask truth, published, ours;
 };
-struct Judged {
+struct PairResult {
   Take take;
   double hand = 0.0;                                           // share of the frame
   std::array<std::optional<Confusion>, kMethods.size()> by{};  // none: not there
-  Shown shown{};
+  PairImages shown{};
 };
-[[nodiscard]] std::vector<Judged> judge(const Place& place);
+[[nodiscard]] std::vector<PairResult> judge(const Place& place);
 
 // The stored input of a segmenter: frames to learn from and frames to segment.
 struct Material {
@@ -84,14 +84,14 @@ struct Score {
   std::size_t pairs = 0;
   Mean correct, false_positives, false_negatives, iou;  // shares
 };
-using Filter = std::function<bool(const Judged&)>;
-[[nodiscard]] Score score(std::span<const Judged> pairs, Method method, const Filter& of = nullptr);
+using Filter = std::function<bool(const PairResult&)>;
+[[nodiscard]] Score score(std::span<const PairResult> pairs, Method method, const Filter& of = nullptr);
 
 // Distance between the means of two sets, as a share of the 95 % interval of their difference.
 [[nodiscard]] double apart(const Mean& a, const Mean& b);
 
 // A line for each available method.
-void add_rows(Table& table, const std::string& row, std::span<const Judged> pairs,
+void add_rows(Table& table, const std::string& row, std::span<const PairResult> pairs,
               const Filter& of = nullptr);
 
 }  // namespace enc::bench::segmentation

@@ -356,10 +356,10 @@ std::vector<Place> of_rows(const Place& like, std::uint64_t seed, std::size_t co
   return places;
 }
 
-std::vector<Judged> judged(Bench& bench, const std::vector<Place>& places) {
-  std::vector<Judged> all;
+std::vector<PairResult> judged(Bench& bench, const std::vector<Place>& places) {
+  std::vector<PairResult> all;
   for (auto& cell : bench.each(places, judge))
-    for (Judged& each : cell) all.push_back(std::move(each));
+    for (PairResult& each : cell) all.push_back(std::move(each));
   return all;
 }
 
@@ -386,26 +386,26 @@ void tell(Bench& bench, const std::string& id, const Score& s, const std::string
                what + ": skin and what was found, intersection over union");
 }
 
-void judge_paper(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
+void judge_paper(Bench& bench, Table& table, const std::vector<PairResult>& pairs) {
   tell(bench, "published", score(pairs, published), "the published method on pairs of the paper's kind",
        true);
   tell(bench, "ours", score(pairs, ours), "our method on the same pairs", false);
   double least = 1.0;
-  for (const Judged& pair : pairs) least = std::min(least, pair.hand);
+  for (const PairResult& pair : pairs) least = std::min(least, pair.hand);
   bench.figure("hand.min", 1e2 * least, "%", at_least(1e2 * kLeastHand),
                "share of the frame that is skin, by truth");
   add_rows(table, "office", pairs);
   for (const sim::SkinTone& tone : sim::kSkinTones)
     add_rows(table, fmt::format("office, {}", word_of(tone.tone)), pairs,
-             [&](const Judged& pair) { return pair.take.tone == tone.tone; });
+             [&](const PairResult& pair) { return pair.take.tone == tone.tone; });
   for (const char* light : {"steady", "changed"})
     add_rows(table, fmt::format("office, {} light", light), pairs,
-             [&](const Judged& pair) { return pair.take.row == light; });
+             [&](const PairResult& pair) { return pair.take.row == light; });
 }
 
-void judge_rows(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
+void judge_rows(Bench& bench, Table& table, const std::vector<PairResult>& pairs) {
   for (const Row& row : kRows) {
-    const auto of = [&](const Judged& pair) { return pair.take.row == row.id; };
+    const auto of = [&](const PairResult& pair) { return pair.take.row == row.id; };
     const Score theirs = score(pairs, published, of), own = score(pairs, ours, of);
     bench.figure(fmt::format("{}.published.correct.mean", row.id), in_percent(theirs.correct), "%",
                  fmt::format("{}: the published method", row.title));
@@ -419,8 +419,8 @@ void judge_rows(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
 }
 
 // Seeds that were not used during development: the results must be equal but for chance.
-void judge_never_seen(Bench& bench, Table& table, const std::vector<Judged>& seen,
-                      const std::vector<Judged>& fresh) {
+void judge_never_seen(Bench& bench, Table& table, const std::vector<PairResult>& seen,
+                      const std::vector<PairResult>& fresh) {
   add_rows(table, "office, seeds never looked at", fresh);
   struct Line {
     const char* id;
@@ -456,14 +456,14 @@ Image smaller(const Image& image) {
   return half;
 }
 
-void show(Bench& bench, const std::vector<Judged>& paper, const std::vector<Judged>& rows) {
-  const Shown& first = paper.front().shown;
+void show(Bench& bench, const std::vector<PairResult>& paper, const std::vector<PairResult>& rows) {
+  const PairImages& first = paper.front().shown;
   bench.picture({"fig2", "Segmentation",
                  "Background, image, and its skin by the published method [VisHap Fig 2].",
                  png({smaller(first.background), smaller(first.image), smaller(image_of(first.published))})});
   for (const Row& row : kRows) {
-    const auto at =
-        std::find_if(rows.begin(), rows.end(), [&](const Judged& pair) { return pair.take.row == row.id; });
+    const auto at = std::find_if(rows.begin(), rows.end(),
+                                 [&](const PairResult& pair) { return pair.take.row == row.id; });
     bench.picture({fmt::format("row_{}", row.id), fmt::format("Segmentation: {}", row.title),
                    "Image, its skin by the published method, and by ours.",
                    png({smaller(at->shown.image), smaller(image_of(at->shown.published)),

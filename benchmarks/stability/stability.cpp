@@ -22,17 +22,17 @@ namespace {
 
 // Effect of MuJoCo's integrators on the boundary of a sampled wall [sources/twin 1].
 
-struct Stepped {
+struct SteppedLoop {
   Scheme scheme;
   int steps;
   double delay;  // s
 };
-struct Moved {
+struct MarginShift {
   double factor = kUnset, expected = kUnset;  // factors on the critical stiffness
 };
 
 // (T/2 + t_d)/(T/2 + t_d - h/2) for the first-order integrators: their position is that of half a step later.
-Moved moved_by(const Stepped& s) {
+MarginShift moved_by(const SteppedLoop& s) {
   const Device device{0.1, 0.2, 1e-3, s.delay};
   const double exact = certificate::critical_stiffness(loop_of(device)), lag = 0.5e-3 + s.delay;
   const double gained = s.scheme == Scheme::rk4 ? 0.0 : 0.5e-3 / s.steps;
@@ -47,7 +47,7 @@ std::string in_mm(double per_metre) {
 }
 
 // N/mm; empty if the certificate has no such row.
-std::string told(const trial::Certified& one, const char* name, double certificate::Row::*of) {
+std::string told(const trial::ObjectCertificate& one, const char* name, double certificate::Row::*of) {
   for (const certificate::Row& row : one.certificate.rows)
     if (row.name == name) return sign_of(row.side) + in_mm(row.*of);
   return {};
@@ -171,7 +171,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-struct Found {
+struct StabilityResult {
   double predicted = kUnset, formula = kUnset;
   double at[3] = {kUnset, kUnset, kUnset};  // at 1, 2, 10 steps a period; unset: no whole number of them
   double error = 0.0;                       // %, the largest
@@ -180,8 +180,8 @@ struct Found {
 };
 constexpr int kSteps[] = {1, 2, 10};
 
-Found find(const Case& of, bool quick) {
-  Found found;
+StabilityResult find(const Case& of, bool quick) {
+  StabilityResult found;
   const certificate::Damper damper{of.damper, 0.0};
   found.predicted = certificate::critical_stiffness(loop_of(of.device), damper);
   for (const certificate::Row& row : certificate::bounds(loop_of(of.device), {0.0, 0.0}, {1.0, damper}))
@@ -200,7 +200,7 @@ Found find(const Case& of, bool quick) {
   return found;
 }
 
-void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<Found>& found) {
+void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<StabilityResult>& found) {
   Table table{"critical",
               "Critical stiffness: eigenvalues, MuJoCo, Gil and Hulin's formula",
               {"mass (kg)", "b (N s/m)", "B (N s/m)", "T (ms)", "delay (ms)", "hand", "eigenvalues (N/m)",
@@ -208,7 +208,7 @@ void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<Fou
   const auto number = [](double x) { return std::isnan(x) ? std::string("-") : fmt::format("{:.5g}", x); };
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Device& d = all[i].device;
-    const Found& f = found[i];
+    const StabilityResult& f = found[i];
     table.add(d.mass, d.damping, all[i].damper, d.period * 1e3, d.delay * 1e3,
               d.hand_spring > 0.0 ? "yes" : "no", number(f.predicted), number(f.at[0]), number(f.at[1]),
               number(f.at[2]), number(f.formula), fixed(f.error, 3));
@@ -218,7 +218,7 @@ void add_table(Bench& bench, const std::vector<Case>& all, const std::vector<Fou
 }
 
 // The formula against the result, with and without its own condition.
-void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<Found>& found) {
+void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<StabilityResult>& found) {
   double within = 0.0, late = 0.0, beyond = 0.0;
   int applied = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -352,7 +352,7 @@ void add_linear_cases(Bench& bench) {
   if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // T/10 is not possible
   const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
   double worst = 0.0, judged = 0.0;
-  for (const Found& f : found) {
+  for (const StabilityResult& f : found) {
     worst = worse(worst, f.error);
     judged += f.judged > 0 && std::isfinite(f.error) ? 1.0 : 0.0;
   }
@@ -368,7 +368,7 @@ void add_linear_cases(Bench& bench) {
 
 // Effect of each integrator on the boundary.
 void add_integrators(Bench& bench) {
-  std::vector<Stepped> all;
+  std::vector<SteppedLoop> all;
   for (const Scheme scheme : kSchemes)
     for (const int steps : {1, 2, 10})
       for (const double delay : {0.0, 1e-3, 2e-3, 5e-3}) all.push_back({scheme, steps, delay});
@@ -410,9 +410,9 @@ void add_scenes(Bench& bench) {
     const models::Setup setup = models::load(models + "/scenes/" + name + ".toml", {});
     const Scene scene = trial::prepare_setup(setup);
     const double start = thread_seconds();
-    const std::vector<trial::Certified> found = trial::certificates_of(setup, scene, true);
+    const std::vector<trial::ObjectCertificate> found = trial::certificates_of(setup, scene, true);
     most = std::max(most, thread_seconds() - start);
-    for (const trial::Certified& one : found) {
+    for (const trial::ObjectCertificate& one : found) {
       using certificate::Row;
       ++objects;
       beyond += one.beyond() ? 1.0 : 0.0;

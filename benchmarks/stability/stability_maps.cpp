@@ -173,12 +173,12 @@ struct Cell {
   Device device;
   double stiffness = 1000.0, x0 = 1e-3;
 };
-struct Judged {
+struct PredictionOutcome {
   certificate::Rest predicted = certificate::Rest::unknown;
   Outcome outcome = Outcome::away;
 };
 
-Judged judge(const Cell& cell) {
+PredictionOutcome judge(const Cell& cell) {
   const Device& d = cell.device;
   return {certificate::release(loop_of(d), steps_of(d), cell.stiffness, 0.0, cell.x0).rest,
           let_go(d, {cell.stiffness, 0.0}, kFine, cell.x0)};
@@ -373,11 +373,11 @@ using certificate::Rest;
 // A machine that measures force: the rendered stiffness over dead time, period and grip. Predicted by the
 // large-signal loop of core/control/scene/steadiness.h, spot checks by the twin.
 
-struct Pushed {
+struct PushCase {
   const char* name;
   double stiffness, damping;  // N/m, N s/m
 };
-constexpr std::array<Pushed, 3> kHands{
+constexpr std::array<PushCase, 3> kHands{
     {{"0.13 N/mm", 130.0, 2.0}, {"0.7 N/mm", 700.0, 4.0}, {"2 N/mm", 2000.0, 8.0}}};
 constexpr std::array kTicks{0.1e-3, 1e-3, 10e-3};  // s
 constexpr std::size_t kOwn = 1;                    // index of the machine's own value: the twin runs with it
@@ -386,7 +386,7 @@ constexpr double kPushDepth = 15e-3, kPushForce = 30.0,
 constexpr double kAway = 20e-3;       // m, of the tip
 constexpr std::size_t kEnough = 60;   // places: with fewer, one or two beside the boundary are more than 5 %
 
-models::Setup pushed_setup(const BenchContext& context, const Pushed& hand, double period, double delay) {
+models::Setup pushed_setup(const BenchContext& context, const PushCase& hand, double period, double delay) {
   models::Setup setup =
       stiffness::push_setup(context.models, {},
                             {fmt::format("truth.pusher.stiffness_N_per_mm={}", hand.stiffness * 1e-3),
@@ -536,7 +536,7 @@ void add_admittance_map(Bench& bench) {
   };
   std::vector<std::string> titles;
   std::vector<Cell> all;
-  for (const Pushed& hand : kHands)
+  for (const PushCase& hand : kHands)
     for (const double period : kTicks) {
       for (std::size_t delay = 0; delay < kDelays.size(); ++delay)
         for (const double stiffness : stiffnesses(bench.context))

@@ -26,7 +26,7 @@ constexpr double kPeak = 8.5;  // N, limit of a PHANToM
 constexpr Stepping kTenths{Scheme::rk4, 10};
 
 // A wall that only pushes outwards, up to the machine's limit.
-struct Rendered {
+struct RenderedWall {
   Device device;
   Wall wall;
   bool controlled = false, limited = true;
@@ -35,7 +35,7 @@ struct Rendered {
 
 class Loop {
  public:
-  explicit Loop(const Rendered& r) : r_(r), slide_(r.device, {}, kTenths, 1.0) {}
+  explicit Loop(const RenderedWall& r) : r_(r), slide_(r.device, {}, kTenths, 1.0) {}
 
   void throw_from(double x, double speed) {
     slide_.throw_from(x, speed);
@@ -89,7 +89,7 @@ class Loop {
     return push;
   }
 
-  Rendered r_;
+  RenderedWall r_;
   Slide slide_;
   Passivity energy_;
   double before_ = 0.0, contact_ = 0.0, given_ = 0.0;
@@ -98,16 +98,16 @@ class Loop {
 };
 
 // Results of many bounces.
-struct Bounced {
+struct BounceResult {
   double given = 0.0;   // J: largest energy out less energy in, at any moment of a contact
   double kept = -1.0;   // J: the largest at the end of a contact
   double parted = 0.0;  // speed after the bounce over the speed before, mean
 };
-Bounced bounce(const Rendered& r, int times, double slowest, double fastest) {
+BounceResult bounce(const RenderedWall& r, int times, double slowest, double fastest) {
   std::mt19937_64 draw(20);
   std::uniform_real_distribution<double> even(0.0, 1.0);
   Loop loop(r);
-  Bounced all;
+  BounceResult all;
   for (int i = 0; i < times; ++i) {
     const double speed = slowest + (fastest - slowest) * even(draw);
     loop.throw_from(speed * r.device.period * even(draw), -speed);
@@ -125,7 +125,7 @@ Bounced bounce(const Rendered& r, int times, double slowest, double fastest) {
 }
 
 // Presses against the wall with 1 N for `seconds`: largest energy output in one contact, J.
-double pressed(const Rendered& r, double seconds) {
+double pressed(const RenderedWall& r, double seconds) {
   Loop loop(r);
   loop.throw_from(2e-3, 0.0);
   for (int i = 0; i < std::lround(seconds / r.device.period); ++i) loop.period(-1.0);
@@ -140,11 +140,11 @@ double beyond(double damping) {
 
 struct Row {
   double damping = 0.2, stiffness = 0.0, count = 0.0;
-  Bounced off{}, on{};
+  BounceResult off{}, on{};
   double off_pressed = 0.0, on_pressed = 0.0;
 };
 Row measured(Row row, bool quick) {
-  Rendered r{{0.1, row.damping, 1e-3}, {row.stiffness, 0.0}};
+  RenderedWall r{{0.1, row.damping, 1e-3}, {row.stiffness, 0.0}};
   r.device.count = row.count;
   const int times = quick ? 100 : 1000;
   row.off = bounce(r, times, 0.02, 0.3);
@@ -162,7 +162,7 @@ Row measured(Row row, bool quick) {
 // Gain of speed at a wall that is held for a period against one that follows continuously, % [fidelity d1:
 // 0.1 kg at 0.2 m/s, damping ratio 0.1].
 double gained(double stiffness, bool controlled) {
-  Rendered r{{0.1, 0.0, 1e-3}, {stiffness, 0.2 * std::sqrt(0.1 * stiffness)}, controlled, false};
+  RenderedWall r{{0.1, 0.0, 1e-3}, {stiffness, 0.2 * std::sqrt(0.1 * stiffness)}, controlled, false};
   const double held = bounce(r, 200, 0.2, 0.2).parted;
   r.controlled = false;
   r.device.period = 1e-5;
@@ -290,7 +290,7 @@ void add_ball(Bench& bench) {
 
 // J: energy out of a contact less energy in, largest at any moment of all contacts: from true forces and
 // paths, along the normal and across it.
-struct GivenOut {
+struct EnergySurplus {
   double along = 0.0, across = 0.0;
 };
 
@@ -306,15 +306,15 @@ class ContactWork {
       now_ = {now_.along - along, now_.across - (mean.dot(way) - along)};
       most_ = {std::max(most_.along, now_.along), std::max(most_.across, now_.across)};
     } else {
-      now_ = GivenOut{};
+      now_ = EnergySurplus{};
     }
     tip_ = tip;
     force_ = force;
   }
-  [[nodiscard]] const GivenOut& most() const { return most_; }
+  [[nodiscard]] const EnergySurplus& most() const { return most_; }
 
  private:
-  GivenOut now_, most_;
+  EnergySurplus now_, most_;
   Vec3 tip_ = Vec3::Zero(), force_ = Vec3::Zero();
 };
 
@@ -322,7 +322,7 @@ struct Lesson {
   std::string scene;
   std::uint64_t seed;
   bool controlled;
-  GivenOut given{};
+  EnergySurplus given{};
 };
 
 // Scenes that ship, with their hands that reach, bounce and tremble.
@@ -347,10 +347,10 @@ void add_sessions(Bench& bench) {
     return lesson;
   });
   for (const char* scene : {"session", "training"}) {
-    std::array<GivenOut, 2> most;
+    std::array<EnergySurplus, 2> most;
     for (const Lesson& one : lessons) {
       if (one.scene != scene) continue;
-      GivenOut& all = most.at(one.controlled ? 1 : 0);
+      EnergySurplus& all = most.at(one.controlled ? 1 : 0);
       all = {worse(all.along, one.given.along), worse(all.across, one.given.across)};
     }
     const std::string key = std::string("spare.") + scene;

@@ -25,7 +25,7 @@ namespace {
 
 struct RigLevel {
   double stiffness;  // N/m
-  OnRig on;
+  RigScene on;
   std::string refused{};  // why its certificate refuses it; empty: it is pushed
   Level rig{}, twin{};
   [[nodiscard]] std::string name() const { return fmt::format("{:g}", stiffness / kNewtonPerMillimetre); }
@@ -34,7 +34,7 @@ struct RigLevel {
 // Checks the certificate as a run with a real machine does, before any motion.
 std::string certificate_refuses(const models::Setup& setup) {
   if (!trial::slots_of(setup).machine) return {};
-  for (const trial::Certified& one : trial::certificates_of(setup, trial::prepare_setup(setup)))
+  for (const trial::ObjectCertificate& one : trial::certificates_of(setup, trial::prepare_setup(setup)))
     if (std::string why = trial::refusal_text(setup, one); !why.empty()) return why;
   return {};
 }
@@ -42,7 +42,7 @@ std::string certificate_refuses(const models::Setup& setup) {
 RigLevel planned_level(const BenchContext& context, double stiffness) {
   std::vector<std::string> own{"rig.force.tare=start"};  // as in the paper
   if (context.quick) own.emplace_back("pusher.hold_s=4");
-  const OnRig any = on_rig(context, "stiffness", own);
+  const RigScene any = on_rig(context, "stiffness", own);
   const SceneSpec& scene = any.setup.scene;
   std::vector<std::string> held{fmt::format("behaviour.{}.stiffness_N_per_mm={:g}",
                                             scene.behaviours[pushed_behaviour(scene)].name,

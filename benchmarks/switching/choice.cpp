@@ -54,11 +54,11 @@ double share_right(const BenchContext& context, int queries) {
 
 // Tracking of a finger at rest: exact, each tick; or by vision, 20 pictures a second that arrive 50 ms old,
 // predicted by the scene's filter.
-enum class Shown : std::uint8_t { each_tick, pictures };
+enum class FingerTracking : std::uint8_t { each_tick, pictures };
 struct Chatter {
   const char* name;
   Point<'W'> middle;
-  Shown shown = Shown::each_tick;
+  FingerTracking shown = FingerTracking::each_tick;
   std::vector<double> per_second = {};
 };
 
@@ -78,7 +78,7 @@ double switches_per_second(Scene scene, double hysteresis, const Chatter& finger
   scene.follow.hysteresis = hysteresis;
   trial::FingerLoop loop(std::move(scene));
   std::mt19937_64 random(seed);
-  const bool pictures = finger.shown == Shown::pictures;
+  const bool pictures = finger.shown == FingerTracking::pictures;
   std::normal_distribution<double> bell(0.0, pictures ? kSeenNoise : kNoise);
   int count = 0;
   std::int32_t before = -1;
@@ -102,14 +102,15 @@ std::vector<Chatter> all_chatter(const BenchContext& context, const std::vector<
   const Scene keypad = bare_scene(context), whole = trial::prepare_setup(load_scene(context, "keypad"));
   // 12 mm over the gap between two keys: a finger that searches for the next one.
   const Point<'W'> gap(0.010, 0.010, 0.012);
-  std::vector<Chatter> cases{{"two balls that face each other", {0, 0, 0}},
-                             {"two keys side by side", gap},
-                             {"the same, 20 pictures a second, and 60 ms ahead", gap, Shown::pictures}};
+  std::vector<Chatter> cases{
+      {"two balls that face each other", {0, 0, 0}},
+      {"two keys side by side", gap},
+      {"the same, 20 pictures a second, and 60 ms ahead", gap, FingerTracking::pictures}};
   for (Chatter& one : cases) {
     one.per_second.resize(hysteresis.size());
     const bool balls = &one == &cases.front();
     in_parallel(hysteresis.size(), [&](std::size_t i) {
-      const Scene& keys = one.shown == Shown::pictures ? whole : keypad;
+      const Scene& keys = one.shown == FingerTracking::pictures ? whole : keypad;
       one.per_second[i] =
           switches_per_second(balls ? facing(keypad) : keys, hysteresis[i], one, seconds, context.seed);
     });
@@ -165,7 +166,7 @@ Ticks timed_ticks(const BenchContext& context, std::size_t count, Yardstick& yar
     if (i % 10 != 0) continue;
     yardstick.measure();
     const double start = thread_seconds();
-    const Nearby all = brute_force(loop.scene, p);
+    const NearestObject all = brute_force(loop.scene, p);
     timed.all_s.push_back(thread_seconds() - start);
     const double chosen = distance_to(loop.scene, loop.out.object, p);
     // An object in contact stays chosen until the finger has left it.

@@ -60,9 +60,9 @@ void fill_with_crowd(Scene& scene, std::size_t count, std::uint64_t seed) {
   for (std::size_t i = 0; i < count; ++i) scene.objects.push_back(crowd.next(i));
 }
 
-Nearby brute_force(const Scene& scene, const Point<'W'>& p) {
+NearestObject brute_force(const Scene& scene, const Point<'W'>& p) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  Nearby best{-1, kFar, kFar};
+  NearestObject best{-1, kFar, kFar};
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const double distance = object.surface.nearest(object.X_WO.inverse() * p).distance;
@@ -79,7 +79,7 @@ std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, doubl
   double least = radius;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    const Nearest at = object.surface.nearest(object.X_WO.inverse() * p);
+    const SurfacePoint at = object.surface.nearest(object.X_WO.inverse() * p);
     const bool button = std::holds_alternative<Button>(object.surface.shape());
     if (at.distance > least || (button && at.feature == kButtonSide)) continue;
     if (touched >= 0 && at.distance == least) continue;  // the first of equals

@@ -15,12 +15,12 @@ inline constexpr double kCrowdRoom = 0.3;  // m: half the side of the cube that 
 void fill_with_crowd(Scene& scene, std::size_t count, std::uint64_t seed);
 
 // The nearest object by testing each, without bounds; the first of several that are equally near.
-struct Nearby {
+struct NearestObject {
   std::int32_t object = -1;
   double distance = kUnset;
   double next = kUnset;  // distance of the second nearest
 };
-[[nodiscard]] Nearby brute_force(const Scene& scene, const Point<'W'>& p);
+[[nodiscard]] NearestObject brute_force(const Scene& scene, const Point<'W'>& p);
 
 // The nearest object for an arm's finger of this radius: first of all those that it touches, a button on its
 // face alone.

@@ -56,7 +56,7 @@ Row slide_row(const BenchContext& context, const std::string& key) {
     before = object;
     force = now;
     if (now < kFelt) continue;
-    const Nearby meant = brute_force(trial.scene(), truth.tool_tip);
+    const NearestObject meant = brute_force(trial.scene(), truth.tool_tip);
     row.meant += 1.0;
     row.felt += meant.object == object ? 1.0 : 0.0;
   }
@@ -287,7 +287,7 @@ struct Mean {
 
 // Speed of the drum's surface, m/s, while a finger slides along it, faster than the surface and back, and
 // takes the prop along; and the rendered force, with the tracker that ships.
-struct Running {
+struct DrumRun {
   Mean there, back;   // sum of the prop's own motion and the belt's, as the finger moves with the drum and
                       // against it
   Mean felt;          // speed of the finger, while it is neither dragged nor held
@@ -297,14 +297,14 @@ struct Running {
     return 100.0 * std::max(std::abs(there.value() / wanted - 1.0), std::abs(back.value() / wanted - 1.0));
   }
 };
-Running running_surface(const BenchContext& context, std::uint64_t seed,
+DrumRun running_surface(const BenchContext& context, std::uint64_t seed,
                         const std::vector<std::string>& own) {
   trial::Trial trial(shipped(context, "drum", own), {.seed = seed});
   const Object& drum = trial.scene().objects[0];
   const Vec<'W'> way = drum.X_WO * Vec<'O'>(drum.interaction.way);
   const double grip = 0.3 * trial.setup().twin.arm.prop_friction;
   constexpr double kSlides = 0.020;  // m/s
-  Running surface;
+  DrumRun surface;
   double before = 0.0;
   while (trial.tick()) {
     const sim::Truth& truth = trial.world().truth();
@@ -330,19 +330,19 @@ void run_drum(Bench& bench) {
   const BenchContext& context = bench.context;
   const models::Setup setup = shipped(context, "drum");
   const double wanted = trial::prepare_setup(setup).objects[0].prop_speed();
-  std::vector<Running> slides(context.quick ? 1 : kSeeds), rests(slides.size());
+  std::vector<DrumRun> slides(context.quick ? 1 : kSeeds), rests(slides.size());
   in_parallel(slides.size(), [&](std::size_t i) {
     slides[i] = running_surface(context, context.seed + i, {"user.slide_mm=25", "user.slide_mm_s=100"});
     rests[i] = running_surface(context, context.seed + i, {});
   });
   double error = 0.0, step = 0.0, sideways = 0.0;
   Mean felt;
-  for (const Running& slide : slides) {
+  for (const DrumRun& slide : slides) {
     error = std::max(error, slide.error(wanted));
     felt.add(slide.felt.value());
   }
-  for (const std::vector<Running>* runs : {&slides, &rests})
-    for (const Running& one : *runs) {
+  for (const std::vector<DrumRun>* runs : {&slides, &rests})
+    for (const DrumRun& one : *runs) {
       step = std::max(step, one.step);
       sideways = std::max(sideways, one.sideways / one.normal);
     }

@@ -423,7 +423,7 @@ void run_all(SyncStudy& study, const BenchContext& context, double& simulated) {
 }
 
 // Bounds and values in the figure's unit; measurements in SI times `scale`.
-struct Wanted {
+struct FigureRow {
   std::string id;
   const char* unit;
   double scale;
@@ -433,7 +433,7 @@ struct Wanted {
 };
 
 template <class Value>
-void add(BenchResult& result, const SyncGroup& group, const Wanted& w, Value value) {
+void add(BenchResult& result, const SyncGroup& group, const FigureRow& w, Value value) {
   const OverSeeds over = group.over(value);
   Figure f{"synchrony." + w.id, w.paper, over.mean * w.scale, w.unit, w.role, w.low, w.high, w.note};
   f.least = over.least * w.scale;

@@ -51,7 +51,7 @@ MadeLog made_log(const LogSpec& spec, std::uint64_t seed) {
       tracker.advance(t, 0, {Quat::Identity(), tip.position});
       log.time.push_back(now);
       log.tip.push_back(tip.position);
-      Stamped<TrackedTool> packet;
+      Measurement<TrackedTool> packet;
       if (!tracker.poll(packet)) continue;
       const double stamp = seconds(packet.t.time_since_epoch());
       log.packets.push_back({now, spec.stamps ? stamp : kUnset, Vec3(packet.value.X_CT.p())});
@@ -69,7 +69,7 @@ MadeLog made_log(const LogSpec& spec, std::uint64_t seed) {
 
 namespace {
 
-struct Tried {
+struct ForensicCase {
   double latency = kUnset, found = kUnset;  // s
   Vec3 bias{0, 0, 0}, found_bias{0, 0, 0};  // m
   bool latency_held = false;                // the interval contains the injected value
@@ -77,7 +77,7 @@ struct Tried {
 };
 
 // Random devices around those of the rig: latency to 40 ms, delay to 5 ms, bias to 0.3 mm, noise 5 to 30 um.
-Tried tried(const sim::TrackerTruth& rig, std::uint64_t seed) {
+ForensicCase tried(const sim::TrackerTruth& rig, std::uint64_t seed) {
   sim::Stream random(seed, "forensics");
   LogSpec spec;
   spec.tracker = rig;
@@ -89,7 +89,7 @@ Tried tried(const sim::TrackerTruth& rig, std::uint64_t seed) {
   }
   const MadeLog made = made_log(spec, seed);
   const models::LatencyFit fit = models::fit_latency(made.log);
-  Tried trial{made.latency, fit.latency.value, spec.tracker.bias, {}, fit.latency.holds(made.latency)};
+  ForensicCase trial{made.latency, fit.latency.value, spec.tracker.bias, {}, fit.latency.holds(made.latency)};
   for (std::size_t a = 0; a < 3; ++a) {
     trial.found_bias(static_cast<Eigen::Index>(a)) = fit.axes[a].bias.value;
     trial.bias_held += fit.axes[a].bias.holds(spec.tracker.bias(static_cast<Eigen::Index>(a)));
@@ -97,9 +97,9 @@ Tried tried(const sim::TrackerTruth& rig, std::uint64_t seed) {
   return trial;
 }
 
-void add_figures(BenchResult& result, const std::vector<Tried>& trials) {
+void add_figures(BenchResult& result, const std::vector<ForensicCase>& trials) {
   double near = 0.0, near_bias = 0.0, held = 0.0, bias_held = 0.0, worst = 0.0, worst_bias = 0.0;
-  for (const Tried& t : trials) {
+  for (const ForensicCase& t : trials) {
     const double error = std::abs(t.found - t.latency);
     const double bias_error = (t.found_bias - t.bias).cwiseAbs().maxCoeff();
     near += error <= kMillisecond ? 1.0 : 0.0;
@@ -125,10 +125,10 @@ void add_figures(BenchResult& result, const std::vector<Tried>& trials) {
   add("bias_interval.percent", bias_held * share, "%", kUnset, "its 95 % interval holds the bias");
 }
 
-void add_plot(BenchResult& result, const std::vector<Tried>& trials) {
+void add_plot(BenchResult& result, const std::vector<ForensicCase>& trials) {
   Series logs{.name = "logs", .mark = Mark::points};
   Series exact{"found = injected", {0, 60}, {0, 60}};
-  for (const Tried& t : trials) logs.add(t.latency / kMillisecond, t.found / kMillisecond);
+  for (const ForensicCase& t : trials) logs.add(t.latency / kMillisecond, t.found / kMillisecond);
   Plot plot{"tracking_forensics", "Latency out of a log", "injected, ms", "found, ms", false, false,
             {exact, logs}};
   plot.caption =
@@ -172,7 +172,7 @@ void add_table(const Table1& paper, BenchResult& result) {
 
 void add_forensics(const BenchContext& context, BenchResult& result) {
   const models::Setup setup = load_scene(context, "clamped_tool");
-  std::vector<Tried> trials(context.quick ? 20 : 100);
+  std::vector<ForensicCase> trials(context.quick ? 20 : 100);
   in_parallel(trials.size(), [&](std::size_t i) { trials[i] = tried(setup.twin.tracker, context.seed + i); });
   add_figures(result, trials);
   add_plot(result, trials);

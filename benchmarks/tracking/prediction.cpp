@@ -330,19 +330,19 @@ Plot named_plot(std::string id, std::string title, std::string x_label, std::str
 }
 
 // The rows in the plot; the table has all rows.
-struct Shown {
+struct PlotRow {
   const char *id, *name;
 };
-constexpr auto kShown = std::to_array<Shown>({{"20", "paper 20"},
-                                              {"40", "paper 40"},
-                                              {"reach.40", "reach 40"},
-                                              {"reach.200", "reach 200"},
-                                              {"press", "press 2 Hz"},
-                                              {"tremor.200um", "tremor"},
-                                              {"rest", "rest"},
-                                              {"stop.200", "stop"},
-                                              {"drop_out.100", "drop-out"},
-                                              {"loss", "loss"}});
+constexpr auto kShown = std::to_array<PlotRow>({{"20", "paper 20"},
+                                                {"40", "paper 40"},
+                                                {"reach.40", "reach 40"},
+                                                {"reach.200", "reach 200"},
+                                                {"press", "press 2 Hz"},
+                                                {"tremor.200um", "tremor"},
+                                                {"rest", "rest"},
+                                                {"stop.200", "stop"},
+                                                {"drop_out.100", "drop-out"},
+                                                {"loss", "loss"}});
 
 Plot rmse_plot(const Trials& trials) {
   Plot plot = named_plot("tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
@@ -350,7 +350,7 @@ Plot rmse_plot(const Trials& trials) {
   plot.log_y = true;
   std::vector<std::size_t> rows;
   Series paper{.name = "paper (holds, polled)", .mark = Mark::points, .paper = true};
-  for (const Shown& shown : kShown)
+  for (const PlotRow& shown : kShown)
     for (std::size_t r = 0; r < trials.rows.size(); ++r) {
       if (trials.rows[r].id != shown.id) continue;
       if (!std::isnan(trials.rows[r].paper))

@@ -18,7 +18,7 @@ namespace enc::bench::tracking {
 
 using trial::Errors;
 using trial::ErrorSum;
-using trial::Moving;
+using trial::MotionDirection;
 using trial::PacketError;
 
 struct TravelErrors : trial::TravelSums {

@@ -111,7 +111,7 @@ Plot move_plot(const Pictures& p) {
   double from = INFINITY;
   double to = -INFINITY;
   for (const PacketError& packet : p.packets)
-    if (packet.axis == 0 && packet.moving == Moving::forward && packet.position > kBefore &&
+    if (packet.axis == 0 && packet.moving == MotionDirection::forward && packet.position > kBefore &&
         packet.position < kAfter) {
       from = std::min(from, packet.t);
       to = std::max(to, packet.t);
@@ -200,7 +200,7 @@ void add_plots(BenchResult& result, const Pictures& pictures) {
 // One column of the table.
 struct RigTravel {
   int speed;  // mm/s
-  OnRig on;
+  RigScene on;
   double length = kUnset;  // s
   TravelErrors rig{}, twin{};
 };
@@ -210,7 +210,7 @@ RigTravel planned_travel(const BenchContext& context, int speed) {
   if (context.quick) own.emplace_back("travel.axes=\"x\"");
   RigTravel travel{speed, on_rig(context, "tracking", own,
                                  {fmt::format("travel.speed_mm_s={}", speed), "travel.ways=\"one_way\""})};
-  travel.length = trial::prepare_setup(travel.on.setup).travel()->duration();
+  travel.length = trial::prepare_setup(travel.on.setup).tracking()->duration();
   return travel;
 }
 

@@ -130,11 +130,11 @@ double spread_out(std::size_t index, std::size_t base) {
 
 double relative(double value, double paper) { return value / paper - 1.0; }
 
-struct Asked {
+struct FitSetting {
   double fixed, jitter, acceleration;
 };
 
-std::vector<Candidate> candidates_at(const std::vector<Asked>& asked, const ChainSpec& chain,
+std::vector<Candidate> candidates_at(const std::vector<FitSetting>& asked, const ChainSpec& chain,
                                      const MovesSpec& moves, const std::array<AxisError, 3>& axes) {
   std::vector<Candidate> all(asked.size());
   constexpr std::size_t kBlock = 25;
@@ -323,7 +323,7 @@ Misfit misfit(const Table1& table, const Table1& paper) {
 
 std::vector<Candidate> spread(const ChainSpec& chain, const MovesSpec& moves,
                               const std::array<AxisError, 3>& axes, std::size_t count, double acceleration) {
-  std::vector<Asked> asked;
+  std::vector<FitSetting> asked;
   asked.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     asked.push_back({kShortest + (kLongest - kShortest) * spread_out(i, 2), kMostJitter * spread_out(i, 3),
@@ -340,7 +340,7 @@ Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, Bi
   Candidate found = *std::min_element(candidates.begin(), candidates.end(), better);
   double size = 0.1;  // share of the whole range, to each side
   for (int closer = 0; closer < 4; ++closer, size *= 0.35) {
-    std::vector<Asked> asked;
+    std::vector<FitSetting> asked;
     for (std::size_t i = 0; i < 50; ++i) {
       const auto off = [&](std::size_t base) { return size * (2.0 * spread_out(i, base) - 1.0); };
       asked.push_back(

@@ -73,9 +73,10 @@ double Reference::number(std::size_t row, std::string_view column) const {
   return value;
 }
 
-std::size_t Reference::row(const std::vector<Where>& where) const {
+std::size_t Reference::row(const std::vector<CellMatch>& where) const {
   for (std::size_t i = 0; i < rows(); ++i)
-    if (std::all_of(where.begin(), where.end(), [&](const Where& w) { return text(i, w.column) == w.is; }))
+    if (std::all_of(where.begin(), where.end(),
+                    [&](const CellMatch& w) { return text(i, w.column) == w.is; }))
       return i;
   throw Error(fmt::format("{}: no row with {} '{}'", name_, where.front().column, where.front().is));
 }

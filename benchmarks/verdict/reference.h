@@ -19,10 +19,10 @@ class Reference {
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view column) const;
   [[nodiscard]] double number(std::size_t row, std::string_view column) const;
   // The row in which each given column has the given text; throws if there is no such row.
-  struct Where {
+  struct CellMatch {
     std::string_view column, is;
   };
-  [[nodiscard]] std::size_t row(const std::vector<Where>& where) const;
+  [[nodiscard]] std::size_t row(const std::vector<CellMatch>& where) const;
 
  private:
   std::string name_, source_;

@@ -158,12 +158,12 @@ std::string short_word(double x) { return std::isfinite(x) ? fmt::format("{:.3g}
 bool same(const Threshold& a, const Threshold& b) { return a.figure == b.figure && a.sign == b.sign; }
 
 // The worst judged figure of each threshold, in the order of the first of each.
-std::vector<const Judged*> worst_of_each(const std::vector<Judged>& all) {
-  std::vector<const Judged*> worst;
-  for (const Judged& j : all) {
+std::vector<const FigureVerdict*> worst_of_each(const std::vector<FigureVerdict>& all) {
+  std::vector<const FigureVerdict*> worst;
+  for (const FigureVerdict& j : all) {
     if (!std::isfinite(j.over)) continue;
     const auto found = std::find_if(worst.begin(), worst.end(),
-                                    [&](const Judged* w) { return same(w->threshold, j.threshold); });
+                                    [&](const FigureVerdict* w) { return same(w->threshold, j.threshold); });
     if (found == worst.end())
       worst.push_back(&j);
     else if (j.over > (*found)->over)
@@ -182,7 +182,7 @@ std::vector<Contradiction> contradictions(const std::string& models) {
   return list;
 }
 
-const char* felt_name(Felt felt) {
+const char* felt_name(Perception felt) {
   constexpr std::array kNames{"not felt", "in between", "felt", "not comparable"};
   return kNames[static_cast<std::size_t>(felt)];
 }
@@ -218,17 +218,18 @@ bool matches(const std::string& pattern, const std::string& id) {
   return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
-Felt felt(double error, const Threshold& t) {
-  if (!std::isfinite(error) || !std::isfinite(t.value) || !right_sign(error, t)) return Felt::not_comparable;
+Perception felt(double error, const Threshold& t) {
+  if (!std::isfinite(error) || !std::isfinite(t.value) || !right_sign(error, t))
+    return Perception::not_comparable;
   const double size = std::abs(error);
-  if (size <= t.least) return Felt::no;
-  if (t.strictest) return Felt::not_comparable;
-  return size > t.most ? Felt::yes : Felt::between;
+  if (size <= t.least) return Perception::no;
+  if (t.strictest) return Perception::not_comparable;
+  return size > t.most ? Perception::yes : Perception::between;
 }
 
-std::vector<Judged> judged(const std::vector<BenchResult>& results,
-                           const std::vector<Threshold>& thresholds) {
-  std::vector<Judged> all;
+std::vector<FigureVerdict> judged(const std::vector<BenchResult>& results,
+                                  const std::vector<Threshold>& thresholds) {
+  std::vector<FigureVerdict> all;
   for (const BenchResult& result : results)
     for (const Figure& f : result.figures) {
       if (!std::isfinite(f.twin)) continue;
@@ -236,14 +237,14 @@ std::vector<Judged> judged(const std::vector<BenchResult>& results,
         return matches(one.figure, f.id) && one.unit == f.unit && right_sign(f.twin, one);
       });
       if (t == thresholds.end()) continue;
-      Judged j{f, *t, felt(f.twin, *t), felt(f.paper, *t), std::abs(f.twin) / t->value, kUnset};
-      if (j.paper != Felt::not_comparable) j.paper_over = std::abs(f.paper) / t->value;
+      FigureVerdict j{f, *t, felt(f.twin, *t), felt(f.paper, *t), std::abs(f.twin) / t->value, kUnset};
+      if (j.paper != Perception::not_comparable) j.paper_over = std::abs(f.paper) / t->value;
       all.push_back(std::move(j));
     }
   return all;
 }
 
-Table verdict_table(const std::vector<Judged>& all) {
+Table verdict_table(const std::vector<FigureVerdict>& all) {
   Table table{"verdict",
               "Felt or not",
               {"figure", "error", "unit", "threshold", "error over threshold", "verdict", "paper's error",
@@ -252,21 +253,21 @@ Table verdict_table(const std::vector<Judged>& all) {
               "Threshold: its typical value, and the range over studies, people and places. Not felt: below "
               "the range. Felt: above it. In between: some people, or in some places. Not comparable: nobody "
               "has measured what a person can tell there."};
-  for (const Judged& j : all)
+  for (const FigureVerdict& j : all)
     table.rows.push_back({j.figure.id, short_word(j.figure.twin), j.figure.unit, range_of(j.threshold),
                           short_word(j.over), felt_name(j.felt), short_word(j.figure.paper),
                           std::isfinite(j.paper_over) ? felt_name(j.paper) : ""});
   return table;
 }
 
-Table threshold_table(const std::vector<Judged>& all) {
+Table threshold_table(const std::vector<FigureVerdict>& all) {
   Table table{"verdict_thresholds",
               "What a person can tell",
               {"figures", "threshold", "unit", "what a person compares", "rule", "source", "how sure"},
               {},
               "Those of benchmarks/reference/thresholds.csv that were used above."};
   std::vector<const Threshold*> seen;
-  for (const Judged& j : all) {
+  for (const FigureVerdict& j : all) {
     const Threshold& t = j.threshold;
     const bool there = std::any_of(seen.begin(), seen.end(), [&](const Threshold* s) { return same(*s, t); });
     if (there) continue;
@@ -276,7 +277,7 @@ Table threshold_table(const std::vector<Judged>& all) {
   return table;
 }
 
-Plot verdict_plot(const std::vector<Judged>& all) {
+Plot verdict_plot(const std::vector<FigureVerdict>& all) {
   Plot plot{"verdict",
             "Errors beside what a person can tell",
             "error over threshold",
@@ -289,9 +290,9 @@ Plot verdict_plot(const std::vector<Judged>& all) {
   Series range{"range of the threshold"};
   Series twin{.name = "twin", .mark = Mark::points};
   Series paper{.name = "paper", .mark = Mark::points, .paper = true};
-  const std::vector<const Judged*> worst = worst_of_each(all);
+  const std::vector<const FigureVerdict*> worst = worst_of_each(all);
   for (std::size_t i = 0; i < worst.size(); ++i) {
-    const Judged& j = *worst[i];
+    const FigureVerdict& j = *worst[i];
     const auto y = static_cast<double>(i);
     plot.y_names.push_back(j.figure.id);
     for (const double x :
@@ -306,19 +307,20 @@ Plot verdict_plot(const std::vector<Judged>& all) {
   return plot;
 }
 
-std::string verdict_line(const std::vector<Judged>& all) {
+std::string verdict_line(const std::vector<FigureVerdict>& all) {
   std::string line;
-  for (const Felt felt : {Felt::no, Felt::between, Felt::yes, Felt::not_comparable}) {
+  for (const Perception felt :
+       {Perception::no, Perception::between, Perception::yes, Perception::not_comparable}) {
     std::size_t count = 0;
     std::string which;
-    for (const Judged& j : all) {
+    for (const FigureVerdict& j : all) {
       if (j.felt != felt) continue;
       ++count;
       which += (which.empty() ? "" : ", ") + j.figure.id;
     }
     if (count == 0) continue;
     line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, felt_name(felt));
-    if (felt == Felt::yes) line += " (" + which + ")";
+    if (felt == Perception::yes) line += " (" + which + ")";
   }
   return line;
 }

@@ -37,13 +37,13 @@ struct Threshold {
   std::string source, confidence;
 };
 
-enum class Felt : std::uint8_t { no, between, yes, not_comparable };
-[[nodiscard]] const char* felt_name(Felt felt);
+enum class Perception : std::uint8_t { no, between, yes, not_comparable };
+[[nodiscard]] const char* felt_name(Perception felt);
 
-struct Judged {
+struct FigureVerdict {
   Figure figure;
   Threshold threshold;
-  Felt felt = Felt::not_comparable, paper = Felt::not_comparable;
+  Perception felt = Perception::not_comparable, paper = Perception::not_comparable;
   double over = kUnset, paper_over = kUnset;  // size of the error over the threshold's value
 };
 
@@ -52,18 +52,18 @@ struct Judged {
 [[nodiscard]] std::vector<Threshold> parse_thresholds(const std::string& text, const std::string& name);
 
 [[nodiscard]] bool matches(const std::string& pattern, const std::string& id);
-[[nodiscard]] Felt felt(double error, const Threshold& threshold);
+[[nodiscard]] Perception felt(double error, const Threshold& threshold);
 // Every figure that has a value and a threshold: by the first threshold that fits, in the figures' order.
-[[nodiscard]] std::vector<Judged> judged(const std::vector<BenchResult>& results,
-                                         const std::vector<Threshold>& thresholds);
+[[nodiscard]] std::vector<FigureVerdict> judged(const std::vector<BenchResult>& results,
+                                                const std::vector<Threshold>& thresholds);
 
 // Empty if no figure was judged.
-[[nodiscard]] Table verdict_table(const std::vector<Judged>& all);
+[[nodiscard]] Table verdict_table(const std::vector<FigureVerdict>& all);
 // The sources of the verdict: each threshold once.
-[[nodiscard]] Table threshold_table(const std::vector<Judged>& all);
+[[nodiscard]] Table threshold_table(const std::vector<FigureVerdict>& all);
 // The worst error of each threshold.
-[[nodiscard]] Plot verdict_plot(const std::vector<Judged>& all);
+[[nodiscard]] Plot verdict_plot(const std::vector<FigureVerdict>& all);
 // "12 not felt, 3 in between, 1 felt (a)"
-[[nodiscard]] std::string verdict_line(const std::vector<Judged>& all);
+[[nodiscard]] std::string verdict_line(const std::vector<FigureVerdict>& all);
 
 }  // namespace enc::bench

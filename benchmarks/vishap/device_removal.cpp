@@ -22,7 +22,7 @@ using namespace staged;
 constexpr std::size_t kLearning = 10;  // frames, of the background
 constexpr double kHidden = 0.1;        // share of the cap: a larger share counts as hidden
 
-struct Named {
+struct BeliefEntry {
   const char* id;
   const char* words;
   Belief belief;
@@ -30,7 +30,7 @@ struct Named {
 // m, along each axis: a typical registration error (docs/guide/registration.md), and the shift of a head that
 // was hit.
 constexpr double kRegistration = 0.3e-3, kHit = 5e-3;
-const std::array<Named, 3> kBeliefs{
+const std::array<BeliefEntry, 3> kBeliefs{
     {{"shipped", "as shipped: the rig believes what is true", {}},
      {"registration",
       "registration off by 0.3 mm along each axis",
@@ -44,15 +44,15 @@ struct Removal {
   std::vector<double> seconds;
   std::size_t unknown = 0, taken = 0;  // pixels replaced from their surroundings; all replaced pixels
 };
-struct Seen {
+struct DetectionCounts {
   std::size_t frames = 0, found = 0, elsewhere = 0, nobody = 0, mistaken = 0;
   std::vector<double> pixels, place;  // px, m
 };
 struct Cell {
   std::array<Removal, kBeliefs.size()> removal;
-  std::array<Seen, 2> seen;          // results with the arm, without it
-  std::array<Seen, 2> meets;         // the prop under the fingertip
-  std::array<Seen, 2> open, hidden;  // results by the share of the cap that the arm hides
+  std::array<DetectionCounts, 2> seen;          // results with the arm, without it
+  std::array<DetectionCounts, 2> meets;         // the prop under the fingertip
+  std::array<DetectionCounts, 2> open, hidden;  // results by the share of the cap that the arm hides
   std::vector<Image> picture;
 };
 
@@ -150,7 +150,8 @@ double hidden_share(const sim::PixelTruth& with, const sim::PixelTruth& without)
   return all == 0 ? 0.0 : 1.0 - static_cast<double>(left) / static_cast<double>(all);
 }
 
-void note(const FingerTracker& tracker, const sim::Shown& shown, const sim::PixelTruth& truth, Seen& seen) {
+void note(const FingerTracker& tracker, const sim::CameraScene& shown, const sim::PixelTruth& truth,
+          DetectionCounts& seen) {
   const LookStats& stats = tracker.stats();
   const bool found = stats.found.disparity > 0.0;
   if (!shown.hand) {
@@ -170,7 +171,7 @@ void note(const FingerTracker& tracker, const sim::Shown& shown, const sim::Pixe
   seen.place.push_back((triangulate(tracker.pair(), stats.found).e() - shown.pose.tip.e()).norm());
 }
 
-struct Asked {
+struct RemovalSetup {
   const sim::CameraModule* camera;
   const models::Setup* setup;
   std::uint64_t seed;
@@ -219,7 +220,7 @@ void see_fingertips(std::vector<FingerTracker>& trackers, const ArmPlay::Frame& 
   }
 }
 
-Cell measure(const Asked& asked) {
+Cell measure(const RemovalSetup& asked) {
   const models::Setup& setup = *asked.setup;
   ArmPlay play(setup, *asked.camera, asked.seed);
   const Scene scene = trial::prepare_setup(setup);
@@ -268,11 +269,13 @@ Removal all_of(const std::vector<Cell>& cells, std::size_t belief) {
   return all;
 }
 
-Seen all_of(const std::vector<Cell>& cells, const std::array<Seen, 2> Cell::*which, std::size_t arm) {
-  Seen all;
+DetectionCounts all_of(const std::vector<Cell>& cells, const std::array<DetectionCounts, 2> Cell::*which,
+                       std::size_t arm) {
+  DetectionCounts all;
   for (const Cell& cell : cells) {
-    const Seen& one = (cell.*which)[arm];
-    for (const auto member : {&Seen::frames, &Seen::found, &Seen::elsewhere, &Seen::nobody, &Seen::mistaken})
+    const DetectionCounts& one = (cell.*which)[arm];
+    for (const auto member : {&DetectionCounts::frames, &DetectionCounts::found, &DetectionCounts::elsewhere,
+                              &DetectionCounts::nobody, &DetectionCounts::mistaken})
       all.*member += one.*member;
     append(all.pixels, one.pixels);
     append(all.place, one.place);
@@ -332,7 +335,7 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
   struct Row {
     const char* id;
     const char* words;
-    const std::array<Seen, 2> Cell::*which;
+    const std::array<DetectionCounts, 2> Cell::*which;
   };
   const std::array<Row, 4> rows{{{"all", "all", &Cell::seen},
                                  {"meets", "prop under the fingertip", &Cell::meets},
@@ -347,7 +350,7 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
   };
   for (const Row& row : rows)
     for (std::size_t arm = 0; arm < 2; ++arm) {
-      const Seen seen = all_of(cells, row.which, arm);
+      const DetectionCounts seen = all_of(cells, row.which, arm);
       const char* drawn = arm == 0 ? "with" : "without";
       table.add(row.words, drawn, seen.frames, fixed(percent(seen.found, seen.frames), 1),
                 fixed(percent(seen.elsewhere, seen.frames), 1), fixed(mean(seen.pixels), 2),
@@ -358,7 +361,7 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
                    fmt::format("fingertips found within the cap, of {}: {}", seen.frames, row.words));
       bench.figure(id + ".place.mean", mean(seen.place) * kMmPerM, "mm", "from the true middle of the cap");
     }
-  const Seen nobody = all_of(cells, &Cell::seen, 0);
+  const DetectionCounts nobody = all_of(cells, &Cell::seen, 0);
   bench.figure(
       "arm_in_view.mistaken.count", static_cast<double>(nobody.mistaken), "frames", exactly(0.0),
       fmt::format("of {} without a hand: a fingertip is seen in the arm or what it uncovers", nobody.nobody));
@@ -370,7 +373,7 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
 void add_device_removal(Bench& bench) {
   const models::Setup setup = bench.setup();
   const std::size_t rooms = bench.context.quick ? 2 : 6, frames = bench.context.quick ? 20 : 60;
-  std::vector<Asked> asked;
+  std::vector<RemovalSetup> asked;
   for (std::size_t i = 0; i < rooms; ++i)
     asked.push_back({&camera(bench.context), &setup, test_seed(bench.context) + 800 + i, frames});
   const std::vector<Cell> cells = bench.each(asked, measure);

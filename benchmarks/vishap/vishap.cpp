@@ -47,7 +47,7 @@ PerJoint measured(const sim::ArmTruth& arm, const PerJoint& q) {
 // speed, meets the prop, presses, slides and leaves. The rendered force is drawn over the distance that
 // vision measures (Fig 5).
 
-struct Walked {
+struct RunSetup {
   std::string scene;
   std::vector<std::string> set;
   double seconds = kUnset;
@@ -56,7 +56,7 @@ struct Walked {
   bool frames = false;  // a second core measures the change by each picture
 };
 
-struct Ran {
+struct RunResult {
   double simulated = 0.0, cpu = 0.0;  // s
   trial::TrialResult result;
   std::vector<trial::FingerEncounter> meetings;
@@ -70,7 +70,7 @@ struct Ran {
 };
 
 // True and rendered values at exposures whose pictures are still to arrive.
-struct Felt {
+struct ExposureTruth {
   Time t{};
   Point<'W'> tip;
   double felt = 0.0;
@@ -79,7 +79,7 @@ struct Felt {
 
 class Onlooker {
  public:
-  explicit Onlooker(Ran& ran) : ran_(ran) {}
+  explicit Onlooker(RunResult& ran) : ran_(ran) {}
   void see(const trial::Glance& glance) {
     finger_.see(glance);
     reach_.see(glance);
@@ -104,16 +104,17 @@ class Onlooker {
 
  private:
   void take(const trial::Glance& glance) {
-    const Stamped<TrackedTool>& told = glance.in.tool;
+    const Measurement<TrackedTool>& told = glance.in.tool;
     if (told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
     newest_ = told.t;
-    const auto then = std::find_if(line_.begin(), line_.end(), [&](const Felt& m) { return m.t == told.t; });
+    const auto then =
+        std::find_if(line_.begin(), line_.end(), [&](const ExposureTruth& m) { return m.t == told.t; });
     if (then == line_.end()) return;
     const Point<'W'> at = glance.scene.X_WC * told.value.X_CT.origin();
     ran_.off.push_back((at - then->tip).norm());
     const std::int32_t object = glance.out.object;
     if (object < 0) return;
-    const trial::Wanted surface =
+    const trial::PropTarget surface =
         trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(object)], at);
     ran_.off_normal.push_back(dot(at - then->tip, surface.normal));
     if (!then->contact) return;
@@ -121,17 +122,17 @@ class Onlooker {
     ran_.felt.push_back(then->felt);
   }
 
-  Ran& ran_;
+  RunResult& ran_;
   trial::FingerMeasure finger_;
   reaching::ReachMeasure reach_;
-  std::deque<Felt> line_;
+  std::deque<ExposureTruth> line_;
   Time newest_{};
   bool before_ = false;
   double last_ = kUnset;
 };
 
-Ran run_one(const BenchContext& context, const Walked& asked) {
-  Ran ran;
+RunResult run_one(const BenchContext& context, const RunSetup& asked) {
+  RunResult ran;
   Onlooker look(ran);
   trial::TrialOptions options{.seed = asked.seed,
                               .seconds = asked.seconds,
@@ -200,7 +201,7 @@ void tell_misses(Bench& bench, const std::vector<trial::FingerEncounter>& meetin
   }
 }
 
-void tell_wall(Bench& bench, const Ran& ran) {
+void tell_wall(Bench& bench, const RunResult& ran) {
   tell_misses(bench, ran.meetings);
   bench.figure("wall.slope", ran.slope, "N/m",
                "contact force over true depth, 2 to 5 mm, while pressed and slid");
@@ -230,7 +231,7 @@ void tell_wall(Bench& bench, const Ran& ran) {
       "ms", "longest less shortest interval of them");
 }
 
-void plot_felt(Bench& bench, const std::string& scene, const Ran& ran, const std::string& caption) {
+void plot_felt(Bench& bench, const std::string& scene, const RunResult& ran, const std::string& caption) {
   Series felt{"twin"};
   felt.mark = Mark::points;
   for (std::size_t i = 0; i < ran.seen.size(); ++i) felt.add(ran.seen[i] * kMmPerM, ran.felt[i]);
@@ -242,7 +243,7 @@ void plot_felt(Bench& bench, const std::string& scene, const Ran& ran, const std
               .caption = caption});
 }
 
-void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
+void tell_objects(Bench& bench, const std::string& scene, const RunResult& ran) {
   double right = 0.0, felt = 0.0, all = 0.0, in_time = 0.0;
   for (const reaching::ReachOutcome& r : ran.reaches) {
     if (std::isnan(r.met)) continue;
@@ -273,7 +274,7 @@ void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
 }
 
 // Three springs: before the button gives way, while it gives way, and on the board below [VisHap Fig 4].
-void tell_button(Bench& bench, const Ran& ran) {
+void tell_button(Bench& bench, const RunResult& ran) {
   const Scene scene = trial::prepare_setup(load_scene(bench.context, "camera/button"));
   const InteractionSpec& does = scene.objects.front().interaction;
   double before = 0.0, after = 0.0, board = 0.0;
@@ -298,14 +299,15 @@ void add_whole_stack(Bench& bench) {
   std::vector<std::string> small = wall;
   for (std::string& one : quarter_size()) small.push_back(std::move(one));
   const std::int64_t reaches = context.quick ? 2 : context.full ? 100 : 15;
-  const std::vector<Walked> asked{
+  const std::vector<RunSetup> asked{
       {"camera/wall", wall, kUnset, 0, context.seed, true},
       {"camera/wall", small, kUnset, 0, context.seed},
       {"camera/button", {"user.press_s=2", "user.release_s=1"}, kUnset, 0, context.seed},
       {"camera/keypad", {"truth.hand.aborted=0"}, kUnset, reaches, context.seed},
       {"camera/wall", wall, 3.0, 0, context.seed},
       {"camera/wall", wall, 3.0, 0, context.seed}};
-  const std::vector<Ran> ran = bench.each(asked, [&](const Walked& one) { return run_one(context, one); });
+  const std::vector<RunResult> ran =
+      bench.each(asked, [&](const RunSetup& one) { return run_one(context, one); });
   tell_wall(bench, ran[0]);
   plot_felt(bench, "wall", ran[0],
             "Each picture in contact: what was felt at its exposure, over where it sees the finger.");
@@ -414,7 +416,7 @@ void ArmPlay::next(Frame& frame) {
 }
 
 void ArmPlay::without_arm(const Frame& frame, staged::Pair& pair) {
-  sim::Shown shown = frame.shown;
+  sim::CameraScene shown = frame.shown;
   shown.things.clear();
   stage_->draw(shown, frames_ - 1, pair.left, pair.right, &pair.truth);
 }
@@ -423,7 +425,7 @@ Image ArmPlay::empty() {
   sim::StageSpec quiet = spec_;
   quiet.sensor.noise = 0.0;
   Image left, right;
-  camera_.stage(quiet)->draw(sim::Shown{}, 0, left, right);
+  camera_.stage(quiet)->draw(sim::CameraScene{}, 0, left, right);
   return left;
 }
 

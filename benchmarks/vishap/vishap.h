@@ -27,7 +27,7 @@ class ArmPlay {
 
   struct Frame {
     staged::Pair pair;
-    sim::Shown shown;
+    sim::CameraScene shown;
     AugmentedMoment moment;
     bool meets = false;  // the prop is just under the fingertip
   };

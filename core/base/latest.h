@@ -10,7 +10,7 @@
 namespace enc {
 
 template <class V>
-class Latest {
+class LatestValue {
   static_assert(std::is_trivially_copyable_v<V>);
 
  public:

@@ -22,7 +22,7 @@ constexpr auto words(Health) {
 }
 
 template <class V>
-struct Stamped {
+struct Measurement {
   V value{};
   Time t{};  // time of measurement, not of arrival
   Health health = Health::absent;

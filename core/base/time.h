@@ -38,7 +38,7 @@ struct Tick {
 
 // Due times of a rate. Due time n is n * 1e9 / hz, never a running sum, so that a rate such as 120 Hz does
 // not drift.
-struct Every {
+struct DueTimes {
   double hz = 0.0;
   std::int64_t n = 0;  // number of the next due time
   Duration phase{};    // offset of due time 0

@@ -33,8 +33,8 @@ class Device {
 // A position-controlled machine that carries the haptic-tip: the hexapod [VHMR 2].
 class Manipulator : public Device {
  public:
-  [[nodiscard]] virtual Reach reach() const = 0;           // called once, before anything moves
-  virtual Stamped<TipSample> read(Time now) noexcept = 0;  // newest; never blocks
+  [[nodiscard]] virtual Reach reach() const = 0;               // called once, before anything moves
+  virtual Measurement<TipSample> read(Time now) noexcept = 0;  // newest; never blocks
   // Set-point for the coming period, computed from the last read().
   virtual void command(const Pose<'R', 'H'>& X_RH) noexcept = 0;
   // Brings the machine to rest where it is. The run calls this when it ends, however it ends, and maybe more
@@ -50,8 +50,8 @@ struct PropCommand {
 // A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
 class HapticArm : public Device {
  public:
-  [[nodiscard]] virtual ArmAbility ability() const = 0;    // called once, before anything moves
-  virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
+  [[nodiscard]] virtual ArmAbility ability() const = 0;        // called once, before anything moves
+  virtual Measurement<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
   // Commanded force of the tip on its surroundings, including gravity compensation; stays in force until
   // the next command. The device converts it to joint torques (J^T F) and limits these to its motors.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
@@ -64,14 +64,14 @@ class HapticArm : public Device {
 class ForceSensor : public Device {
  public:
   // The newest sample; never blocks. It is raw: weight, inertia and zero error are still in it.
-  virtual Stamped<Wrench> read(Time now) noexcept = 0;
+  virtual Measurement<Wrench> read(Time now) noexcept = 0;
 };
 
 // Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
 class PoseTracker : public Device {
  public:
   // Returns true for a new pose; otherwise leaves `newest` alone.
-  virtual bool poll(Time now, Stamped<TrackedTool>& newest) noexcept = 0;
+  virtual bool poll(Time now, Measurement<TrackedTool>& newest) noexcept = 0;
 };
 
 // A raw pair of equal size. The camera keeps its pixels until the next poll().
@@ -86,7 +86,7 @@ class StereoCamera : public Device {
   // Size of each image; empty if it is known only from a frame.
   [[nodiscard]] virtual ImageSize size() const { return {}; }
   // Returns true for a newer pair, stamped with its exposure time; otherwise leaves `newest` alone.
-  virtual bool poll(Time now, Stamped<StereoFrame>& newest) noexcept = 0;
+  virtual bool poll(Time now, Measurement<StereoFrame>& newest) noexcept = 0;
 };
 
 // The headset or window that shows the scene to the user. It also reports, late, which deformed surface it
@@ -95,13 +95,13 @@ class Display : public Device {
  public:
   virtual void show(const View& view) noexcept = 0;  // newest only; never blocks
   // Returns true if a new drawn surface came back.
-  virtual bool poll(Time now, Stamped<DentSample>& newest) noexcept = 0;
+  virtual bool poll(Time now, Measurement<DentSample>& newest) noexcept = 0;
 };
 
 // A gripper between force sensor and tip that clamps a tool [VHMR 4.1].
 class Gripper : public Device {
  public:
-  virtual Stamped<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
+  virtual Measurement<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
   // Stays in force until the next command; the device limits the force to its range.
   virtual void command(const Grip& grip) noexcept = 0;
   virtual void stop() noexcept = 0;  // Keeps its grip and opens nothing; see Manipulator.

@@ -42,9 +42,9 @@ struct Offer {
 template <class Role>
 using Maker = std::unique_ptr<Role> (*)(const Offer& offer);
 // Maker of a device whose constructor takes the offer.
-template <class Role, class Made>
+template <class Role, class Implementation>
 std::unique_ptr<Role> make(const Offer& offer) {
-  return std::make_unique<Made>(offer);
+  return std::make_unique<Implementation>(offer);
 }
 
 // Roles that the driver does not offer stay null. Makers throw Error (kind device) with a remedy, and move

@@ -12,22 +12,22 @@ namespace enc {
 enum class RoleId : std::uint8_t { manipulator, arm, force, tracker, display, gripper };
 inline constexpr std::size_t kRoles = 6;
 
-template <class Device, class Asked, class Believed, class Said>
+template <class Device, class SceneTable, class RigTable, class Reading>
 struct Role {
   RoleId id;
   const char *table, *name;  // [force] of scene and rig file; "force sensor" in messages
-  std::optional<Asked> SceneSpec::*scene;
-  Believed RigSpec::*rig;  // includes its `driver`
+  std::optional<SceneTable> SceneSpec::*scene;
+  RigTable RigSpec::*rig;  // includes its `driver`
   Maker<Device> DriverModule::*make;
   std::unique_ptr<Device> Rig::*slot;
-  Stamped<Said> Inputs::*said;
+  Measurement<Reading> Inputs::*said;
 };
 
 // Clang before 17 cannot deduce these arguments by itself.
-template <class Device, class Asked, class Believed, class Said>
-Role(RoleId, const char*, const char*, std::optional<Asked> SceneSpec::*, Believed RigSpec::*,
-     Maker<Device> DriverModule::*, std::unique_ptr<Device> Rig::*, Stamped<Said> Inputs::*)
-    -> Role<Device, Asked, Believed, Said>;
+template <class Device, class SceneTable, class RigTable, class Reading>
+Role(RoleId, const char*, const char*, std::optional<SceneTable> SceneSpec::*, RigTable RigSpec::*,
+     Maker<Device> DriverModule::*, std::unique_ptr<Device> Rig::*, Measurement<Reading> Inputs::*)
+    -> Role<Device, SceneTable, RigTable, Reading>;
 
 template <class F>
 void each_role(F f) {

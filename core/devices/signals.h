@@ -22,12 +22,12 @@ struct View {
 
 // The newest sample of each existing device; the others stay absent.
 struct Inputs {
-  Stamped<TrackedTool> tool;
-  Stamped<Wrench> wrench;
-  Stamped<TipSample> tip;
-  Stamped<ArmSample> arm;
-  Stamped<DentSample> dent;
-  Stamped<GripSample> grip;
+  Measurement<TrackedTool> tool;
+  Measurement<Wrench> wrench;
+  Measurement<TipSample> tip;
+  Measurement<ArmSample> arm;
+  Measurement<DentSample> dent;
+  Measurement<GripSample> grip;
   std::int64_t missed = 0;  // cycles that the clock lost before this tick
   // Commands are not sent to the machine, so it need not follow.
   bool withheld = false;

@@ -95,7 +95,7 @@ Mat3 mass(const PhantomGeometry& g, const PerJoint& q, double payload) noexcept 
 namespace chain {
 
 // Poses of the links: position and axis of each joint, and orientation of the link behind it, in R.
-struct Placed {
+struct LinkPoses {
   std::array<Vec3, kMostJoints> joint, axis;
   std::array<Mat3, kMostJoints> R;
   std::size_t count = 0;
@@ -104,8 +104,8 @@ struct Placed {
   [[nodiscard]] Vec3 point(std::size_t last, const Vec3& p) const { return joint[last] + R[last] * p; }
 };
 
-Placed place(const ArmMachine& machine, const PerJoint& q) {
-  Placed placed;
+LinkPoses place(const ArmMachine& machine, const PerJoint& q) {
+  LinkPoses placed;
   placed.count = std::min(machine.links.size(), kMostJoints);
   Mat3 R = Mat3::Identity();
   Vec3 at = Vec3::Zero();
@@ -124,7 +124,7 @@ Placed place(const ArmMachine& machine, const PerJoint& q) {
 }
 
 // d p / d q for a point p of link `last`.
-Mat3 moves(const ArmMachine& machine, const Placed& placed, std::size_t last, const Vec3& p) {
+Mat3 moves(const ArmMachine& machine, const LinkPoses& placed, std::size_t last, const Vec3& p) {
   Mat3 J = Mat3::Zero();
   for (std::size_t i = 0; i <= last; ++i)
     J.col(static_cast<int>(i)) = machine.links[i].kind == JointKind::slide
@@ -134,7 +134,7 @@ Mat3 moves(const ArmMachine& machine, const Placed& placed, std::size_t last, co
 }
 
 // d omega / d q for link `last`.
-Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
+Mat3 turns(const ArmMachine& machine, const LinkPoses& placed, std::size_t last) {
   Mat3 J = Mat3::Zero();
   for (std::size_t i = 0; i <= last; ++i)
     if (machine.links[i].kind == JointKind::hinge) J.col(static_cast<int>(i)) = placed.axis[i];
@@ -146,7 +146,7 @@ Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
 bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
   constexpr double kThere = 1e-10;  // m
   for (int step = 0; step < 60; ++step) {
-    const Placed placed = place(machine, q);
+    const LinkPoses placed = place(machine, q);
     const Vec3 at = placed.point(placed.count - 1, machine.tip);
     const Vec3 apart = p - at;
     if (!std::isfinite(apart.squaredNorm())) return false;
@@ -165,13 +165,13 @@ bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
 
 // The tip in R, m.
 Vec3 tip(const ArmMachine& machine, const PerJoint& q) noexcept {
-  const Placed placed = place(machine, q);
+  const LinkPoses placed = place(machine, q);
   return placed.point(placed.count - 1, machine.tip);
 }
 
 // d tip / d q
 Mat3 jacobian(const ArmMachine& machine, const PerJoint& q) noexcept {
-  const Placed placed = place(machine, q);
+  const LinkPoses placed = place(machine, q);
   const std::size_t last = placed.count - 1;
   return moves(machine, placed, last, placed.point(last, machine.tip));
 }
@@ -209,7 +209,7 @@ bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept {
 
 // The payload acts at the tip.
 PerJoint gravity(const ArmMachine& machine, const PerJoint& q, double payload) noexcept {
-  const Placed placed = place(machine, q);
+  const LinkPoses placed = place(machine, q);
   const std::size_t last = placed.count - 1;
   // Each mass is lifted by d z / d q.
   Vec3 torque = payload * moves(machine, placed, last, placed.point(last, machine.tip)).row(2).transpose();
@@ -223,7 +223,7 @@ PerJoint gravity(const ArmMachine& machine, const PerJoint& q, double payload) n
 
 // Excludes the rotors.
 Mat3 mass(const ArmMachine& machine, const PerJoint& q, double payload) noexcept {
-  const Placed placed = place(machine, q);
+  const LinkPoses placed = place(machine, q);
   const std::size_t last = placed.count - 1;
   const Mat3 tip_moves = moves(machine, placed, last, placed.point(last, machine.tip));
   Mat3 M = payload * tip_moves.transpose() * tip_moves;

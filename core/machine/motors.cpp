@@ -22,7 +22,7 @@ double folded_back(double warmth, double peak, double continuous) noexcept {
   return std::min(peak, continuous + cool * (peak - continuous));
 }
 
-MotorHeating::MotorHeating(const Thermal& thermal, double dt)
+MotorHeating::MotorHeating(const ThermalModel& thermal, double dt)
     : winding_(1.0 - std::exp(-dt / thermal.winding_time)),
       housing_(1.0 - std::exp(-dt / thermal.housing_time)),
       share_(thermal.winding_share) {}
@@ -38,7 +38,7 @@ double folds_at(double torque, double peak, double continuous) noexcept {
   return 1.0 - (1.0 - kWarm) * std::max(0.0, torque - continuous) / (peak - continuous);
 }
 
-double bears_for(const Thermal& thermal, double load, double warm) {
+double bears_for(const ThermalModel& thermal, double load, double warm) {
   const double heat = load * load;
   const auto warmth = [&](double t) {
     return heat * (thermal.winding_share * (1.0 - std::exp(-t / thermal.winding_time)) +

@@ -7,7 +7,7 @@
 namespace enc {
 
 // Thermal model of a motor.
-struct Thermal {
+struct ThermalModel {
   // s, time constant of a winding against its housing (sources/arm 3, published).
   double winding_time = 12.0;
   double housing_time = 612.0;  // s, time constant of the housing against the room (published)
@@ -19,7 +19,7 @@ struct Thermal {
 struct MotorRatings {
   double tip = 0.0;               // N: largest tip force anywhere
   PerJoint peak{}, continuous{};  // N m, of each motor: brief and continuous
-  Thermal thermal{};
+  ThermalModel thermal{};
 };
 
 // Temperature rise of each winding over its housing, and of the housing over the room, as shares of the
@@ -38,7 +38,7 @@ inline constexpr double kWarm = 0.8;
 class MotorHeating {
  public:
   MotorHeating() = default;
-  MotorHeating(const Thermal& thermal, double dt);
+  MotorHeating(const ThermalModel& thermal, double dt);
   void operator()(double load, double& winding, double& housing) const noexcept;
 
  private:
@@ -47,7 +47,7 @@ class MotorHeating {
 // Relative temperature from which a motor gives no more than `torque`, which is between peak and continuous.
 [[nodiscard]] double folds_at(double torque, double peak, double continuous) noexcept;
 // Time for which a cold motor bears a load until it reaches a relative temperature, s; infinite: never.
-[[nodiscard]] double bears_for(const Thermal& thermal, double load, double warmth);
+[[nodiscard]] double bears_for(const ThermalModel& thermal, double load, double warmth);
 
 // The limit that acts on a force.
 enum class MotorLimit : std::uint8_t { none, peak, heat };
@@ -87,7 +87,7 @@ class Motors {
   std::size_t joints_ = 0;
   PerJoint peak_{}, continuous_{};  // referred to the joints, N m or N
   double tip_ = 0.0;                // N: largest tip force anywhere
-  Thermal thermal_;
+  ThermalModel thermal_;
   MotorHeating warming_;
 };
 

@@ -77,12 +77,12 @@ inline double exp_of(double x, double tail, std::uint64_t negative) {
 }
 
 // Kind of y: not whole, odd or even.
-enum class Whole { no, odd, even };
-Whole whole(double y) {
+enum class Parity { no, odd, even };
+Parity whole(double y) {
   const double a = std::fabs(y);
-  if (a >= 0x1p53) return Whole::even;
-  if (a != std::floor(a)) return Whole::no;
-  return (static_cast<std::uint64_t>(a) & 1) != 0 ? Whole::odd : Whole::even;
+  if (a >= 0x1p53) return Parity::even;
+  if (a != std::floor(a)) return Parity::no;
+  return (static_cast<std::uint64_t>(a) & 1) != 0 ? Parity::odd : Parity::even;
 }
 
 // Bits of x; those of a subnormal get an exponent below zero.
@@ -99,7 +99,7 @@ double pow_of_special(double x, double y) {
     return (std::fabs(x) < 1.0) == std::signbit(y) ? kInf : 0.0;
   }
   const double z = (x == 0.0) == std::signbit(y) ? kInf : 0.0;
-  return std::signbit(x) && whole(y) == Whole::odd ? -z : z;
+  return std::signbit(x) && whole(y) == Parity::odd ? -z : z;
 }
 
 bool special(double x) { return 2 * bits_of(x) - 1 >= 2 * bits_of(kInf) - 1; }
@@ -197,9 +197,9 @@ double pow(double x, double y) noexcept {
   if (special(x) || special(y)) return pow_of_special(x, y);
   std::uint64_t negative = 0;
   if (x < 0.0) {
-    const Whole is = whole(y);
-    if (is == Whole::no) return kNan;
-    if (is == Whole::odd) negative = kMinus;
+    const Parity is = whole(y);
+    if (is == Parity::no) return kNan;
+    if (is == Parity::odd) negative = kMinus;
     x = -x;
   }
   const std::uint32_t range = top12(y) & 0x7ff;

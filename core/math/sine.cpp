@@ -33,13 +33,13 @@ namespace {
  */
 
 // x = quadrant pi/2 + rest, |rest| <= pi/4; only the quadrant's last two bits matter.
-struct Reduced {
+struct Reduction {
   Sum rest;
   unsigned quadrant;
 };
 
-__extension__ using Wide = unsigned __int128;
-__extension__ using SignedWide = __int128;
+__extension__ using UInt128 = unsigned __int128;
+__extension__ using Int128 = __int128;
 
 constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
 constexpr double kTwoByPi = 6.36619772367581382433e-01;
@@ -66,16 +66,16 @@ std::uint64_t two_by_pi_from(int at) {
 
 // x = m 2^e with whole m. The bits of 2/pi above 2^(2-e) make whole turns and are left out. The next 192 bits
 // are multiplied by m modulo whole turns; 139 of them are right, and at most 62 of these cancel.
-Reduced reduce_large(double x) {
+Reduction reduce_large(double x) {
   const std::uint64_t bits = bits_of(x);
   const std::uint64_t m = (bits & 0xfffffffffffff) | 0x10000000000000;
   const int e = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
   // First bit of the window: worth 2^(1-e) of 2/pi, so 2 quadrants after multiplying.
   const int first = e - 2;
   const auto word = [&](int k) { return two_by_pi_from(first + 64 * k); };
-  const Wide low = Wide{m} * word(2);
-  const Wide middle = Wide{m} * word(1) + static_cast<std::uint64_t>(low >> 64);
-  Wide top = (Wide{m * word(0)} << 64) + middle;  // its first two bits are the quadrant
+  const UInt128 low = UInt128{m} * word(2);
+  const UInt128 middle = UInt128{m} * word(1) + static_cast<std::uint64_t>(low >> 64);
+  UInt128 top = (UInt128{m * word(0)} << 64) + middle;  // its first two bits are the quadrant
   std::uint64_t last = static_cast<std::uint64_t>(low);
   unsigned quadrant = static_cast<unsigned>(top >> 126);
   top = top << 2 | last >> 62;
@@ -93,16 +93,16 @@ Reduced reduce_large(double x) {
   }
   // Multiply by pi/2, also as a whole number: the rest is product 2^(-127 - zeros).
   constexpr std::uint64_t kHalfPi = 0xc90fdaa22168c235;
-  const Wide product = (top >> 64) * kHalfPi + (static_cast<std::uint64_t>(top) * Wide{kHalfPi} >> 64);
+  const UInt128 product = (top >> 64) * kHalfPi + (static_cast<std::uint64_t>(top) * UInt128{kHalfPi} >> 64);
   const double hi = static_cast<double>(product);
-  const double lo = static_cast<double>(static_cast<SignedWide>(product - static_cast<Wide>(hi)));
+  const double lo = static_cast<double>(static_cast<Int128>(product - static_cast<UInt128>(hi)));
   const bool minus = (bits >> 63) != 0;
   const double scale =
       from_bits(static_cast<std::uint64_t>(1023 - 127 - zeros) << 52) * (above != minus ? -1.0 : 1.0);
   return {{hi * scale, lo * scale}, minus ? 0U - quadrant : quadrant};
 }
 
-Reduced reduce(double x) {
+Reduction reduce(double x) {
   const std::uint32_t top = high_word(x) & kNoSign;
   if (top >= kInfinite) return {{x - x, x - x}, 0};
   if (top >= 0x413921fb) return reduce_large(x);  // 2^20 pi/2
@@ -185,7 +185,7 @@ double kernel_tan(Sum a, bool odd) {
   return q0 + q * (1.0 + q0 * w0 + q0 * v);
 }
 
-double sine_of(const Reduced& x, unsigned turned) {
+double sine_of(const Reduction& x, unsigned turned) {
   const unsigned quadrant = x.quadrant + turned;
   const double y = (quadrant & 1) != 0 ? kernel_cos(x.rest) : kernel_sin(x.rest);
   return (quadrant & 2) != 0 ? -y : y;
@@ -211,14 +211,14 @@ void sincos(double x, double* sine, double* cosine) noexcept {
     *cosine = kernel_cos({x, 0.0});
     return;
   }
-  const Reduced reduced = reduce(x);
+  const Reduction reduced = reduce(x);
   *sine = sine_of(reduced, 0);
   *cosine = sine_of(reduced, 1);
 }
 
 double tan(double x) noexcept {
   if (is_small(x)) return is_tiny(x) ? x : kernel_tan({x, 0.0}, false);
-  const Reduced reduced = reduce(x);
+  const Reduction reduced = reduce(x);
   return kernel_tan(reduced.rest, (reduced.quadrant & 1) != 0);
 }
 

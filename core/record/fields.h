@@ -65,7 +65,7 @@ void fields(F& f, Grip& g) {
   f("grip_wanted_force", g.force);
 }
 template <class F, class V>
-void fields(F& f, Stamped<V>& s) {
+void fields(F& f, Measurement<V>& s) {
   fields(f, s.value);
   f("stamp", s.t);
   f("health", s.health);

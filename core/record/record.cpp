@@ -339,7 +339,7 @@ std::string RecordWriter::error() const {
   return "cannot write the record '" + path_ + "': " + std::generic_category().message(errno_);
 }
 
-RecordReader::RecordReader(const std::string& path, Partial partial) : path_(path), partial_(partial) {
+RecordReader::RecordReader(const std::string& path, PartialRead partial) : path_(path), partial_(partial) {
   std::error_code none;
   if (std::filesystem::is_fifo(path, none))  // the reader reads it twice
     throw Error(path + ": is a pipe; expected a file; write the record into one");
@@ -403,7 +403,7 @@ bool RecordReader::read_chunk() {
   if (done_) return false;
   const std::uint64_t at = byte_;
   const auto stop = [&](std::uint64_t byte, const std::string& what, bool cut = false) {
-    if (partial_ == Partial::no) fail(byte, what);
+    if (partial_ == PartialRead::no) fail(byte, what);
     if (!cut) damage_ = "byte " + std::to_string(byte) + ": " + what;
     done_ = true;
     return false;

@@ -74,7 +74,7 @@ class RecordWriter {
 };
 
 // yes: reads the complete chunks of a record that is cut off or was never sealed.
-enum class Partial { no, yes };
+enum class PartialRead { no, yes };
 
 // True if a file begins as a record does; false if there is no file.
 [[nodiscard]] bool is_record(const std::string& path);
@@ -82,7 +82,7 @@ enum class Partial { no, yes };
 class RecordReader {
  public:
   // Checks the whole file (ranges.h) before it returns the first frame. Throws Error with the byte.
-  explicit RecordReader(const std::string& path, Partial partial = Partial::no);
+  explicit RecordReader(const std::string& path, PartialRead partial = PartialRead::no);
 
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
   // Texts written after the run, such as "ledger"; empty if the run did not end, or has no end texts.
@@ -103,7 +103,7 @@ class RecordReader {
   bool read_chunk();  // false at the seal, or at the last complete chunk of a partial record
 
   std::string path_;
-  Partial partial_;
+  PartialRead partial_;
   std::ifstream file_;
   RecordTexts texts_, end_texts_;
   std::uint32_t format_ = kRecordFormat;

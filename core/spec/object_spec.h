@@ -49,11 +49,11 @@ constexpr const char* size_key(ShapeKind shape) {
 // True if the surface consists of triangles, ObjectSpec::surface.
 constexpr bool has_triangles(ShapeKind shape) { return shape == ShapeKind::mesh || shape == ShapeKind::box; }
 
-enum class Tangential : std::uint8_t {
+enum class TangentialMode : std::uint8_t {
   stick,  // the tip stays over its contact point, whatever the sideways force (default)
   spring  // the contact point yields sideways by force / tangential_stiffness
 };
-constexpr auto words(Tangential) { return enum_words("stick", "spring"); }
+constexpr auto words(TangentialMode) { return enum_words("stick", "spring"); }
 
 // An entry of models/behaviours.toml: the response of a surface. Objects name it.
 struct BehaviourSpec {
@@ -62,7 +62,7 @@ struct BehaviourSpec {
   double stiffness = kUnset;  // N/m: a linear spring, equal for press and release
   double limit = kUnset;      // deflection limit, m; unset: that of the response file
   Reversal reversal = Reversal::energy_stop;  // the model of the file that is rendered
-  Tangential tangential = Tangential::stick;
+  TangentialMode tangential = TangentialMode::stick;
   double tangential_stiffness = kUnset;  // N/m, with Tangential::spring
   InteractionSpec interaction{};         // other interactions than a press
   ResponseSpec curves{};                 // filled by the loader from the response file or the stiffness

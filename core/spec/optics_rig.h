@@ -17,8 +17,8 @@ constexpr auto words(Prediction) { return enum_words("hold", "constant_velocity"
 
 // Meeting point of an approaching bare finger: the filter's extrapolation, or the touch predicted from a
 // reach (reach.h).
-enum class Foresight : std::uint8_t { carried_on, reach };
-constexpr auto words(Foresight) { return enum_words("carried_on", "reach"); }
+enum class TouchPrediction : std::uint8_t { carried_on, reach };
+constexpr auto words(TouchPrediction) { return enum_words("carried_on", "reach"); }
 
 // Model of a reaching hand [sources/hand 4].
 struct ReachBelief {
@@ -49,7 +49,7 @@ struct TrackerRig {
   double usual_age = 0.045;  // s: due to latency, polling and jitter; an older pose is predicted and flagged
   double lost_age = 0.100;   // s: an older pose is lost (sources/tracking 5)
   double farthest = 3.0;     // m from C: a tool beyond is refused
-  Foresight foresight = Foresight::carried_on;
+  TouchPrediction foresight = TouchPrediction::carried_on;
   ReachBelief reach;
   // Sides along W of the box around W's origin in which tools are tracked, m: 75e-3 m^3 [VHMR 5]. The paper
   // gives only the product.

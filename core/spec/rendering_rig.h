@@ -73,7 +73,7 @@ struct ArmRig {
   double continuous = 1.4;  // N: continuous force of the tip
   // Torque of each motor, N m: brief and continuous (sources/arm 3, published).
   PerJoint peak_torque{0.129, 0.129, 0.129}, continuous_torque{0.0286, 0.0286, 0.0286};
-  Thermal thermal{};
+  ThermalModel thermal{};
   double speed = 1.0;          // m/s, of the target on its path to the expected touch
   double acceleration = 15.0;  // m/s^2, of that target
   double settle = 0.020;       // s, in which the target follows a jump of the tracked finger

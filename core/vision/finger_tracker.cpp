@@ -30,7 +30,7 @@ struct FingerTracker::Parts {
   // m, cap widths at recognition: of the tracked finger, and of the detected one.
   double cap = kUnset, found_cap = kUnset;
 
-  [[nodiscard]] Refused usable(const StereoFrame& frame, Time exposed) const;
+  [[nodiscard]] FrameRefusal usable(const StereoFrame& frame, Time exposed) const;
   [[nodiscard]] Region window() const;
   [[nodiscard]] HandScene::FingerHint followed() const;
   [[nodiscard]] bool look(const StereoFrame& frame, Time exposed, Triplet& at, Vec3& variance);
@@ -40,13 +40,13 @@ struct FingerTracker::Parts {
   [[nodiscard]] Finger told(Time exposed) const;
 };
 
-Refused FingerTracker::Parts::usable(const StereoFrame& frame, Time exposed) const {
+FrameRefusal FingerTracker::Parts::usable(const StereoFrame& frame, Time exposed) const {
   const Region all = scene.frame();
-  if (frame.left.rgb == nullptr || frame.right.rgb == nullptr) return Refused::missing;
+  if (frame.left.rgb == nullptr || frame.right.rgb == nullptr) return FrameRefusal::missing;
   for (const ImageView& image : {frame.left, frame.right})
-    if (image.width != all.x1 || image.height != all.y1) return Refused::size;
-  if (newest && exposed <= *newest) return Refused::stamp;
-  return Refused::no;
+    if (image.width != all.x1 || image.height != all.y1) return FrameRefusal::size;
+  if (newest && exposed <= *newest) return FrameRefusal::stamp;
+  return FrameRefusal::no;
 }
 
 // Search window of the finger. The filter is already at this frame's exposure.
@@ -187,8 +187,9 @@ Finger FingerTracker::see(const StereoFrame& frame, Time exposed) noexcept {
   finger.exposed = exposed;
   finger.state = p.scene.learned() ? FingerState::away : FingerState::learning;
   p.stats.refused = p.usable(frame, exposed);
-  if (p.stats.refused == Refused::no && p.scene.exchanged(frame)) p.stats.refused = Refused::exchanged;
-  if (p.stats.refused != Refused::no) return finger;
+  if (p.stats.refused == FrameRefusal::no && p.scene.exchanged(frame))
+    p.stats.refused = FrameRefusal::exchanged;
+  if (p.stats.refused != FrameRefusal::no) return finger;
   p.newest = exposed;
   if (!p.scene.learned()) {
     p.scene.learn(frame);

@@ -42,12 +42,12 @@ struct Finger {
 };
 
 // Reason for refusing a frame.
-enum class Refused : std::uint8_t { no, size, missing, stamp, exchanged };
-constexpr auto words(Refused) { return enum_words("no", "size", "missing", "stamp", "exchanged"); }
+enum class FrameRefusal : std::uint8_t { no, size, missing, stamp, exchanged };
+constexpr auto words(FrameRefusal) { return enum_words("no", "size", "missing", "stamp", "exchanged"); }
 
 // Effort and results for the last frame.
 struct LookStats {
-  Refused refused = Refused::no;
+  FrameRefusal refused = FrameRefusal::no;
   Region window;             // region searched for candidates
   bool whole_frame = false;  // the window covers the whole frame
   std::int64_t pixels = 0;   // pixels segmented

@@ -79,12 +79,13 @@ std::vector<std::string> VisionTracker::remarks() const {
   return lines;
 }
 
-void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
+void VisionTracker::take(Time now, const Measurement<StereoFrame>& frame) {
   if (frame.health != Health::ok) return;
   const bool to_come = frame.t > now;
   Finger finger;
   if (!to_come) finger = tracker_.see(frame.value, frame.t);
-  if (const Refused refused = to_come ? Refused::stamp : tracker_.stats().refused; refused != Refused::no) {
+  if (const FrameRefusal refused = to_come ? FrameRefusal::stamp : tracker_.stats().refused;
+      refused != FrameRefusal::no) {
     ++refused_[static_cast<std::size_t>(refused)];
     return;
   }
@@ -100,7 +101,7 @@ void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
   ++count_;
 }
 
-bool VisionTracker::stalled(Time now, Stamped<TrackedTool>& newest) {
+bool VisionTracker::stalled(Time now, Measurement<TrackedTool>& newest) {
   if (said_stale_ || last_.health == Health::absent || age(now, last_.t) <= seconds(patience_)) return false;
   said_stale_ = true;
   last_.health = Health::stale;
@@ -108,7 +109,7 @@ bool VisionTracker::stalled(Time now, Stamped<TrackedTool>& newest) {
   return true;
 }
 
-bool VisionTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+bool VisionTracker::poll(Time now, Measurement<TrackedTool>& newest) noexcept {
   if (camera_->poll(now, frame_)) take(now, frame_);
   bool due = false;
   while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(wait_)) {  // up to the newest that is due

@@ -25,7 +25,7 @@ class VisionTracker : public PoseTracker {
   // frame with only a predicted position: the core predicts by itself, and its check of the age must detect
   // that the finger is lost. If frames are missing for three periods more than the latency, the last position
   // is returned once more with Health::stale.
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override;
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
   // Remarks: a background that was not learned, a finger in it or in no frame at all, unusable frames,
@@ -37,8 +37,8 @@ class VisionTracker : public PoseTracker {
   [[nodiscard]] const FingerTracker& tracker() const { return tracker_; }
 
  private:
-  void take(Time now, const Stamped<StereoFrame>& frame);
-  bool stalled(Time now, Stamped<TrackedTool>& newest);
+  void take(Time now, const Measurement<StereoFrame>& frame);
+  bool stalled(Time now, Measurement<TrackedTool>& newest);
 
   std::unique_ptr<StereoCamera> camera_;
   FingerTracker tracker_;
@@ -47,12 +47,12 @@ class VisionTracker : public PoseTracker {
   std::array<Finger, 64> line_;  // positions that are not due yet, a ring
   std::size_t first_ = 0, count_ = 0;
   Finger told_;
-  Stamped<TrackedTool> last_;
-  Stamped<StereoFrame> frame_;
+  Measurement<TrackedTool> last_;
+  Measurement<StereoFrame> frame_;
   bool said_stale_ = false;
-  std::array<int, kWords<Refused>.size()> refused_{};  // frames
-  std::array<int, kWords<Doubt>.size()> doubtful_{};   // frames
-  int background_ = 0, looked_ = 0, seen_ = 0;         // frames; seen: with a finger
+  std::array<int, kWords<FrameRefusal>.size()> refused_{};  // frames
+  std::array<int, kWords<Doubt>.size()> doubtful_{};        // frames
+  int background_ = 0, looked_ = 0, seen_ = 0;              // frames; seen: with a finger
 };
 
 }  // namespace enc

@@ -69,11 +69,11 @@ void ClockTie::close_bin() noexcept {
 
 // Excludes bins that lie too far above a later one: no clock falls that steeply. Such messages were late, or
 // the clock was set forward since. The lower bound line never touches them.
-ClockTie::Kept ClockTie::kept() const noexcept {
-  Kept of;
+ClockTie::PacketWindow ClockTie::kept() const noexcept {
+  PacketWindow of;
   double ceiling = std::numeric_limits<double>::infinity();  // limit for gap + kSteepest * stamp
   for (std::size_t i = end_; i > begin_; --i) {
-    const Quickest& one = bin(i - 1);
+    const QuickestPacket& one = bin(i - 1);
     const double height = one.gap + kSteepest * one.stamp;
     if (height > ceiling) continue;
     ceiling = height;
@@ -85,13 +85,14 @@ ClockTie::Kept ClockTie::kept() const noexcept {
 
 // Slope of the closest line below all points, the one highest above their mean. It is an edge of their lower
 // hull, limited to the steepest clock drift.
-double ClockTie::steepness(const Kept& bins, double mean) noexcept {
-  std::array<Quickest, kBins> hull{};
+double ClockTie::steepness(const PacketWindow& bins, double mean) noexcept {
+  std::array<QuickestPacket, kBins> hull{};
   std::size_t size = 0;
   for (std::size_t i = 0; i < bins.count; ++i) {
-    const Quickest& next = bins.bins[i];
+    const QuickestPacket& next = bins.bins[i];
     if (size > 0 && next.stamp <= hull[size - 1].stamp) continue;
-    const auto over = [&](const Quickest& a, const Quickest& b) {  // b lies on or above the line a-next
+    const auto over = [&](const QuickestPacket& a,
+                          const QuickestPacket& b) {  // b lies on or above the line a-next
       return (b.gap - a.gap) * (next.stamp - a.stamp) >= (next.gap - a.gap) * (b.stamp - a.stamp);
     };
     while (size > 1 && over(hull[size - 2], hull[size - 1])) --size;
@@ -100,13 +101,13 @@ double ClockTie::steepness(const Kept& bins, double mean) noexcept {
   std::size_t edge = 0;
   while (edge + 2 < size && hull[edge + 1].stamp < mean) ++edge;
   if (size < 2) return 0.0;
-  const Quickest &a = hull[edge], &b = hull[edge + 1];
+  const QuickestPacket &a = hull[edge], &b = hull[edge + 1];
   return std::clamp((b.gap - a.gap) / (b.stamp - a.stamp), -kSteepest, kSteepest);
 }
 
 // A known drift stays valid while there are too few bins for a new one.
 void ClockTie::fit() noexcept {
-  const Kept of = kept();
+  const PacketWindow of = kept();
   double mean = 0.0;
   for (std::size_t i = 0; i < of.count; ++i) mean += of.bins[i].stamp / static_cast<double>(of.count);
   const double slope = of.count < kFewest ? slope_ : steepness(of, mean);
@@ -126,7 +127,7 @@ ClockEstimate ClockTie::estimate() const noexcept {
   of.forward = forward_;
   if (!any_) return of;
   of.ahead = -1e-9 * (static_cast<double>(first_gap_) + line(last_)) + seconds(least_);
-  const Kept bins = kept();
+  const PacketWindow bins = kept();
   if (bins.count < kFewest) return of;
   of.drift = -slope_;
   std::array<double, kBins> above{};

@@ -72,28 +72,28 @@ class ClockTie {
 
  private:
   static constexpr std::size_t kBins = 64;
-  struct Quickest {
+  struct QuickestPacket {
     double stamp = 0.0, gap = 0.0;  // ns since the first: stamp; arrival - stamp
   };
   // The line at a stamp, ns since the first.
   [[nodiscard]] double line(double stamp) const noexcept { return level_ + slope_ * (stamp - from_); }
   void close_bin() noexcept;
-  struct Kept {
-    std::array<Quickest, kBins> bins{};
+  struct PacketWindow {
+    std::array<QuickestPacket, kBins> bins{};
     std::size_t count = 0;
   };
-  [[nodiscard]] Kept kept() const noexcept;
-  [[nodiscard]] static double steepness(const Kept& bins, double mean) noexcept;
+  [[nodiscard]] PacketWindow kept() const noexcept;
+  [[nodiscard]] static double steepness(const PacketWindow& bins, double mean) noexcept;
   void fit() noexcept;
-  [[nodiscard]] const Quickest& bin(std::size_t i) const noexcept { return bins_[i % kBins]; }
+  [[nodiscard]] const QuickestPacket& bin(std::size_t i) const noexcept { return bins_[i % kBins]; }
 
   Duration least_;
   bool any_ = false;
   std::int64_t first_stamp_ = 0, first_gap_ = 0;
   std::int64_t forward_ = 0;
-  Quickest open_;                     // quickest message of the bin being filled
+  QuickestPacket open_;               // quickest message of the bin being filled
   double opened_ = 0.0, last_ = 0.0;  // stamps
-  std::array<Quickest, kBins> bins_{};
+  std::array<QuickestPacket, kBins> bins_{};
   std::size_t begin_ = 0, end_ = 0;  // range of the valid bins, counted without wrapping
   double level_ = 0.0, slope_ = 0.0, from_ = 0.0;
   double lowest_ = 0.0;  // ns at from_: lowest possible level of the clocks by now, from all messages

@@ -34,7 +34,7 @@ class SampleManipulator final : public Manipulator {
   [[nodiscard]] std::string describe() const override { return wire_.words() + ", answered (no wire)"; }
   [[nodiscard]] Reach reach() const override { return reach_; }
   // A device without its own clock stamps a reading with the time of the cycle that received it.
-  Stamped<TipSample> read(Time now) noexcept override {
+  Measurement<TipSample> read(Time now) noexcept override {
     // wire: take the newest datagram, if any; never wait for it
     return {{pose_, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, health_};
   }
@@ -58,7 +58,7 @@ class SampleForceSensor final : public ForceSensor {
  public:
   explicit SampleForceSensor(const Offer& offer) : wire_(offer) {}
   [[nodiscard]] std::string describe() const override { return wire_.words() + ", answered (no wire)"; }
-  Stamped<Wrench> read(Time now) noexcept override {
+  Measurement<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
   }
 

@@ -14,9 +14,9 @@ namespace enc::wires {
 namespace {
 
 // A driver's settings with the actual ports of a fake.
-class Ported final : public Settings {
+class PortSettings final : public Settings {
  public:
-  Ported(Settings& table, std::int64_t port, std::int64_t http_port = 0)
+  PortSettings(Settings& table, std::int64_t port, std::int64_t http_port = 0)
       : table_(table), port_(port), http_port_(http_port) {}
   void value(const Setting& key, double& number) override { table_.value(key, number); }
   void value(const Setting& key, std::int64_t& whole) override {
@@ -37,18 +37,18 @@ class Ported final : public Settings {
 };
 
 // Answers a driver's queries during its construction. Time does not advance.
-class Answering {
+class AnswerThread {
  public:
-  explicit Answering(Fake& fake)
+  explicit AnswerThread(Fake& fake)
       : thread_([this, &fake] {
           while (!end_) {
             fake.serve(Time{});
             std::this_thread::sleep_for(std::chrono::microseconds(200));
           }
         }) {}
-  ~Answering() { end_ = true; }
-  Answering(const Answering&) = delete;
-  Answering& operator=(const Answering&) = delete;
+  ~AnswerThread() { end_ = true; }
+  AnswerThread(const AnswerThread&) = delete;
+  AnswerThread& operator=(const AnswerThread&) = delete;
 
  private:
   std::atomic<bool> end_ = false;
@@ -64,7 +64,7 @@ class Wires::Link final : public StringLink {
     if (closed()) return 0;
     if (of_.machine.cut) return bytes.size();  // the data stay in a buffer on this side
     std::string answers(of_.controller_->take(bytes));
-    Spoilt& spoilt = of_.machine;
+    WireFaults& spoilt = of_.machine;
     if (!spoilt.instead.empty() && !answers.empty()) answers = std::exchange(spoilt.instead, {});
     if (spoilt.half && !answers.empty()) {
       answers.resize(answers.size() / 2);
@@ -136,7 +136,7 @@ void Wires::serve_tools(Rig& rig, Settings& table, std::span<const std::string> 
 }
 
 void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
-                    Log& log, Which which) {
+                    Log& log, WireChoice which) {
   const Reach reach = reach_of(spec);
   const auto offer = [&](Settings& table) {
     return Offer{table, spec, reach, from_seconds(1.0 / spec.loop.rate), log, true, false, tools};
@@ -145,14 +145,14 @@ void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::sp
   if (which.force && rig.force) {
     twin_.force = std::move(rig.force);
     box_ = std::make_unique<netft::Server>(*twin_.force, netft::gamma(), "127.0.0.1", netft::Ports{}, seed_);
-    const Answering answering(*box_);
-    Ported table(tables.netft, box_->port(), box_->http_port());
+    const AnswerThread answering(*box_);
+    PortSettings table(tables.netft, box_->port(), box_->http_port());
     rig.force = netft::streaming(offer(table));
   }
   if (which.tracker && rig.tracker) {
     serve_tools(rig, tables.igtl, tools);
-    const Answering answering(*tools_);
-    Ported table(tables.igtl, tools_->port());
+    const AnswerThread answering(*tools_);
+    PortSettings table(tables.igtl, tools_->port());
     rig.tracker = igtl::subscribed(offer(table));
   }
   rig.clock = std::make_unique<Clock>(*this, std::move(rig.clock));

@@ -21,7 +21,7 @@ namespace enc::wires {
 
 // Faults of the machine's connection. The faults of force and tool data are those of their fakes
 // (core/devices/fake.h).
-struct Spoilt {
+struct WireFaults {
   bool silent = false;   // receives no answer, though data are taken
   bool cut = false;      // a cut cable: no data are received or taken
   bool hung_up = false;  // closed by the other side
@@ -30,7 +30,7 @@ struct Spoilt {
 };
 
 // The devices that go over their protocols.
-struct Which {
+struct WireChoice {
   bool machine = true, force = true, tracker = true;
 };
 
@@ -50,7 +50,7 @@ class Wires {
   // which this object wraps. Destroy the rig before this object. `tools`: names of the scene's tools, by
   // index.
   void fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
-               Log& log, Which which = {true, true, true});
+               Log& log, WireChoice which = {true, true, true});
 
   [[nodiscard]] Time now() const { return now_; }
   [[nodiscard]] gcs::Controller& controller() { return *controller_; }
@@ -63,7 +63,7 @@ class Wires {
     process_stands_ = process;
   }
 
-  Spoilt machine;
+  WireFaults machine;
 
  private:
   class Link;

@@ -67,7 +67,7 @@ Eigen::MatrixXd kept_of(const Eigen::MatrixXd& x, const Columns& columns) {
 }
 
 // The rows of a fit in blocks of time.
-struct Timed {
+struct TimedRows {
   const std::vector<double>& t;  // s, of each row
   double block;                  // s
 
@@ -77,8 +77,8 @@ struct Timed {
 };
 
 // Influence of the blocks on each number that is found. left: residual of each row.
-std::vector<Blocks> influences(const Timed& rows, const Eigen::MatrixXd& z, const Eigen::MatrixXd& covariance,
-                               const Eigen::VectorXd& left) {
+std::vector<Blocks> influences(const TimedRows& rows, const Eigen::MatrixXd& z,
+                               const Eigen::MatrixXd& covariance, const Eigen::VectorXd& left) {
   std::map<std::int64_t, std::size_t> number;  // index of a block that has rows
   for (const double t : rows.t) number.try_emplace(rows.block_of(t), number.size());
   const Blocks none{std::vector<double>(number.size(), 0.0), std::vector<double>(number.size(), 0.0)};

@@ -247,7 +247,7 @@ std::string mesh_bytes(const Mesh& mesh, const std::string& ending) {
                           quoted(ending)));
 }
 
-void write_mesh(const Mesh& mesh, const std::string& path, Existing existing) {
+void write_mesh(const Mesh& mesh, const std::string& path, OverwritePolicy existing) {
   write_file(path, mesh_bytes(mesh, std::filesystem::path(path).extension().string()), existing);
 }
 

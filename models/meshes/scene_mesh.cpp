@@ -123,16 +123,16 @@ Mesh unpacked(const std::string& bytes, const std::string& name) {
 }  // namespace
 
 void fill_meshes(Setup& setup, const std::string& models_dir) {
-  struct Loaded {
+  struct MeshEntry {
     std::shared_ptr<const Mesh> mesh;
     std::optional<SurfaceMaterial> material;
   };
-  std::map<std::string, Loaded> loaded;  // each file once, however many objects name it
+  std::map<std::string, MeshEntry> loaded;  // each file once, however many objects name it
   for (ObjectSpec& object : setup.scene.objects) {
     if (object.shape == ShapeKind::box) object.surface = box_surface(object.size);
     if (object.shape != ShapeKind::mesh) continue;
     const std::string path = find_mesh(setup, object, fs::path(models_dir) / "meshes").string();
-    Loaded& file = loaded[path];
+    MeshEntry& file = loaded[path];
     if (!file.mesh) {
       CheckedMesh checked = load_solid(path);
       setup.notes.insert(setup.notes.end(), checked.notes.begin(), checked.notes.end());

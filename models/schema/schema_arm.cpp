@@ -80,7 +80,7 @@ void describe(Visitor& v, ArmMachine& m) {
 
 }  // namespace
 
-void describe(Visitor& v, Thermal& t) {
+void describe(Visitor& v, ThermalModel& t) {
   v.value({"winding_time_s", "thermal, of each motor's winding", "sources/arm 3", published, kPositive},
           &t.winding_time);
   v.value({"housing_time_s", "thermal, of each motor's housing", "sources/arm 3", published, kPositive},

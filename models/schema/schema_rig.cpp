@@ -142,7 +142,7 @@ void describe(Visitor& v, TrackerRig& t) {
           "reaching hand touches",
           "docs/reference/reaching.md", chosen},
          t.foresight);
-  table_if(v, "reach", t.foresight == Foresight::reach, [&] { describe(v, t.reach); });
+  table_if(v, "reach", t.foresight == TouchPrediction::reach, [&] { describe(v, t.reach); });
 }
 
 void describe(Visitor& v, DisplayRig& d) {

@@ -281,7 +281,7 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
          {"tangential", "what a sideways force does: nothing, or moves the contact point", "[VHMR 3.4]",
           assumed},
          b.tangential);
-  const Presence sideways = b.tangential == Tangential::spring ? needed : optional;
+  const Presence sideways = b.tangential == TangentialMode::spring ? needed : optional;
   v.value({"tangential_stiffness_N_per_mm", "of the sideways spring", "behaviours.toml", chosen, kPositive,
            sideways},
           &b.tangential_stiffness);

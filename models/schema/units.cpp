@@ -44,12 +44,12 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"", ""}});
 
 // Units as people write them in names, longest suffix first. `kind`: only units of one kind can be converted.
-struct Written {
+struct UnitSuffix {
   std::string_view suffix;
   char kind;
   double in_si;
 };
-constexpr auto kWritten = std::to_array<Written>(
+constexpr auto kWritten = std::to_array<UnitSuffix>(
     {{"_N_per_mm", 'k', 1e3}, {"_N_per_um", 'k', 1e6}, {"_N_per_m", 'k', 1.0}, {"_mm_s2", 'a', 1e-3},
      {"_cm_s", 'v', 1e-2},    {"_inch", 'l', 0.0254},  {"_mm_s", 'v', 1e-3},   {"_m_s2", 'a', 1.0},
      {"_um_s", 'v', 1e-6},    {"_mrad", 'w', 1e-3},    {"_m_s", 'v', 1.0},     {"_deg", 'w', M_PI / 180.0},
@@ -60,8 +60,8 @@ constexpr auto kWritten = std::to_array<Written>(
      {"_ns", 't', 1e-9},      {"_kN", 'n', 1e3},       {"_mN", 'n', 1e-3},     {"_kg", 'm', 1.0},
      {"_N", 'n', 1.0},        {"_s", 't', 1.0},        {"_m", 'l', 1.0},       {"_g", 'm', 1e-3}});
 
-const Written* written_in(std::string_view name) {
-  const auto ends = [&](const Written& unit) {
+const UnitSuffix* written_in(std::string_view name) {
+  const auto ends = [&](const UnitSuffix& unit) {
     return name.size() > unit.suffix.size() && name.ends_with(unit.suffix);
   };
   const auto found = std::find_if(kWritten.begin(), kWritten.end(), ends);
@@ -138,7 +138,7 @@ std::string text_of(const Unit& unit, double si, int k) {
 }
 
 std::optional<double> factor_between(std::string_view from, std::string_view to) {
-  const Written *a = written_in(from), *b = written_in(to);
+  const UnitSuffix *a = written_in(from), *b = written_in(to);
   if (a == nullptr || b == nullptr || a->kind != b->kind) return std::nullopt;
   if (from.substr(0, from.size() - a->suffix.size()) != to.substr(0, to.size() - b->suffix.size()))
     return std::nullopt;

@@ -198,7 +198,7 @@ void check_interaction(const Setup& setup, const BehaviourSpec& b) {
                      "'stiffness_N_per_mm = 0.6'",
                      quoted(b.name)));
   if (!std::isnan(b.limit)) check_no_limit(setup, path + ".limit_mm");
-  if (b.tangential != Tangential::stick)
+  if (b.tangential != TangentialMode::stick)
     fail(setup, path + ".tangential",
          fmt::format(
              "behaviour {} gives sideways, which an arm renders for no object; expected 'stick'; remove it",

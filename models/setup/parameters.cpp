@@ -19,7 +19,7 @@ namespace {
 void walk(Visitor& visitor, Setup& setup) { describe_all(visitor, setup.scene, setup.rig, setup.twin); }
 
 // Walks all existing values and tracks each value's full name.
-class Named : public Visitor {
+class NameVisitor : public Visitor {
  public:
   void value(const Key& key, const Target& target) final {
     named(paths_.empty() ? std::string(key.name) : fmt::format("{}.{}", paths_.back(), key.name), key,
@@ -62,7 +62,7 @@ std::string shown(const Key& key, const Target& target) {
   return value.empty() ? "unset" : value;
 }
 
-class List final : public Named {
+class List final : public NameVisitor {
  public:
   std::vector<Parameter> found;
 
@@ -98,7 +98,7 @@ std::string& text_in(std::vector<DriverTable>& tables, const std::string& driver
   return of(of(tables, driver, &DriverTable::name)->values, key, &DriverValue::key)->text;
 }
 
-class Set final : public Named {
+class Set final : public NameVisitor {
  public:
   Set(std::string name, std::string value, std::string place)
       : name_(std::move(name)), value_(std::move(value)), place_(std::move(place)) {}
@@ -135,7 +135,7 @@ class Set final : public Named {
   bool found_ = false;
 };
 
-class RoundToText final : public Named {
+class RoundToText final : public NameVisitor {
   void named(const std::string&, const Key& key, const Target& target) override {
     const bool word = std::holds_alternative<std::string*>(target) ||
                       std::holds_alternative<Choice>(target) || std::holds_alternative<std::int64_t*>(target);
@@ -228,9 +228,9 @@ std::vector<std::string> unread(const Setup& setup) {
 }
 
 // Passes all but some tables to another visitor.
-class Without final : public Visitor {
+class TableFilter final : public Visitor {
  public:
-  Without(Visitor& to, std::vector<std::string> tables) : to_(to), tables_(std::move(tables)) {}
+  TableFilter(Visitor& to, std::vector<std::string> tables) : to_(to), tables_(std::move(tables)) {}
 
   void value(const Key& key, const Target& target) override { to_.value(key, target); }
   bool open(std::string_view table, bool present) override {
@@ -278,7 +278,7 @@ void note_unread(Setup& setup) {
 }
 
 void walk_built(Visitor& visitor, Setup& setup) {
-  Without built(visitor, unread(setup));
+  TableFilter built(visitor, unread(setup));
   describe_all(built, setup.scene, setup.rig, setup.twin);
 }
 

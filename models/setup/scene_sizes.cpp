@@ -18,20 +18,20 @@ namespace enc::models {
 namespace {
 
 // Ordinary sizes of things that a hand holds or touches, m.
-struct Ordinary {
+struct SizeRange {
   double least, most;
   [[nodiscard]] bool has(double length) const { return length >= least && length <= most; }
   [[nodiscard]] std::string text() const {
     return fmt::format("expected {} to {}", length_text(least), length_text(most));
   }
 };
-constexpr Ordinary kLever{0.020, 1.0};    // distance of a tool's tip from the middle of its markers
-constexpr Ordinary kSpan{0.020, 0.5};     // longest distance between two markers
-constexpr Ordinary kTip{0.00005, 0.030};  // radius of a tip that is not a point
-constexpr Ordinary kObject{0.005, 2.0};   // longest side of a mesh and of a face, and a ball's diameter
+constexpr SizeRange kLever{0.020, 1.0};    // distance of a tool's tip from the middle of its markers
+constexpr SizeRange kSpan{0.020, 0.5};     // longest distance between two markers
+constexpr SizeRange kTip{0.00005, 0.030};  // radius of a tip that is not a point
+constexpr SizeRange kObject{0.005, 2.0};   // longest side of a mesh and of a face, and a ball's diameter
 // Thickness of the solid behind a button's face.
-constexpr Ordinary kThick{0.001, 1.0};
-constexpr Ordinary kUsual{0.010, 1.0};  // size assumed for guessing a unit
+constexpr SizeRange kThick{0.001, 1.0};
+constexpr SizeRange kUsual{0.010, 1.0};  // size assumed for guessing a unit
 
 struct Factor {
   double value;  // factor from this unit to the expected one
@@ -64,7 +64,7 @@ std::string unit_advice(std::string_view key, const std::function<bool(double)>&
 }
 
 // Advice for a key with one length, m; `across`: multiple of it that is judged as the size.
-std::string length_advice(std::string_view key, const Ordinary& ordinary, double length,
+std::string length_advice(std::string_view key, const SizeRange& ordinary, double length,
                           double across = 1.0) {
   return unit_advice(
       key, [&](double factor) { return ordinary.has(across * factor * length); },
@@ -155,7 +155,7 @@ void note_button(Setup& setup, const ObjectSpec& object) {
   struct Side {
     const char *name, *key;
     double length;
-    const Ordinary& ordinary;
+    const SizeRange& ordinary;
   };
   for (const Side& side :
        {Side{"width", "width_mm", object.width, kObject}, Side{"height", "height_mm", object.height, kObject},

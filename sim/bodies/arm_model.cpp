@@ -58,8 +58,8 @@ mjsJoint* add_joint(mjsBody* body, const char* called, mjtJoint type, const Vec3
 
 // Sets rotor, friction and limits of a motor's joint, or of the tendon in its place. `more`: inertia that
 // turns with it and has no body.
-template <class Driven>
-void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more) {
+template <class Actuator>
+void fit_drive(Actuator* driven, const ArmParts& parts, std::size_t i, double more) {
   const ArmDrive& drive = parts.machine.drives[i];
   driven->armature = drive.rotor_inertia * drive.ratio * drive.ratio + more;
   driven->damping[0] = parts.truth.viscous[i];
@@ -98,7 +98,7 @@ struct Phantom {
 };
 
 // Upper arm and forearm, each with its part of the parallelogram.
-struct Carried {
+struct ArmSegments {
   Solid upper, forearm;
   double weightless;                 // share of the forearm's mass without weight
   double second = 0.0, third = 0.0;  // inertia without a body, on the joints of motors 2 and 3, kg m^2
@@ -112,13 +112,13 @@ struct Carried {
 // which this changes. Gravity compensation corrects the weight of the forearm, the centre of mass that of the
 // upper arm. The upper arm's mass is free, because it turns about a fixed point. It is large enough for its
 // inertia.
-Carried carried(const PhantomGeometry& g) {
+ArmSegments carried(const PhantomGeometry& g) {
   check_about_hinge(g.m_be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
   check_about_hinge(g.m_df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");
   // Published axes: x is the hinge. Across it, y and z are the axes that are vertical with the link at 0 and
   // at 90 degrees.
   const auto lying = [](const Vec3& I) { return Vec3(I.z(), I.x(), I.y()); };
-  Carried c{};
+  ArmSegments c{};
   const double quarter = 0.25 * g.m_c, middle = 0.5 * g.l2, beyond = 2.0 * g.l3;
   const double mass = g.m_a + quarter;
   const double centre = (g.m_a * middle + quarter * beyond) / mass;
@@ -148,7 +148,7 @@ Carried carried(const PhantomGeometry& g) {
 mjsBody* build_phantom(mjSpec* spec, const Mount& base, const ArmParts& parts) {
   const PhantomGeometry& g = parts.machine.phantom;
   const Vec3 o = Vec3::Zero();
-  const Carried c = carried(g);
+  const ArmSegments c = carried(g);
   Phantom p{};
   p.turret = add_body(base, o, {g.m_be, o, Vec3::Constant(g.I_base)});  // its mass does not move
   fit_drive(add_joint(p.turret, kJoints[0], mjJNT_HINGE, Vec3::UnitZ()), parts, 0, 0.0);

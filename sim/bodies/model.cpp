@@ -377,7 +377,8 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
     mjsGeom* geom = draw_object(spec, i, parts.scene.objects[i], parts.prepared.objects[i]);
     set4(geom->quat, Quat(X_WO.q()));  // `fromto`, if set, takes precedence
-    const bool real = parts.prepared.probe() && parts.prepared.probe()->object == static_cast<int>(i);
+    const bool real =
+        parts.prepared.indentation() && parts.prepared.indentation()->object == static_cast<int>(i);
     if (real) geom->rgba[3] = 1.0F;
     set_material(spec, geom, i, parts.scene.objects[i], real);
   }

@@ -43,10 +43,10 @@ Vec3 StepWork::pushed(const Physics& physics, double h) const {
 }
 
 // Dry friction and the stops, i.e. every constraint except contacts, as in the last stage of the step.
-StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
+StepWork::EndTorques StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
-  Held held;
+  EndTorques held;
   const auto dofs = std::min<std::size_t>(static_cast<std::size_t>(m->nv), kMostDofs);
   for (int row = 0; row < d->nefc; ++row) {
     const int type = d->efc_type[row];
@@ -93,7 +93,7 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
   }
   const Vec3 force = pushed(physics, h);
   const bool touched = d->ncon > 0 || force.norm() > 1e-9;
-  const Held now = held_back(physics, arm);
+  const EndTorques now = held_back(physics, arm);
   for (std::size_t i = 0; i < kMostDofs && i < static_cast<std::size_t>(physics.model()->nv); ++i)
     sum.friction -= 0.5 * (held_.stops[i] + now.stops[i]) * (d->qpos[i] - qpos_[i]);
   for (std::size_t i = 0; i < kMostJoints; ++i)

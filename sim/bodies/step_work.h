@@ -43,19 +43,19 @@ class StepWork {
   static constexpr std::size_t kMostDofs = 12;
   using PerDof = std::array<double, kMostDofs>;  // the world's coordinates
   // Torques at one end of a step: dry friction, and the joint stops.
-  struct Held {
+  struct EndTorques {
     PerJoint friction{};
     PerDof stops{};
   };
   void look(const Physics& physics);
-  [[nodiscard]] static Held held_back(const Physics& physics, const ArmBody& arm);
+  [[nodiscard]] static EndTorques held_back(const Physics& physics, const ArmBody& arm);
   [[nodiscard]] Vec3 touched_first(const Physics& physics, const ArmBody& arm) const;
 
   Scale tool_;
   Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // velocity of the tool; force of the hand on it
   PerJoint joints_{}, rates_{};
   PerDof qpos_{};
-  Held held_;  // values at the start of the step
+  EndTorques held_;  // values at the start of the step
   PerJoint torque_{kUnset, kUnset, kUnset};
   std::vector<double> warm_;
   Vec3 tip_ = Vec3::Zero();  // body that carries the prop

@@ -228,7 +228,7 @@ void HandDrawing::add_finger(const HandPose& pose, const HandLook& look, mjvScen
   }
 }
 
-void HandDrawing::show(const Shown& shown, mjvScene& scene) {
+void HandDrawing::show(const CameraScene& shown, mjvScene& scene) {
   scene.ngeom = background_;
   if (shown.hand) add_hand(shown.pose, shown.look, scene);
   things_ = scene.ngeom;

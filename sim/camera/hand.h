@@ -28,7 +28,7 @@ class HandDrawing {
   // Removes the hand's own geoms from a new picture.
   HandDrawing(const mjModel* model, mjvScene& scene);
   // Replaces everything but the background by `shown`.
-  void show(const Shown& shown, mjvScene& scene);
+  void show(const CameraScene& shown, mjvScene& scene);
   // Queries about the last `shown`.
   [[nodiscard]] bool is_skin(int geom) const {
     return geom >= background_ && geom < things_ && geom != background_ + sleeve_at_;

@@ -48,7 +48,7 @@ struct Light {
 };
 
 // Everything that a camera of the twin sees at an exposure.
-struct Shown {
+struct CameraScene {
   bool hand = false;  // false: no hand
   HandPose pose;
   HandLook look;

@@ -73,7 +73,7 @@ struct Stage::Parts {
   void render(int eye, bool segments);
   void read(int eye, Image& picture, std::uint64_t frame);
   void expose(int eye, Image& picture, std::uint64_t frame) const;
-  void tell_truth(const Shown& shown, PixelTruth& truth);
+  void tell_truth(const CameraScene& shown, PixelTruth& truth);
 
   StageSpec spec;
   int width, height;
@@ -201,7 +201,7 @@ void tell_cap(const Lens& lens, const Vec3& centre, double radius, PixelTruth& t
 
 }  // namespace
 
-void Stage::Parts::tell_truth(const Shown& shown, PixelTruth& truth) {
+void Stage::Parts::tell_truth(const CameraScene& shown, PixelTruth& truth) {
   const Warp& w = warp[0];
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (Mask* mask : {&truth.skin, &truth.things})
@@ -237,7 +237,8 @@ Stage::~Stage() {
   parts_.reset();
 }
 
-void Stage::draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right, PixelTruth* truth) {
+void Stage::draw(const CameraScene& shown, std::uint64_t frame, Image& left, Image& right,
+                 PixelTruth* truth) {
   Parts& p = *parts_;
   const auto lock = p.current();
   p.hands->show(shown, p.renderer.scene);

@@ -41,7 +41,7 @@ struct StageSpec {
 
 struct PixelTruth {
   Mask skin;                             // left image
-  Mask things;                           // left image: pixels that show one of Shown::things
+  Mask things;                           // left image: pixels that show one of CameraScene::things
   std::vector<float> depth;              // m along z of C, left image; infinite: no surface
   double column = kUnset, row = kUnset;  // centre of the cap, px, in the left image
   double radius = kUnset;                // radius of the circle with its outline's area, px
@@ -58,7 +58,7 @@ class Stage {
 
   // Draws a pair; `frame` seeds the noise. Writes `truth` unless it is null. Throws Error if there are too
   // many things.
-  virtual void draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right,
+  virtual void draw(const CameraScene& shown, std::uint64_t frame, Image& left, Image& right,
                     PixelTruth* truth = nullptr);
   // Exposes the last drawing once more: the same picture with the noise of another frame. Does nothing before
   // the first drawing.
@@ -78,7 +78,7 @@ class Stage {
   std::unique_ptr<Parts> parts_;
 };
 
-using Show = std::function<Shown(Time exposed)>;
+using Show = std::function<CameraScene(Time exposed)>;
 
 struct TwinCameraSpec {
   StageSpec stage;

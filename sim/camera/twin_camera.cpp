@@ -14,7 +14,7 @@ TwinCamera::TwinCamera(const TwinCameraSpec& spec, Show show)
   if (!show_) throw Error("a camera of the twin needs what it looks at");
 }
 
-bool TwinCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
+bool TwinCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   bool due = false;
   for (Time next = exposures_.next(); exposures_.due(now); next = exposures_.next())
     due = due || next < spec_.stalls || next >= spec_.back;
@@ -33,7 +33,7 @@ bool TwinCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   return true;
 }
 
-bool TwinCamera::silent(Time now, Stamped<StereoFrame>& newest) noexcept {
+bool TwinCamera::silent(Time now, Measurement<StereoFrame>& newest) noexcept {
   if (!linked_ || age(now, exposed_) <= kSilent / exposures_.hz) return false;
   linked_ = false;
   newest = {{left_.view(), right_.view()}, exposed_, Health::fault};

@@ -18,7 +18,7 @@ class TwinCamera final : public StereoCamera {
   // missed exposures are never drawn. The tracker handles the latency of the fingertip. After kSilent periods
   // without an exposure, it returns the last pair once more with a fault, and linked() is false until the
   // next exposure.
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] ImageSize size() const override { return spec_.stage.camera.size(); }
   [[nodiscard]] std::string describe() const override;
@@ -28,12 +28,12 @@ class TwinCamera final : public StereoCamera {
   static constexpr double kSilent = 3.0;
 
  private:
-  bool silent(Time now, Stamped<StereoFrame>& newest) noexcept;
+  bool silent(Time now, Measurement<StereoFrame>& newest) noexcept;
 
   TwinCameraSpec spec_;
   Show show_;
   Stage stage_;
-  Every exposures_;
+  DueTimes exposures_;
   Image left_, right_;
   Time exposed_{};
   std::uint64_t drawn_ = 0;

@@ -255,7 +255,7 @@ Vec<'W'> User::normal_at(const Point<'W'>& tip) const {
   Vec<'W'> normal(0, 0, 1);
   double least = std::numeric_limits<double>::infinity();
   for (const Object& object : scene_.objects) {
-    const Nearest near = object.surface.nearest(object.X_WO.inverse() * tip);
+    const SurfacePoint near = object.surface.nearest(object.X_WO.inverse() * tip);
     if (!(near.distance < least)) continue;
     least = near.distance;
     normal = object.X_WO * near.normal;

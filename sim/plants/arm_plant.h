@@ -16,7 +16,7 @@ class ArmPlant {
  public:
   static constexpr std::size_t kLongestWindow = 64;  // ticks
   struct State {
-    Stamped<ArmSample> sample;
+    Measurement<ArmSample> sample;
     std::array<PerJoint, kLongestWindow> read{};  // joint readings, a ring
     std::int64_t reads = 0;
     Vec<'R'> wanted = Vec<'R'>::zero();  // last command

@@ -41,7 +41,7 @@ void DisplayPlant::advance(Time t) {
   }
 }
 
-bool DisplayPlant::poll(Stamped<DentSample>& newest) noexcept {
+bool DisplayPlant::poll(Measurement<DentSample>& newest) noexcept {
   if (!state_.news) return false;
   newest = state_.arrived;
   state_.news = false;

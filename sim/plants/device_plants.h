@@ -16,16 +16,16 @@ namespace enc::sim {
 class DisplayPlant {
  public:
   struct Packet {
-    Stamped<DentSample> sample;
+    Measurement<DentSample> sample;
     Time due{};
     bool waiting = false;
   };
   struct State {
-    Every frame;
+    DueTimes frame;
     View view;  // newest shown
     std::array<Packet, 64> on_wire;
     std::size_t head = 0;
-    Stamped<DentSample> arrived;
+    Measurement<DentSample> arrived;
     bool news = false;
   };
   DisplayPlant(const DisplayTruth& truth, const Scene& scene, std::uint64_t seed);
@@ -34,7 +34,7 @@ class DisplayPlant {
   void restore(const State& state) { state_ = state; }
   void show(const View& view) noexcept { state_.view = view; }
   void advance(Time t);
-  bool poll(Stamped<DentSample>& newest) noexcept;
+  bool poll(Measurement<DentSample>& newest) noexcept;
 
  private:
   [[nodiscard]] DentSample draw() const;
@@ -54,11 +54,11 @@ class ForcePlant {
     Vec<'F'> shifted = Vec<'F'>::zero();   // N, in this push
     Vec<'F'> shifting = Vec<'F'>::zero();  // N/s, during the next
     double shift_left = 0.0;               // remaining s
-    Stamped<Wrench> sample;
+    Measurement<Wrench> sample;
   };
   ForcePlant(const ForceTruth& truth, std::uint64_t seed);
 
-  [[nodiscard]] const Stamped<Wrench>& sample() const { return state_.sample; }
+  [[nodiscard]] const Measurement<Wrench>& sample() const { return state_.sample; }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
   void begin_push() noexcept;  // the zero differs from that of the last push
@@ -82,11 +82,11 @@ class GripperPlant {
     Stream noise;
     Grip wanted;
     double play = 0.0;  // m: position error of this closing
-    Stamped<GripSample> sample;
+    Measurement<GripSample> sample;
   };
   GripperPlant(const GripperTruth& truth, std::uint64_t seed);
 
-  [[nodiscard]] const Stamped<GripSample>& sample() const { return state_.sample; }
+  [[nodiscard]] const Measurement<GripSample>& sample() const { return state_.sample; }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
   // A force that is not a number is refused (health fault); one beyond the range is clamped (out_of_range).

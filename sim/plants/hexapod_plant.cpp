@@ -51,7 +51,7 @@ void HexapodPlant::command(const Pose<'R', 'H'>& X_RH) noexcept {
 
 void HexapodPlant::begin_cycle() noexcept {
   if (state_.led) return;
-  Pending& pending = state_.pending;
+  PendingCommands& pending = state_.pending;
   pending.line[static_cast<std::size_t>(pending.head % static_cast<std::int64_t>(kLongestDelay))] =
       state_.newest;
   const std::int64_t due = std::max<std::int64_t>(0, pending.head - truth_.delay_cycles);

@@ -21,13 +21,13 @@ namespace enc::sim {
 class HexapodPlant {
  public:
   static constexpr std::size_t kLongestDelay = 64;  // cycles
-  struct Pending {
+  struct PendingCommands {
     std::array<Pose<'R', 'H'>, kLongestDelay> line;  // pending commands, a ring
     std::int64_t head = 0;
   };
   // All moving state; trivially copyable, so that a world can be saved.
   struct State {
-    Pending pending;
+    PendingCommands pending;
     Pose<'R', 'H'> newest;  // last accepted command
     Pose<'R', 'H'> wanted;  // servo set-point, quantised
     Pose<'R', 'H'> pose;

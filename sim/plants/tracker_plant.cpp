@@ -69,7 +69,7 @@ Pose<'W', 'T'> between(const Pose<'W', 'T'>& a, const Pose<'W', 'T'>& b, double 
 }
 
 template <std::size_t N>
-void put(std::array<TrackerPlant::Packet, N>& line, const Stamped<TrackedTool>& sample, Time due) {
+void put(std::array<TrackerPlant::Packet, N>& line, const Measurement<TrackedTool>& sample, Time due) {
   // A full line loses its oldest packet, as a socket buffer would.
   auto* slot = std::min_element(line.begin(), line.end(), [](const auto& a, const auto& b) {
     return a.waiting != b.waiting ? !a.waiting : a.due < b.due;
@@ -127,7 +127,7 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
       at + from_seconds(truth_.latency));
 }
 
-void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
+void TrackerPlant::transmit(const Measurement<TrackedTool>& sample, Time at) {
   const double delay =
       truth_.process + (truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0);
   const bool lost = state_.noise.uniform() < truth_.loss;
@@ -186,7 +186,7 @@ void TrackerPlant::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   state_.before_t = t;
 }
 
-bool TrackerPlant::poll(Stamped<TrackedTool>& newest) noexcept {
+bool TrackerPlant::poll(Measurement<TrackedTool>& newest) noexcept {
   if (!state_.news) return false;
   newest = state_.arrived;
   state_.news = false;

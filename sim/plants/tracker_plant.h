@@ -53,21 +53,21 @@ class StereoPoints {
 class TrackerPlant {
  public:
   struct Packet {
-    Stamped<TrackedTool> sample;
+    Measurement<TrackedTool> sample;
     Time due{};  // arrival at the core
     bool waiting = false;
   };
   struct State {
     Stream noise;
-    Every exposure, server;
-    std::array<Packet, 64> exposed;  // poses on their way to the server
-    Stamped<TrackedTool> at_server;  // newest pose at the server
-    Time sent{};                     // stamp of the newest packet sent
+    DueTimes exposure, server;
+    std::array<Packet, 64> exposed;      // poses on their way to the server
+    Measurement<TrackedTool> at_server;  // newest pose at the server
+    Time sent{};                         // stamp of the newest packet sent
     std::array<Packet, 64> on_wire;
     Pose<'W', 'T'> before;  // the tool one tick ago, because exposures lie between ticks
     std::int32_t tool_before = -1;
     Time before_t{};
-    Stamped<TrackedTool> arrived;  // newest pose at the core
+    Measurement<TrackedTool> arrived;  // newest pose at the core
     bool news = false;
     std::int64_t dropped = 0;  // packets lost
   };
@@ -78,14 +78,14 @@ class TrackerPlant {
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
   void advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT);  // once a tick, with the true pose
-  bool poll(Stamped<TrackedTool>& newest) noexcept;
+  bool poll(Measurement<TrackedTool>& newest) noexcept;
 
  private:
   [[nodiscard]] TrackedTool by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_WT);
   void expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT);
   void poll_exposed(Time now);
   void send_ready(Time now);
-  void transmit(const Stamped<TrackedTool>& sample, Time at);
+  void transmit(const Measurement<TrackedTool>& sample, Time at);
   void deliver(Time now);
 
   TrackerTruth truth_;

@@ -36,7 +36,7 @@ struct ArmTruth {
   std::array<double, kMostJoints> viscous{0.0005, 0.0005, 0.0005};   // N m s/rad or N s/m
   std::array<double, kMostJoints> peak_torque{0.129, 0.129, 0.129};  // motor's, N m
   std::array<double, kMostJoints> continuous_torque{0.0286, 0.0286, 0.0286};
-  Thermal thermal{};
+  ThermalModel thermal{};
   double velocity_window = 0.002;  // s, over which the device differences its encoder readings
   double watchdog = 0.005;         // s without a command before the motors switch off
   // s, time constant of the motor that drives a prop's surface.

@@ -66,8 +66,8 @@ class ManipulatorTest : public testing::TestWithParam<Entry> {
     setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
     machine_ = GetParam().make();
   }
-  Stamped<TipSample> after(const Pose<'R', 'H'>& command, int cycles) {
-    Stamped<TipSample> last;
+  Measurement<TipSample> after(const Pose<'R', 'H'>& command, int cycles) {
+    Measurement<TipSample> last;
     for (int i = 0; i < cycles; ++i) {
       machine_->next();
       last = machine_->device().read(machine_->now);
@@ -309,7 +309,7 @@ struct Tally {
 // tracker.
 Tally watch(Twin& twin, double duration) {
   Tally tally;
-  Stamped<TrackedTool> sample;
+  Measurement<TrackedTool> sample;
   Time before{};
   Time arrived{};
   for (int i = 0; i < static_cast<int>(duration * 1e3); ++i) {
@@ -327,7 +327,7 @@ Tally watch(Twin& twin, double duration) {
 
 TEST(SimulatedTracker, SaysNothingBeforeItsFirstSample) {
   Twin twin;
-  Stamped<TrackedTool> sample;
+  Measurement<TrackedTool> sample;
   twin.rig.clock->next();
   EXPECT_FALSE(twin.rig.tracker->poll({}, sample));
   EXPECT_EQ(sample.health, Health::absent);
@@ -335,7 +335,7 @@ TEST(SimulatedTracker, SaysNothingBeforeItsFirstSample) {
 
 TEST(SimulatedTracker, NewsIsToldOnceAndOtherwiseTheSampleIsLeftAlone) {
   Twin twin;
-  Stamped<TrackedTool> sample;
+  Measurement<TrackedTool> sample;
   while (!twin.rig.tracker->poll({}, sample)) twin.rig.clock->next();
   const Time first = sample.t;
   sample.value.tool = 77;
@@ -372,8 +372,8 @@ TEST(SimulatedTracker, PacketsByEventComeAtTheExposuresRateWithoutTheServersWait
 TEST(SimulatedTracker, AStampErrorIsInTheStampsAndNowhereElse) {
   Twin right;
   Twin wrong({"truth.tracker.stamp_error_ms=3"});
-  Stamped<TrackedTool> a;
-  Stamped<TrackedTool> b;
+  Measurement<TrackedTool> a;
+  Measurement<TrackedTool> b;
   int news = 0;
   for (int i = 0; i < 1000; ++i) {
     right.rig.clock->next();
@@ -404,7 +404,7 @@ TEST(SimulatedTracker, LosesItsShareOfPackets) {
 
 TEST(SimulatedTracker, MeasuresTheToolWithBiasAndNoise) {
   Twin twin({"truth.hand.tremor_mm=0", "truth.hand.drift_mm=0"});
-  Stamped<TrackedTool> sample;
+  Measurement<TrackedTool> sample;
   Vec3 sum = Vec3::Zero();
   int n = 0;
   for (int i = 0; i < 590; ++i) {  // before the tool sets out
@@ -425,7 +425,7 @@ TEST(SimulatedTracker, MeasuresTheToolWithBiasAndNoise) {
 
 TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
   Twin twin({"truth.display.latency_ms=25"});
-  Stamped<DentSample> dent;
+  Measurement<DentSample> dent;
   twin.rig.clock->next();
   EXPECT_FALSE(twin.rig.display->poll({}, dent));
   EXPECT_EQ(dent.health, Health::absent);
@@ -451,7 +451,7 @@ TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
 struct Gripping : testing::Test {
   Twin twin{{}, 1, "clamped_tool"};
   Gripper& device() { return *twin.rig.gripper; }
-  Stamped<GripSample> after(const Grip& grip, int cycles) {
+  Measurement<GripSample> after(const Grip& grip, int cycles) {
     for (int i = 0; i < cycles; ++i) {
       twin.rig.clock->next();
       device().command(grip);

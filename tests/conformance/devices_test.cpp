@@ -35,7 +35,7 @@
 namespace enc::test {
 namespace {
 
-using igtl::Written;
+using igtl::OutgoingMessage;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -53,7 +53,7 @@ Result devices(const std::vector<std::string>& real, const char* seconds) {
   return tests::run_program(words, tests::kShipped);
 }
 
-struct Sent {
+struct PoseMessage {
   double x = 0.0;  // m
   std::int64_t stamp_ns = 0;
   const char* device = "StylusToTracker";
@@ -64,7 +64,7 @@ struct Sent {
 // A tracker's own server, over TCP, which sends the result of `pose` 100 times a second.
 class TrackerServer {
  public:
-  explicit TrackerServer(Sent (*pose)(int)) : pose_(pose) {}
+  explicit TrackerServer(PoseMessage (*pose)(int)) : pose_(pose) {}
   ~TrackerServer() {
     end_ = true;
     thread_.join();
@@ -78,7 +78,7 @@ class TrackerServer {
   }
 
  private:
-  static void send(net::Socket& client, const Written& message, std::uint64_t crc) {
+  static void send(net::Socket& client, const OutgoingMessage& message, std::uint64_t crc) {
     std::vector<std::byte> bytes(message.bytes().begin(), message.bytes().end());
     constexpr std::size_t kCrc = 50;
     if (crc != 1) net::put(std::span(bytes), kCrc, crc);
@@ -90,19 +90,19 @@ class TrackerServer {
     net::Socket client = listener_.accept();
     igtl::Stream heard;
     for (int k = 0; !end_; ++k) {
-      const Sent sent = pose_(k);
+      const PoseMessage sent = pose_(k);
       heard.came(client.receive(heard.room()));
       for (auto bytes = heard.next(); !bytes.empty(); bytes = heard.next())
-        send(client, Written("STATUS", "Server", 0, igtl::status(1)), sent.status_crc);
+        send(client, OutgoingMessage("STATUS", "Server", 0, igtl::status(1)), sent.status_crc);
       send(client,
-           Written("TRANSFORM", sent.device, sent.stamp_ns,
-                   igtl::transform(Pose<'C', 'T'>::shift(sent.x, 0.02, 0.9))),
+           OutgoingMessage("TRANSFORM", sent.device, sent.stamp_ns,
+                           igtl::transform(Pose<'C', 'T'>::shift(sent.x, 0.02, 0.9))),
            sent.pose_crc);
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
 
-  Sent (*pose_)(int);
+  PoseMessage (*pose_)(int);
   net::Socket listener_ = net::listen_tcp("127.0.0.1", 0);
   std::atomic<bool> end_ = false;
   std::thread thread_{[this] { serve(); }};
@@ -112,7 +112,7 @@ double moving(int k) { return 0.01 * std::sin(k / 15.0); }
 std::int64_t fresh() { return (net::steady_now() + Duration(1'000'000'000'000)).count(); }
 
 TEST(Devices, ATrackerThatIsWellIsUsable) {
-  const Result result = TrackerServer([](int k) { return Sent{moving(k), fresh()}; }).asked();
+  const Result result = TrackerServer([](int k) { return PoseMessage{moving(k), fresh()}; }).asked();
   EXPECT_EQ(result.code, 0) << result.out << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("samples a second"), HasSubstr(" poses, 0 old or twice, 0 wrong"),
                                 Not(HasSubstr("NOT USABLE"))));
@@ -120,7 +120,7 @@ TEST(Devices, ATrackerThatIsWellIsUsable) {
 
 TEST(Devices, AToolOfAnotherNameIsNamedBesideTheExpectedOne) {
   const Result result = TrackerServer([](int k) {
-                          return Sent{moving(k), fresh(), "StylusToReference"};
+                          return PoseMessage{moving(k), fresh(), "StylusToReference"};
                         }).asked();
   EXPECT_EQ(result.code, 3) << result.out;
   EXPECT_THAT(result.out,
@@ -131,14 +131,14 @@ TEST(Devices, AToolOfAnotherNameIsNamedBesideTheExpectedOne) {
 
 TEST(Devices, AWrongCrcIsCountedApartAndAMissingOneIsCalledSo) {
   const Result none = TrackerServer([](int k) {
-                        return Sent{moving(k), fresh(), "StylusToTracker", 0};
+                        return PoseMessage{moving(k), fresh(), "StylusToTracker", 0};
                       }).asked();
   EXPECT_EQ(none.code, 3) << none.out;
   EXPECT_THAT(none.out,
               AllOf(ContainsRegex("0 wrong; [1-9][0-9]+ with a wrong CRC: 0, the server does not"),
                     ContainsRegex("NOT USABLE: it sent no sample: [0-9]+ with a wrong CRC: 0, the")));
   const Result other = TrackerServer([](int k) {
-                         return Sent{moving(k), fresh(), "StylusToTracker", 77};
+                         return PoseMessage{moving(k), fresh(), "StylusToTracker", 77};
                        }).asked();
   EXPECT_EQ(other.code, 3) << other.out;
   EXPECT_THAT(other.out,
@@ -147,14 +147,14 @@ TEST(Devices, AWrongCrcIsCountedApartAndAMissingOneIsCalledSo) {
 
 TEST(Devices, AServerOfWhichNoMessageHasACrcIsNotTakenForASilentOne) {
   const Result result = TrackerServer([](int k) {
-                          return Sent{moving(k), fresh(), "StylusToTracker", 0, 0};
+                          return PoseMessage{moving(k), fresh(), "StylusToTracker", 0, 0};
                         }).asked();
   EXPECT_EQ(result.code, 3) << result.out;
   EXPECT_THAT(result.out, AllOf(HasSubstr("NOT THERE"), HasSubstr("what it sends has CRC 0")));
 }
 
 TEST(Devices, AStampThatStandsStillIsCountedAndItsOnePoseIsNoTracking) {
-  const Result result = TrackerServer([](int k) { return Sent{moving(k), 0}; }).asked();
+  const Result result = TrackerServer([](int k) { return PoseMessage{moving(k), 0}; }).asked();
   EXPECT_EQ(result.code, 3) << result.out;
   EXPECT_THAT(
       result.out,
@@ -166,7 +166,7 @@ TEST(Devices, AStampThatStandsStillIsCountedAndItsOnePoseIsNoTracking) {
 }
 
 TEST(Devices, APoseThatIsRepeatedToTheBitIsNoTracking) {
-  const Result result = TrackerServer([](int) { return Sent{0.01, fresh()}; }).asked();
+  const Result result = TrackerServer([](int) { return PoseMessage{0.01, fresh()}; }).asked();
   EXPECT_EQ(result.code, 3) << result.out;
   EXPECT_THAT(result.out, AllOf(ContainsRegex("[1-9][0-9]+ equal to the bit to the pose before"),
                                 HasSubstr("NOT USABLE: all poses are equal to the bit")));
@@ -174,7 +174,7 @@ TEST(Devices, APoseThatIsRepeatedToTheBitIsNoTracking) {
 
 TEST(Devices, APoseThatFreezesInTheMiddleIsNoTracking) {
   const Result frozen = TrackerServer([](int k) {
-                          return Sent{moving(std::min(k, 60)), fresh()};
+                          return PoseMessage{moving(std::min(k, 60)), fresh()};
                         }).asked("2");
   EXPECT_EQ(frozen.code, 3) << frozen.out;
   EXPECT_THAT(frozen.out,
@@ -182,13 +182,13 @@ TEST(Devices, APoseThatFreezesInTheMiddleIsNoTracking) {
                             "bit: it repeats the last pose"));
   // Frozen for 0.1 s, and then in view again.
   const Result back = TrackerServer([](int k) {
-                        return Sent{moving(k >= 40 && k < 50 ? 40 : k), fresh()};
+                        return PoseMessage{moving(k >= 40 && k < 50 ? 40 : k), fresh()};
                       }).asked("1");
   EXPECT_EQ(back.code, 0) << back.out << back.err;
 }
 
-struct Steady final : ForceSensor {
-  Stamped<Wrench> read(Time now) noexcept override {
+struct SteadySensor final : ForceSensor {
+  Measurement<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>(0, 0, newtons), Vec<'F'>::zero()}, now, Health::ok};
   }
   std::atomic<double> newtons = 3.0;
@@ -198,7 +198,7 @@ struct Steady final : ForceSensor {
 struct ForceServer {
   explicit ForceServer(double counter = netft::kNetBoxRate) { server.box().count_at(counter); }
   [[nodiscard]] Result asked(const std::vector<std::string>& more = {}) {
-    const Served served(server);
+    const FakeServer served(server);
     std::vector<std::string> set{"rig.tracker.driver=sim",
                                  "rig.driver.netft.port=" + std::to_string(server.port()),
                                  "rig.driver.netft.http_port=" + std::to_string(server.http_port()),
@@ -207,7 +207,7 @@ struct ForceServer {
     set.insert(set.end(), more.begin(), more.end());
     return devices(set, "0.6");
   }
-  Steady sensor;
+  SteadySensor sensor;
   netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
 };
 
@@ -254,12 +254,12 @@ TEST(Devices, AForceBeyondTheRatingIsSaturated) {
 // program.
 
 struct SteadyForce final : ForceSensor {
-  Stamped<Wrench> read(Time now) noexcept override {
+  Measurement<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>(0, 0, -3.0), Vec<'F'>(0.1, 0, 0)}, now, Health::ok};
   }
 };
 struct SteadyTool final : PoseTracker {
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     newest = {{0, Pose<'C', 'T'>::shift(0.1, 0.2, 0.9)}, now, Health::ok};
     return true;
   }
@@ -310,7 +310,7 @@ struct ThreeWires {
   gcs::Server machine_server;
   netft::Server box;
   igtl::ToolServer tool_server;
-  Served served_machine{machine_server}, served_box{box}, served_tools{tool_server};
+  FakeServer served_machine{machine_server}, served_box{box}, served_tools{tool_server};
 };
 
 struct Asker {
@@ -355,8 +355,8 @@ TEST(Addresses, OfEveryDriverMayBeOfIPv6) {
     EXPECT_THAT(said, HasSubstr(" [::1]:"));
   EXPECT_THAT(force->describe(), HasSubstr("its command interface agrees"));
   const Duration begun = net::steady_now();
-  Stamped<Wrench> wrench;
-  Stamped<TrackedTool> tool;
+  Measurement<Wrench> wrench;
+  Measurement<TrackedTool> tool;
   for (int i = 0; i < 2000 && (wrench.health != Health::ok || tool.health != Health::ok); ++i) {
     const Time now(net::steady_now() - begun);
     wrench = force->read(now);

@@ -33,9 +33,9 @@ using tests::run_program;
 // other.
 
 // Runs the program until it ends or this object is destroyed; its output goes into a file.
-class Started {
+class ProgramProcess {
  public:
-  Started(const std::vector<std::string>& words, const std::string& output) {
+  ProgramProcess(const std::vector<std::string>& words, const std::string& output) {
     std::vector<std::string> all{tests::program_file()};
     all.insert(all.end(), words.begin(), words.end());
     static_cast<void>(fflush(nullptr));  // the child must not inherit buffered output
@@ -48,12 +48,12 @@ class Started {
     execv(arguments[0], arguments.data());
     _exit(127);
   }
-  ~Started() {
+  ~ProgramProcess() {
     send(SIGKILL);
     wait();
   }
-  Started(const Started&) = delete;
-  Started& operator=(const Started&) = delete;
+  ProgramProcess(const ProgramProcess&) = delete;
+  ProgramProcess& operator=(const ProgramProcess&) = delete;
   void send(int signal) const {
     if (child_ > 0) kill(child_, signal);
   }
@@ -181,7 +181,7 @@ TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
   Laboratory there(false);
   const TemporaryFolder folder;
   const std::string record = folder.file("stopped.encrec"), report = folder.file("report");
-  Started run(there.words({"--armed", "--yes", "--for-s", "8", "--record", record}), report);
+  ProgramProcess run(there.words({"--armed", "--yes", "--for-s", "8", "--record", record}), report);
   std::this_thread::sleep_for(std::chrono::milliseconds(4000));
   run.send(SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
@@ -254,7 +254,7 @@ void kill_at_random_moments(int times) {
   double longest = 0.0;
   int moving = 0;
   for (int i = 0; i < times; ++i) {
-    Started run(there.words({"--armed", "--yes"}), "/dev/null");
+    ProgramProcess run(there.words({"--armed", "--yes"}), "/dev/null");
     // Kills at any moment, start-up included; most often at the highest speed, just after the motion begins.
     const bool any = i % 4 == 0;
     for (int wait = 0; !any && wait < 4000 && !there.moves; ++wait)

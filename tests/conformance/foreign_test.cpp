@@ -83,7 +83,7 @@ const std::string kPynetftScript = tests::source_dir() + "/tests/conformance/for
 
 // As in pynetft_client.py. All axes differ, so that their order, their signs and their bytes count.
 struct PressedTwoWays final : ForceSensor {
-  Stamped<Wrench> read(Time now) noexcept override {
+  Measurement<Wrench> read(Time now) noexcept override {
     const Wrench one{Vec<'F'>(1.234567, -23.456789, -123.456789), Vec<'F'>(0.345678, -4.567891, 9.876543)};
     const Wrench other{Vec<'F'>(-7.654321, 31.415926, -60.5), Vec<'F'>(-1.25, 2.718281, -8.000001)};
     return {second ? other : one, now, health};

@@ -26,7 +26,7 @@ inline void tell(Manipulator& machine, const Pose<'R', 'H'>& to) {
 
 struct GcsBench {
   // Visible state of the fake while the driver lives.
-  struct Seen {
+  struct FakeState {
     double x = 0.0;  // m
     bool at_rest = true;
   };
@@ -65,7 +65,7 @@ struct GcsBench {
     controller.cycle(Time(now));
     latest.write({controller.measured()[0], controller.at_rest()});
   }
-  Seen seen() noexcept {
+  FakeState seen() noexcept {
     latest.read(seen_);
     return seen_;
   }
@@ -80,8 +80,8 @@ struct GcsBench {
   std::atomic<bool> silent = false, hung_up = false;
 
  private:
-  Latest<Seen> latest;
-  Seen seen_;
+  LatestValue<FakeState> latest;
+  FakeState seen_;
 };
 
 // The fake C-887 on a free port of this machine, and an offer whose table names it.
@@ -108,7 +108,7 @@ struct GcsPort {
   trial::DeviceLog log;
   FollowingMachine machine;
   gcs::Server server;
-  Served served{server};
+  FakeServer served{server};
 };
 
 }  // namespace enc::test

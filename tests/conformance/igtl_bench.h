@@ -18,8 +18,8 @@
 namespace enc::test {
 
 // A pose each 10 ms while a tool is in view.
-struct Seen final : PoseTracker {
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+struct VisibleTool final : PoseTracker {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     if (!in_view || now - last < Duration(10'000'000)) return false;
     last = now;
     newest = {{0, Pose<'C', 'T'>::shift(0.1, 0.2, 0.9)}, now - Duration(3'000'000), Health::ok};
@@ -51,12 +51,12 @@ struct IgtlBench {
   Offer offer() {
     return {table, defaults.rig, defaults.reach, Duration(1'000'000), defaults.log, false, false, tools};
   }
-  struct Watched {
+  struct PollCount {
     int news = 0;
     double oldest = 0.0;  // s
   };
-  Watched watch(PoseTracker& driver, int cycles) {
-    Watched watched;
+  PollCount watch(PoseTracker& driver, int cycles) {
+    PollCount watched;
     for (int i = 0; i < cycles; ++i) {
       const Time at(net::steady_now() - begun);
       if (driver.poll(at, newest)) {
@@ -79,7 +79,7 @@ struct IgtlBench {
   DefaultOffer defaults;
   IgtlTable table;
   std::vector<std::string> tools{"stylus"};
-  Stamped<TrackedTool> newest;
+  Measurement<TrackedTool> newest;
   Duration begun = net::steady_now();
 };
 
@@ -90,7 +90,7 @@ struct IgtlPort : IgtlBench {
     table.port = server.port();
     if (transport == igtl::Transport::tcp) table.transport = "tcp";
   }
-  Seen tracker;
+  VisibleTool tracker;
   igtl::ToolServer server;
 };
 

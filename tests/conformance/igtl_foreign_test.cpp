@@ -40,7 +40,7 @@ void expect_turned(const Pose<'C', 'T'>& X_CT) {
 }
 
 struct TurnedTool final : PoseTracker {
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     if (now - last < Duration(10'000'000)) return false;
     last = now;
     newest = {{0, kTurned}, now, Health::ok};
@@ -52,7 +52,7 @@ struct TurnedTool final : PoseTracker {
 struct TurnedPort {
   TurnedTool tracker;
   igtl::ToolServer server{tracker, {"stylusToTracker"}, {.transport = igtl::Transport::tcp}};
-  Served served{server};
+  FakeServer served{server};
 };
 
 TEST(IgtlForeign, PyigtlReadsOurServer) {

@@ -15,7 +15,7 @@
 namespace enc::test {
 namespace {
 
-using igtl::Written;
+using igtl::OutgoingMessage;
 using ::testing::HasSubstr;
 
 // ---- Tool data over loopback: the driver, and the server in place of the laboratory's.
@@ -30,11 +30,11 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
     SCOPED_TRACE(testing::Message() << words << message);
     IgtlPort there(transport);
     there.table.message = message;
-    auto served = std::make_unique<Served>(there.server);
+    auto served = std::make_unique<FakeServer>(there.server);
     const auto driver = igtl::subscribed(there.offer());
     EXPECT_THAT(driver->describe(), HasSubstr(words));
     EXPECT_TRUE(driver->is_fake());
-    const IgtlBench::Watched seen = there.watch(*driver, 300);
+    const IgtlBench::PollCount seen = there.watch(*driver, 300);
     EXPECT_GT(seen.news, 10);
     EXPECT_EQ(there.newest.health, Health::ok);
     EXPECT_EQ(there.newest.value.tool, 0);
@@ -49,7 +49,7 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
     there.watch(*driver, 300);
     EXPECT_FALSE(driver->linked());
     there.tracker.in_view = true;
-    served = std::make_unique<Served>(there.server);
+    served = std::make_unique<FakeServer>(there.server);
     EXPECT_EQ(there.watch(*driver, 100).news, 0);
     EXPECT_FALSE(driver->linked()) << "only another run connects again";
   }
@@ -58,7 +58,7 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
 // The process stops within a tick: the samples that it then reads arrived after the tick began.
 TEST(IgtlDriver, AfterATickThatWasHeldUpPosesAreAsFreshAsBefore) {
   IgtlPort there;
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto driver = igtl::subscribed(there.offer());
   ASSERT_GT(there.watch(*driver, 300).news, 10);
   const Time began(net::steady_now() - there.begun);
@@ -68,7 +68,7 @@ TEST(IgtlDriver, AfterATickThatWasHeldUpPosesAreAsFreshAsBefore) {
   EXPECT_LE(there.newest.t, began);
   double freshest = kHeldUp;
   for (int i = 0; i < 30; ++i) {
-    const IgtlPort::Watched one = there.watch(*driver, 10);
+    const IgtlPort::PollCount one = there.watch(*driver, 10);
     if (one.news > 0) freshest = std::min(freshest, one.oldest);
   }
   EXPECT_LT(freshest, 0.3 * kHeldUp);
@@ -79,7 +79,7 @@ TEST(IgtlDriver, AnErrorOfTheServerWithoutACodeIsAStatusOfIts) {
   EXPECT_FALSE(there.server.knows({Trouble::Kind::error_code, 65536.0}));
   ASSERT_TRUE(there.server.knows({Trouble::Kind::error_code}));
   there.server.suffer({Trouble::Kind::error_code});
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto driver = igtl::subscribed(there.offer());
   EXPECT_EQ(there.watch(*driver, 100).news, 0);
   EXPECT_THAT(driver->remarks().at(0), HasSubstr("it reported status 18"));
@@ -109,7 +109,7 @@ struct RawServer {
     client.wait(Duration(100'000'000));
     stream.came(client.receive(stream.room()));
     for (auto bytes = stream.next(); !bytes.empty(); bytes = stream.next()) {
-      EXPECT_EQ(igtl::read(bytes, message), igtl::Wrong::nothing);
+      EXPECT_EQ(igtl::read(bytes, message), igtl::MessageFault::nothing);
       types.emplace_back(message.type.view());
     }
     return types;
@@ -119,7 +119,7 @@ struct RawServer {
   igtl::Stream stream;
 };
 
-Written pose(std::int64_t ms, double x = 0.1, const char* device = "stylusToTracker") {
+OutgoingMessage pose(std::int64_t ms, double x = 0.1, const char* device = "stylusToTracker") {
   return {"TRANSFORM", device, ms * 1'000'000, igtl::transform(Pose<'C', 'T'>::shift(x, 0, 1))};
 }
 
@@ -130,7 +130,7 @@ struct RawBench : IgtlBench {
     table.message = message;
     std::thread accepting([&] {
       server.accept();
-      server.send(Written("STATUS", "Server", 0, igtl::status(1)).bytes());
+      server.send(OutgoingMessage("STATUS", "Server", 0, igtl::status(1)).bytes());
     });
     driver = igtl::subscribed(offer());
     accepting.join();
@@ -152,7 +152,7 @@ TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
   RawBench bench("TDATA");
   EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STT_TDATA", "GET_STATUS"));
   const auto element = igtl::element("stylusToTracker", Pose<'C', 'T'>::shift(0.1, 0, 1));
-  EXPECT_TRUE(bench.takes(Written("TDATA", "Tracker", 1'000'000, element).bytes()));
+  EXPECT_TRUE(bench.takes(OutgoingMessage("TDATA", "Tracker", 1'000'000, element).bytes()));
   EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.1, 1e-8);
   bench.driver.reset();
   EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STP_TDATA"));
@@ -170,7 +170,7 @@ TEST(IgtlStreamDriver, WhatCameBeforeTheRunIsPassedOver) {
   RawServer server(bench.table);
   std::thread accepting([&] {
     server.accept();
-    server.send(Written("STATUS", "Server", 0, igtl::status(1)).bytes());
+    server.send(OutgoingMessage("STATUS", "Server", 0, igtl::status(1)).bytes());
   });
   const auto driver = igtl::subscribed(bench.offer());
   accepting.join();
@@ -216,7 +216,7 @@ TEST(IgtlStreamDriver, WhatTheServerClosesIsLostAtOnce) {
 
 TEST(IgtlStreamDriver, AMessageWithAWrongSumIsNotTakenAndTheNextIs) {
   RawBench bench;
-  const Written good = pose(1);
+  const OutgoingMessage good = pose(1);
   std::vector<std::byte> wrong(good.bytes().begin(), good.bytes().end());
   wrong.back() ^= std::byte{1};
   EXPECT_FALSE(bench.takes(wrong));
@@ -229,7 +229,7 @@ TEST(IgtlStreamDriver, AMessageWithAWrongSumIsNotTakenAndTheNextIs) {
 TEST(IgtlStreamDriver, HalfAMessageIsTakenWhenTheOtherHalfIsThere) {
   RawBench bench;
   for (const std::size_t cut : {1U, 57U, 58U, 59U, 105U}) {
-    const Written one = pose(static_cast<std::int64_t>(cut));
+    const OutgoingMessage one = pose(static_cast<std::int64_t>(cut));
     EXPECT_FALSE(bench.takes(one.bytes().first(cut))) << cut;
     EXPECT_TRUE(bench.takes(one.bytes().subspan(cut))) << cut;
   }
@@ -256,10 +256,11 @@ TEST(IgtlStreamDriver, VersionTwoWithMetadataIsReadAndWhatItCallsInvalidIsNot) {
   RawBench bench;
   const auto content = igtl::transform(Pose<'C', 'T'>::shift(0.2, 0, 1));
   EXPECT_TRUE(bench.takes(
-      Written("TRANSFORM", "stylusToTracker", 1'000'000, 1, content, "TransformStatus", "OK").bytes()));
+      OutgoingMessage("TRANSFORM", "stylusToTracker", 1'000'000, 1, content, "TransformStatus", "OK")
+          .bytes()));
   EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.2, 1e-8);
   EXPECT_FALSE(bench.takes(
-      Written("TRANSFORM", "stylusToTracker", 2'000'000, 1, content, "TransformStatus", "OUT_OF_VIEW")
+      OutgoingMessage("TRANSFORM", "stylusToTracker", 2'000'000, 1, content, "TransformStatus", "OUT_OF_VIEW")
           .bytes()));
   EXPECT_THAT(bench.remark(), HasSubstr("1 of tools out of view"));
 }
@@ -291,7 +292,7 @@ TEST(IgtlStreamDriver, WhoIsNoTrackerIsNamed) {
   EXPECT_THAT(refused(), HasSubstr("does not speak OpenIGTLink; see that this is the port"));
   web.join();
   IgtlPort there(igtl::Transport::tcp);
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto first = igtl::subscribed(there.offer());
   bench.table.port = there.table.port;
   EXPECT_THAT(refused(), HasSubstr("let us in and hung up; see that it takes another client"));

@@ -19,8 +19,8 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Pressed final : ForceSensor {
-  Stamped<Wrench> read(Time now) noexcept override {
+struct PressSensor final : ForceSensor {
+  Measurement<Wrench> read(Time now) noexcept override {
     const double f = newtons;
     return {{Vec<'F'>(0, 0, f), Vec<'F'>(0.1, 0, 0)}, now, health};
   }
@@ -64,7 +64,7 @@ struct NetftPorts {
 
   DefaultOffer defaults;
   Table table;
-  Pressed sensor;
+  PressSensor sensor;
   netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
 };
 
@@ -72,8 +72,8 @@ struct NetftPorts {
 struct Loop {
   Duration begun = net::steady_now();
   [[nodiscard]] Time now() const { return Time(net::steady_now() - begun); }
-  Stamped<Wrench> read_for(ForceSensor& sensor, int cycles) const {
-    Stamped<Wrench> sample;
+  Measurement<Wrench> read_for(ForceSensor& sensor, int cycles) const {
+    Measurement<Wrench> sample;
     for (int i = 0; i < cycles; ++i) {
       sample = sensor.read(now());
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -84,7 +84,7 @@ struct Loop {
 
 TEST(NetftDriver, ReadsWhatTheSensorSays) {
   NetftPorts there;
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto driver = netft::streaming(there.offer());
   EXPECT_THAT(driver->describe(), HasSubstr("Net F/T at 127.0.0.1:"));
   EXPECT_TRUE(driver->is_fake());
@@ -92,7 +92,7 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
               HasSubstr("configuration 'Gamma SI-130-10', 1000 records a second, answered, its command "
                         "interface agrees"));
   const Loop loop;
-  Stamped<Wrench> sample = loop.read_for(*driver, 50);
+  Measurement<Wrench> sample = loop.read_for(*driver, 50);
   ASSERT_EQ(sample.health, Health::ok);
   EXPECT_NEAR(sample.value.force.xyz[2], -12.5, 1e-6);
   EXPECT_NEAR(sample.value.torque.xyz[0], 0.1, 1e-6);
@@ -107,13 +107,13 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
 // A run without a first record would begin in hold. Only the first reading waits for one.
 TEST(NetftDriver, TheFirstReadingHasARecordAndNoOtherOneWaits) {
   NetftPorts there;
-  auto served = std::make_unique<Served>(there.server);
+  auto served = std::make_unique<FakeServer>(there.server);
   Offer patient = there.offer();
   const Offer offer{patient.table, patient.rig, patient.reach, Duration(200'000'000), patient.log};
   const auto driver = netft::streaming(offer);
   const Loop loop;
   const Time begun = loop.now();
-  const Stamped<Wrench> first = driver->read(begun);
+  const Measurement<Wrench> first = driver->read(begun);
   EXPECT_EQ(first.health, Health::ok) << "within a period, which is long here";
   EXPECT_LE(first.t, begun);
   served.reset();
@@ -130,7 +130,7 @@ TEST(NetftDriver, AnErrorOfTheFakeWithoutACodeIsAStatusOfTheBox) {
   EXPECT_FALSE(there.server.knows({Trouble::Kind::error_code, 4294967296.0}));
   ASSERT_TRUE(there.server.knows({Trouble::Kind::error_code}));
   there.server.suffer({Trouble::Kind::error_code});
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto driver = netft::streaming(there.offer());
   EXPECT_EQ(Loop{}.read_for(*driver, 20).health, Health::fault);
   EXPECT_THAT(driver->remarks().at(0), HasSubstr("status 0x90000000: analog board"));
@@ -138,7 +138,7 @@ TEST(NetftDriver, AnErrorOfTheFakeWithoutACodeIsAStatusOfTheBox) {
 
 TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   NetftPorts there;
-  auto served = std::make_unique<Served>(there.server);
+  auto served = std::make_unique<FakeServer>(there.server);
   const auto driver = netft::streaming(there.offer());
   const Loop loop;
   EXPECT_EQ(loop.read_for(*driver, 20).health, Health::ok);
@@ -149,7 +149,7 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   // Silence counts until the link is lost: afterwards the driver no longer listens.
   const double silent = longest_silence_ms(*driver);
   EXPECT_GE(silent, 50.0);
-  served = std::make_unique<Served>(there.server);
+  served = std::make_unique<FakeServer>(there.server);
   EXPECT_EQ(loop.read_for(*driver, 50).health, Health::fault);
   EXPECT_FALSE(driver->linked());
   EXPECT_EQ(longest_silence_ms(*driver), silent);
@@ -158,7 +158,7 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
 // The process stops within a tick: the samples that it then reads arrived after the tick began.
 TEST(NetftDriver, AfterATickThatWasHeldUpForceIsAsFreshAsBefore) {
   NetftPorts there;
-  const Served served(there.server);
+  const FakeServer served(there.server);
   const auto driver = netft::streaming(there.offer());
   const Loop loop;
   ASSERT_EQ(loop.read_for(*driver, 100).health, Health::ok);
@@ -168,7 +168,7 @@ TEST(NetftDriver, AfterATickThatWasHeldUpForceIsAsFreshAsBefore) {
   EXPECT_LE(driver->read(began).t, began);
   double freshest = kHeldUp;
   for (int i = 0; i < 100; ++i) {
-    const Stamped<Wrench> sample = loop.read_for(*driver, 1);
+    const Measurement<Wrench> sample = loop.read_for(*driver, 1);
     freshest = std::min(freshest, age(loop.now(), sample.t));
   }
   EXPECT_LT(freshest, 0.1 * kHeldUp);
@@ -178,7 +178,7 @@ TEST(NetftDriver, WhoDoesNotAnswerIsNamed) {
   NetftPorts there;
   EXPECT_THAT(there.refused(), HasSubstr("no whole answer within 300 ms; see that it is a Net F/T"));
   {
-    const Served served(there.server);
+    const FakeServer served(there.server);
     there.table.port = 1;
     EXPECT_THAT(there.refused(),
                 HasSubstr("127.0.0.1:1: its page answers, and no record comes within 300 ms"));
@@ -191,7 +191,7 @@ TEST(NetftDriver, WhoDoesNotAnswerIsNamed) {
 
 TEST(NetftDriver, ACommandInterfaceThatMeansOtherUnitsIsRefused) {
   NetftPorts there;
-  const Served served(there.server);
+  const FakeServer served(there.server);
   netft::NetftSettings settings;
   settings.address = "127.0.0.1";
   settings.command_port = there.server.command_port();
@@ -208,7 +208,7 @@ TEST(NetftDriver, ACommandInterfaceThatMeansOtherUnitsIsRefused) {
 
 TEST(NetftDriver, AnotherPageIsNotFound) {
   NetftPorts there;
-  const Served served(there.server);
+  const FakeServer served(there.server);
   netft::NetftSettings settings;
   settings.address = "127.0.0.1";
   settings.http_port = there.server.http_port();

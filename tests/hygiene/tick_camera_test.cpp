@@ -11,7 +11,7 @@ namespace {
 class CameraTick : public Tick {};
 class CameraTickLong : public CameraTick {};
 
-void only_with_a_picture(const Told& told) {
+void only_with_a_picture(const ChildTally& told) {
   EXPECT_GT(told.tally.dirty, 0);
   EXPECT_LE(static_cast<double>(told.tally.dirty), told.extra) << words(told.tally);
 }
@@ -27,7 +27,7 @@ std::string short_name(const testing::TestParamInfo<std::string>& scene) {
 TEST_P(CameraTick, AsksForNothingBetweenPictures) {
   Case asked = seen(GetParam());
   asked.most = 1000;
-  const Told told = counted_run(asked);
+  const ChildTally told = counted_run(asked);
   ASSERT_EQ(told.error, "");
   ASSERT_EQ(told.tally.ticks, asked.most);
   only_with_a_picture(told);

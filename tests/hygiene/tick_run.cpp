@@ -34,8 +34,8 @@ struct Parcel {
   std::array<char, 512> error{};
 };
 
-[[noreturn]] void be_child(const std::function<void(Told&)>& work, int to) {
-  Told told;
+[[noreturn]] void be_child(const std::function<void(ChildTally&)>& work, int to) {
+  ChildTally told;
   try {
     touch_all_pages();
     work(told);
@@ -73,8 +73,8 @@ std::string place_of(void* caller) {
 
 }  // namespace
 
-Told in_child(const std::function<void(Told&)>& work) {
-  Told told;
+ChildTally in_child(const std::function<void(ChildTally&)>& work) {
+  ChildTally told;
   std::array<int, 2> ends{};
   std::fflush(nullptr);
   if (::pipe(ends.data()) != 0) return {{}, 0.0, "no pipe"};
@@ -122,8 +122,8 @@ std::vector<std::string> scenes(bool camera) {
   return names;
 }
 
-Told counted_run(const Case& asked) {
-  return in_child([&](Told& told) {
+ChildTally counted_run(const Case& asked) {
+  return in_child([&](ChildTally& told) {
     static std::atomic<int> caught{0};  // like the program's signal handlers
     trial::TrialOptions options = asked.options;
     const models::Setup setup =
@@ -154,8 +154,8 @@ Told counted_run(const Case& asked) {
   });
 }
 
-Told without_chance(const Case& asked) {
-  Told told = counted_run(asked);
+ChildTally without_chance(const Case& asked) {
+  ChildTally told = counted_run(asked);
   const auto only_faults = [&] {
     return told.error.empty() && told.tally.faults() > 0 && told.tally.faults() == told.tally.all();
   };
@@ -163,13 +163,13 @@ Told without_chance(const Case& asked) {
   return told;
 }
 
-void count_scene(const Case& asked, const std::function<void(const Told&)>& good) {
+void count_scene(const Case& asked, const std::function<void(const ChildTally&)>& good) {
   Case next = asked;
   std::int64_t ticks = 0;
   bool filtered = true;
   for (next.options.seed = 1; ticks < kTicks; ++next.options.seed) {
     if (ticks > 0) next.most = kTicks - ticks;
-    const Told told = without_chance(next);
+    const ChildTally told = without_chance(next);
     ASSERT_EQ(told.error, "") << "seed " << next.options.seed;
     ASSERT_GT(told.tally.ticks, 0) << "seed " << next.options.seed;
     ticks += told.tally.ticks;

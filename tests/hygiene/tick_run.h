@@ -14,13 +14,13 @@
 namespace enc::test {
 
 // A tally from a child process: a process cannot remove a filter of system calls.
-struct Told {
+struct ChildTally {
   Tally tally;
   double extra = 0.0;  // value from the child
   std::string error;   // empty: no error
 };
 // Runs `work` in a child of this process and returns its result. The child has one thread only.
-[[nodiscard]] Told in_child(const std::function<void(Told&)>& work);
+[[nodiscard]] ChildTally in_child(const std::function<void(ChildTally&)>& work);
 
 // "2 heap, 1 lock in 60000 ticks", then a line for each kind with its first caller.
 [[nodiscard]] std::string words(const Tally& tally);
@@ -41,13 +41,13 @@ struct Case {
 
 // Counts from the end of the warm-up in a process of its own. `extra`: number of pictures, or bytes of the
 // record.
-[[nodiscard]] Told counted_run(const Case& asked);
+[[nodiscard]] ChildTally counted_run(const Case& asked);
 // Counts up to three times while page faults are the only calls. The machine may take a page from any process
 // once; the program's own faults repeat.
-[[nodiscard]] Told without_chance(const Case& asked);
+[[nodiscard]] ChildTally without_chance(const Case& asked);
 // Repeats runs with consecutive seeds: the first to the end of its programme, all together at least kTicks.
 // Each is cold, so its first contact counts, too. Stops if `good` fails.
-void count_scene(const Case& asked, const std::function<void(const Told&)>& good);
+void count_scene(const Case& asked, const std::function<void(const ChildTally&)>& good);
 
 class Tick : public testing::TestWithParam<std::string> {
  protected:

@@ -40,7 +40,7 @@ using tests::source_dir;
 
 TEST_P(Tick, AsksForNothing) {
   count_scene({.scene = GetParam()},
-              [](const Told& told) { EXPECT_EQ(told.tally.all(), 0) << words(told.tally); });
+              [](const ChildTally& told) { EXPECT_EQ(told.tally.all(), 0) << words(told.tally); });
 }
 INSTANTIATE_TEST_SUITE_P(Shipped, Tick, testing::ValuesIn(scenes(false)),
                          [](const auto& scene) { return scene.param; });
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Tick, testing::ValuesIn(scenes(false)),
 TEST_F(AnyTick, OnlySleepsAtAPace) {
   Case asked{.scene = "plane", .most = 2000};
   asked.options.pace = 10.0;
-  const Told told = without_chance(asked);
+  const ChildTally told = without_chance(asked);
   ASSERT_EQ(told.error, "");
   EXPECT_EQ(told.tally.all(), 0) << words(told.tally);
   if (!told.tally.filtered) GTEST_SKIP() << kNoFilter;
@@ -58,7 +58,7 @@ TEST_F(AnyTick, OnlySleepsAtAPace) {
 // The loop writes a record in pieces of 64 KiB, with one call each.
 TEST_F(AnyTick, OnlyWritesItsRecord) {
   const TemporaryFolder folder;
-  const Told told = without_chance({.scene = "plane", .record = folder.file("a.encrec"), .most = 5000});
+  const ChildTally told = without_chance({.scene = "plane", .record = folder.file("a.encrec"), .most = 5000});
   ASSERT_EQ(told.error, "");
   EXPECT_EQ(told.tally[Offence::system_call], told.tally.all()) << words(told.tally);
   if (!told.tally.filtered) GTEST_SKIP() << kNoFilter;
@@ -69,14 +69,14 @@ TEST_F(AnyTick, OnlyWritesItsRecord) {
 
 // ---- The counters work: they find a single call in the last hook of a clean scene's tick, with its caller.
 
-Told with(const std::function<void()>& deed) {
+ChildTally with(const std::function<void()>& deed) {
   Case asked{.most = 1000};
   asked.options.watch = [deed](const trial::Glance& glance) {
     if (glance.tick.index == kWarmUp + 500) deed();
   };
   return counted_run(asked);
 }
-void expect_once(const Told& told, Offence kind, const std::string& name, std::int64_t times = 1) {
+void expect_once(const ChildTally& told, Offence kind, const std::string& name, std::int64_t times = 1) {
   EXPECT_EQ(told.error, "");
   EXPECT_EQ(told.tally.all() - told.tally.faults(), times) << words(told.tally);
   EXPECT_EQ(told.tally[kind], times) << words(told.tally);
@@ -106,7 +106,7 @@ TEST_F(AnyTick, IsFoundToLock) {
 }
 
 TEST_F(AnyTick, IsFoundToCallTheSystem) {
-  const Told told = with([] { (void)::getppid(); });
+  const ChildTally told = with([] { (void)::getppid(); });
   if (!told.tally.filtered) GTEST_SKIP() << kNoFilter;
   expect_once(told, Offence::system_call, std::to_string(SYS_getppid));
 }
@@ -126,7 +126,7 @@ TEST_F(AnyTick, IsFoundToFault) {
     if (glance.tick.index == kWarmUp + 500)
       for (std::size_t i = 0; i < kPages; ++i) fresh[i * kPage] = std::byte{1};
   };
-  const Told told = counted_run(asked);
+  const ChildTally told = counted_run(asked);
   EXPECT_EQ(told.error, "");
   EXPECT_EQ(told.tally[Offence::minor_fault], std::int64_t{kPages}) << words(told.tally);
   EXPECT_EQ(told.tally.all(), std::int64_t{kPages}) << words(told.tally);
@@ -144,7 +144,7 @@ TEST_F(AnyTick, SaysWhoAskedForSomething) {
 // On machines without the filter ctest lists this test as skipped.
 TEST(SystemCalls, AreCountedHere) {
   if (!kCanTally) GTEST_SKIP() << "not under sanitizers";
-  const Told told = in_child([](Told& t) {
+  const ChildTally told = in_child([](ChildTally& t) {
     (void)filter_system_calls();
     begin_tally();
     t.tally = end_tally();

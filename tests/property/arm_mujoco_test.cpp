@@ -20,14 +20,14 @@ namespace {
 // ---- An arm's machine as bodies of MuJoCo, in two ways: built here body by body, and as the twin models it.
 
 // The physics of an arm, and d (MuJoCo's joints) / d (arm's joints).
-struct Built {
+struct ArmPhysics {
   sim::Physics physics;
   Eigen::MatrixXd G;
 };
 // Bodies hang on a tree of five hinges. Its joints, in MuJoCo's order: q1, q2, q3 - q2 (forearm on upper
 // arm), q3 (crank), q2 - q3 (link on crank).
-Built phantom(const ArmMachine& machine, double payload);
-Built chain(const ArmMachine& machine, double payload);
+ArmPhysics phantom(const ArmMachine& machine, double payload);
+ArmPhysics chain(const ArmMachine& machine, double payload);
 
 // The twin's own model of an arm of either kind.
 struct ArmTwin {
@@ -86,7 +86,7 @@ sim::SpecPtr empty() {
   return spec;
 }
 
-Built phantom(const ArmMachine& machine, double payload) {
+ArmPhysics phantom(const ArmMachine& machine, double payload) {
   const PhantomGeometry& g = machine.phantom;
   sim::SpecPtr spec = empty();
   const Vec3 lift(0, -1, 0);
@@ -123,7 +123,7 @@ Built phantom(const ArmMachine& machine, double payload) {
   return {sim::Physics(std::move(spec)), G};
 }
 
-Built chain(const ArmMachine& machine, double payload) {
+ArmPhysics chain(const ArmMachine& machine, double payload) {
   sim::SpecPtr spec = empty();
   mjsBody* body = mjs_findBody(spec.get(), "world");
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
@@ -153,15 +153,15 @@ ArmTwin twin(const ArmMachine& machine, double payload, const sim::ArmTruth& tru
 
 using Twin = ArmTwin;
 
-struct Apart {
+struct ModelError {
   double gravity = 0.0;  // largest error, N m
   double mass = 0.0;     // largest error of the matrix, relative
 };
-Apart apart(const Arm& arm, const PerJoint& q, double payload, const Vec3& gravity, const Mat3& mass) {
+ModelError apart(const Arm& arm, const PerJoint& q, double payload, const Vec3& gravity, const Mat3& mass) {
   const PerJoint ours = arm.gravity(q, payload, Payload::exact);
   return {(gravity - vector(ours)).cwiseAbs().maxCoeff(), (mass - arm.mass(q, payload)).norm() / mass.norm()};
 }
-Apart compare(const Arm& arm, Built& built, const PerJoint& q, double payload) {
+ModelError compare(const Arm& arm, ArmPhysics& built, const PerJoint& q, double payload) {
   const mjModel* m = built.physics.model();
   mjData* d = built.physics.data();
   Eigen::Map<Eigen::VectorXd>(d->qpos, m->nq) = built.G * vector(q);
@@ -172,7 +172,7 @@ Apart compare(const Arm& arm, Built& built, const PerJoint& q, double payload) {
   const Mat3 M = built.G.transpose() * Eigen::Map<Eigen::MatrixXd>(full.data(), m->nv, m->nv) * built.G;
   return apart(arm, q, payload, gravity, M);
 }
-Apart compare(const Arm& arm, Twin& twin, const PerJoint& q, double payload) {
+ModelError compare(const Arm& arm, Twin& twin, const PerJoint& q, double payload) {
   const mjModel* m = twin.physics.model();
   mjData* d = twin.physics.data();
   twin.body.put(d, q, {});
@@ -183,29 +183,29 @@ Apart compare(const Arm& arm, Twin& twin, const PerJoint& q, double payload) {
 
 // Computes the worst errors over poses.
 template <class Bodies>
-Apart worst_over_poses(const Arm& arm, Bodies bodies, int poses, double payload, Draw& draw) {
-  Apart worst;
+ModelError worst_over_poses(const Arm& arm, Bodies bodies, int poses, double payload, Draw& draw) {
+  ModelError worst;
   for (int i = 0; i < poses; ++i) {
-    const Apart at = compare(arm, bodies, draw.pose(arm), payload);
+    const ModelError at = compare(arm, bodies, draw.pose(arm), payload);
     worst.gravity = std::max(worst.gravity, at.gravity);
     worst.mass = std::max(worst.mass, at.mass);
   }
   return worst;
 }
-Apart of_bodies(const ArmMachine& machine, int poses, double payload, Draw& draw) {
+ModelError of_bodies(const ArmMachine& machine, int poses, double payload, Draw& draw) {
   const Arm arm(machine);
   return worst_over_poses(
       arm, machine.kind == ArmKind::phantom ? phantom(arm.machine(), payload) : chain(arm.machine(), payload),
       poses, payload, draw);
 }
-Apart of_twin(const ArmMachine& machine, int poses, double payload, Draw& draw) {
+ModelError of_twin(const ArmMachine& machine, int poses, double payload, Draw& draw) {
   const Arm arm(machine);
   return worst_over_poses(arm, twin(arm.machine(), payload), poses, payload, draw);
 }
 
 TEST(ArmMujoco, GravityAndMassOfThePhantom) {
   Draw draw;
-  const Apart worst = of_bodies(ArmMachine{}, 1'000, 0.020, draw);
+  const ModelError worst = of_bodies(ArmMachine{}, 1'000, 0.020, draw);
   RecordProperty("gravity_Nm", std::to_string(1e15 * worst.gravity) + "e-15");
   RecordProperty("mass_relative", std::to_string(1e15 * worst.mass) + "e-15");
   EXPECT_LT(worst.gravity, 1e-12);
@@ -232,7 +232,7 @@ ArmMachine off_by_twenty_percent(Draw& draw) {
 TEST(ArmMujoco, WithMassesAndForearmOffByTwentyPercent) {
   Draw draw;
   for (int i = 0; i < 50; ++i) {
-    const Apart worst = of_bodies(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
+    const ModelError worst = of_bodies(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
     EXPECT_LT(worst.gravity, 1e-12) << i;
     EXPECT_LT(worst.mass, 1e-9) << i;
   }
@@ -240,7 +240,7 @@ TEST(ArmMujoco, WithMassesAndForearmOffByTwentyPercent) {
 
 TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
   Draw draw;
-  const Apart worst = of_twin(ArmMachine{}, 1'000, 0.020, draw);
+  const ModelError worst = of_twin(ArmMachine{}, 1'000, 0.020, draw);
   RecordProperty("gravity_Nm", std::to_string(1e15 * worst.gravity) + "e-15");
   RecordProperty("mass_relative", std::to_string(1e15 * worst.mass) + "e-15");
   EXPECT_LT(worst.gravity, 1e-12);
@@ -249,7 +249,7 @@ TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
     ArmTruth truth;
     truth.machine = off_by_twenty_percent(draw);
     truth.mass_scale = draw.uniform(0.8, 1.2);
-    const Apart off = of_twin(true_machine(truth), 20, draw.uniform(0.0, 0.05), draw);
+    const ModelError off = of_twin(true_machine(truth), 20, draw.uniform(0.0, 0.05), draw);
     EXPECT_LT(off.gravity, 1e-12) << i;
     EXPECT_LT(off.mass, 1e-9) << i;
   }
@@ -261,7 +261,7 @@ TEST(ArmMujoco, TheTwinOfAHeavyForearm) {
   for (const double l6 : {0.0, -0.035}) {
     ArmMachine machine;
     machine.phantom.l6 = l6;
-    const Apart off = of_twin(machine, 100, 0.0, draw);
+    const ModelError off = of_twin(machine, 100, 0.0, draw);
     EXPECT_LT(off.gravity, 1e-12) << l6;
     EXPECT_LT(off.mass, 1e-9) << l6;
   }
@@ -278,7 +278,8 @@ TEST(ArmMujoco, GravityAndMassOfChains) {
                                0.1 * draw.direction(), 1e-4 * Vec3(1.0, draw.uniform(0.8, 1.2), 1.1)});
     machine.tip = 0.1 * draw.direction();
     const double payload = draw.uniform(0.0, 0.05);
-    for (const Apart& worst : {of_bodies(machine, 5, payload, draw), of_twin(machine, 5, payload, draw)}) {
+    for (const ModelError& worst :
+         {of_bodies(machine, 5, payload, draw), of_twin(machine, 5, payload, draw)}) {
       EXPECT_LT(worst.gravity, 1e-9) << i;
       EXPECT_LT(worst.mass, 1e-9) << i;
     }
@@ -293,7 +294,7 @@ using Twin = ArmTwin;
 // A PHANToM without friction, as the twin has it and body by body.
 struct Pair {
   Twin own;
-  Built bodies = phantom(ArmMachine{}, 0.020);
+  ArmPhysics bodies = phantom(ArmMachine{}, 0.020);
 
   Pair() : own(twin(ArmMachine{}, 0.020, frictionless())) {
     bodies.physics.model()->opt.enableflags |= mjENBL_ENERGY;

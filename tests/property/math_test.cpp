@@ -115,7 +115,7 @@ double error_at(const Function& f, double x, double y) {
   return error_of(f.two(x, y), truth);
 }
 
-struct Worst {
+struct WorstError {
   double error = 0.0, x = 0.0, y = 0.0;
   void look(const Function& f, double at, double second) {
     const double e = error_at(f, at, second);
@@ -123,7 +123,7 @@ struct Worst {
   }
 };
 
-void expect_within(const Function& f, const Worst& worst) {
+void expect_within(const Function& f, const WorstError& worst) {
   char where[80];
   std::snprintf(where, sizeof where, "%a, %a", worst.x, worst.y);
   EXPECT_LE(worst.error, f.bound) << f.name << " at " << where;
@@ -151,7 +151,7 @@ class Points {
 void expect_small_errors(int points) {
   Points draw;
   for (const Function& f : functions()) {
-    Worst worst;
+    WorstError worst;
     for (std::size_t k = 0; k < f.ranges.size(); ++k)
       for (int i = 0; i < points; ++i)
         worst.look(f, draw.in(f.ranges[k]), f.two != nullptr ? draw.in(f.second[k]) : 0.0);
@@ -182,7 +182,7 @@ TEST(Math, SpecialValuesAreThoseOfTheStandard) {
     for (const double b : {std::nextafter(a, 0.0), a, std::nextafter(a, kInf)})
       for (const double sign : {1.0, -1.0}) values.push_back(sign * b);
   for (const Function& f : functions()) {
-    Worst worst;
+    WorstError worst;
     for (const double x : values) {
       if (f.two == nullptr)
         worst.look(f, x, 0.0);
@@ -213,7 +213,7 @@ TEST(Math, AnglesNextToAMultipleOfARightAngle) {
   mpfr_clear(right);
   mpfr_clear(turns);
   for (std::size_t k = 0; k < 3; ++k) {
-    Worst worst;
+    WorstError worst;
     for (const double x : angles) worst.look(functions()[k], x, 0.0);
     expect_within(functions()[k], worst);
   }

@@ -162,8 +162,8 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, in
   int off = 0;
   for (int i = 0; i < points; ++i) {
     const Vec3 p = next.next();
-    const Nearest at = tree.nearest(Point<'O'>(p), hint);
-    const Nearest again = tree.nearest(Point<'O'>(p));
+    const SurfacePoint at = tree.nearest(Point<'O'>(p), hint);
+    const SurfacePoint again = tree.nearest(Point<'O'>(p));
     hinted += at.feature == again.feature && at.distance == again.distance &&
                       at.point.xyz == again.point.xyz && at.normal.xyz == again.normal.xyz
                   ? 0

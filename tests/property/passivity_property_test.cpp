@@ -138,16 +138,17 @@ Scene held_wall(double stiffness, const Hand& hand, PassivityForm form) {
 }
 
 // Energy in J from the tip's true path and the true force, along three pushes of a hand that cannot pull.
-struct Exchanged {
+struct EnergyExchange {
   double put = 0.0, out = 0.0;  // largest energy put in; largest surplus that came out
   int bounces = 0;              // losses of contact while the hand presses
 };
-Exchanged exchanged_when_pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
+EnergyExchange exchanged_when_pushed(double object, const Hand& hand, PassivityForm form,
+                                     std::uint64_t seed) {
   PushedMachine machine(held_wall(object, hand, form), seed);
   const double deep = std::min(0.015, 30.0 / object);
   const double reach = deep * (1.0 + object / hand.stiffness);
   constexpr double kPeriod = 8.0, kWaits = 2e-3;  // s; m off the surface
-  Exchanged all;
+  EnergyExchange all;
   double given = 0.0, before = machine.depth(), push = 0.0;
   for (int i = 0; i < 25000; ++i) {
     const double t = i < 1000 ? 0.0 : std::fmod(i * 1e-3 - 1.0, kPeriod);
@@ -173,7 +174,7 @@ TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
   for (std::uint64_t i = 0; i < 30; ++i) {
     const double object = 5.0 * std::pow(400.0, unit(random));
     const Hand hand{100.0 * std::pow(20.0, unit(random)), 1.0 + 7.0 * unit(random)};
-    const Exchanged with = exchanged_when_pushed(object, hand, PassivityForm::controlled, i);
+    const EnergyExchange with = exchanged_when_pushed(object, hand, PassivityForm::controlled, i);
     EXPECT_LE(with.out, 0.1e-3) << "wall " << object << " N/m, hand " << hand.stiffness << " N/m, "
                                 << hand.damping << " N s/m";
     EXPECT_GT(with.put, 0.1e-3) << "it is pressed";
@@ -182,7 +183,7 @@ TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
 
 // The surplus exists without the controller, so the test above can fail.
 TEST(SpareProperty, WithoutItASoftWallPaysOut) {
-  const Exchanged without = exchanged_when_pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
+  const EnergyExchange without = exchanged_when_pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
   EXPECT_GT(without.out, 2e-3);
   EXPECT_GT(without.bounces, 5);
 }
@@ -190,8 +191,8 @@ TEST(SpareProperty, WithoutItASoftWallPaysOut) {
 // A stable wall returns as much energy as before, to its end.
 TEST(SpareProperty, AWallThatIsStableIsLeftAsItIs) {
   for (const double object : {300.0, 1000.0, 5000.0}) {
-    const Exchanged off = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::none, 3),
-                    on = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::controlled, 3);
+    const EnergyExchange off = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::none, 3),
+                         on = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::controlled, 3);
     EXPECT_NEAR(on.put, off.put, 0.01 * off.put) << object;
     EXPECT_LE(off.out, 0.1e-3) << object;
   }

@@ -52,26 +52,26 @@ const ResponseSpec& shipped() {
   return kSpec;
 }
 
-struct Of {
+struct BallModel {
   const char* name;
   const ResponseSpec& (*spec)();
   Reversal reversal;
 };
 
 // Both models of the ball.
-class ResponseProperty : public testing::TestWithParam<Of> {
+class ResponseProperty : public testing::TestWithParam<BallModel> {
  protected:
   static const ResponseSpec& spec() { return GetParam().spec(); }
   static Reversal reversal() { return GetParam().reversal; }
   static Response ball() { return {spec(), models::fit_floor(LoopModel{}), reversal()}; }
 };
-INSTANTIATE_TEST_SUITE_P(Models, ResponseProperty,
-                         testing::Values(Of{"EnergyStop", of_plant, Reversal::energy_stop},
-                                         Of{"PrandtlIshlinskii", of_plant, Reversal::prandtl_ishlinskii},
-                                         Of{"ShippedEnergyStop", shipped, Reversal::energy_stop},
-                                         Of{"ShippedPrandtlIshlinskii", shipped,
-                                            Reversal::prandtl_ishlinskii}),
-                         [](const auto& model) { return model.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Models, ResponseProperty,
+    testing::Values(BallModel{"EnergyStop", of_plant, Reversal::energy_stop},
+                    BallModel{"PrandtlIshlinskii", of_plant, Reversal::prandtl_ishlinskii},
+                    BallModel{"ShippedEnergyStop", shipped, Reversal::energy_stop},
+                    BallModel{"ShippedPrandtlIshlinskii", shipped, Reversal::prandtl_ishlinskii}),
+    [](const auto& model) { return model.param.name; });
 
 double uniform(std::mt19937_64& random, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(random);
@@ -443,7 +443,7 @@ trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
     const Outputs& out = glance.out;
     if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) || !out.felt.finite()) return;
     pushes.resize(static_cast<std::size_t>(out.contacts));
-    const double force = dot(out.felt, glance.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+    const double force = dot(out.felt, glance.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
     pushes.back().push_back({out.deflection, force, true, seconds(glance.tick.t.time_since_epoch())});
   };
   trial::Trial(setup, options).run();
@@ -452,18 +452,18 @@ trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
 
 // Per number, over balls: how often the interval holds the injected value, and the interval's full width over
 // the value (for kNearer over 0.1 mm).
-struct Found {
+struct IntervalCoverage {
   std::array<int, trial::kNearer + 1> inside{};
   std::array<std::vector<double>, trial::kNearer + 1> widths;
 };
-void identify(std::uint64_t seed, std::vector<std::string> more, bool nearer_free, Found& found) {
+void identify(std::uint64_t seed, std::vector<std::string> more, bool nearer_free, IntervalCoverage& found) {
   std::vector<std::string> settings = drawn_ball(seed);
   settings.insert(settings.end(), more.begin(), more.end());
   const models::Setup setup =
       models::load(tests::source_dir() + "/models/scenes/rig_identify.toml", "sim", settings);
   const Scene scene = trial::prepare_setup(setup);
-  const double radius = setup.scene.objects[static_cast<std::size_t>(scene.probe()->object)].radius;
-  const Vec<'W'> out = scene.probe()->X_WN * Vec<'N'>(0, 0, 1);
+  const double radius = setup.scene.objects[static_cast<std::size_t>(scene.indentation()->object)].radius;
+  const Vec<'W'> out = scene.indentation()->X_WN * Vec<'N'>(0, 0, 1);
   const trial::StandingBall truth{sim::ball_of(setup.twin.ball, radius),
                                   dot(Vec<'W'>(setup.twin.ball.misplaced), out)};
   trial::BallFitOptions options;
@@ -475,20 +475,20 @@ void identify(std::uint64_t seed, std::vector<std::string> more, bool nearer_fre
     found.widths.at(e.number).push_back(e.width());
   }
 }
-int inside(const Found& found) {  // counts the numbers of the ball's law
+int inside(const IntervalCoverage& found) {  // counts the numbers of the ball's law
   int sum = 0;
   for (std::size_t i = 0; i < trial::kNearer; ++i) sum += found.inside.at(i);
   return sum;
 }
 
-void expect_narrow(const Found& found) {
+void expect_narrow(const IntervalCoverage& found) {
   for (std::size_t i = 0; i < trial::kNearer; ++i)
     EXPECT_LE(models::median(found.widths.at(i)), 0.2) << trial::ball_numbers()[i].name;
 }
 
 TEST(Identification, IntervalsHoldTheBallOfTheRig) {
   constexpr int kBalls = 6;
-  Found found;
+  IntervalCoverage found;
   for (std::uint64_t seed = 1; seed <= kBalls; ++seed) identify(seed, {}, true, found);
   EXPECT_GE(inside(found), 43) << "nine of ten of the 48 numbers";
   expect_narrow(found);
@@ -496,7 +496,7 @@ TEST(Identification, IntervalsHoldTheBallOfTheRig) {
 
 TEST(IdentificationLong, IntervalsHoldEachNumberOfAHundredBalls) {
   constexpr int kBalls = 100;
-  Found found;
+  IntervalCoverage found;
   for (std::uint64_t seed = 1; seed <= kBalls; ++seed) identify(seed, {}, true, found);
   for (std::size_t i = 0; i <= trial::kNearer; ++i)
     EXPECT_GE(found.inside.at(i), 90) << trial::ball_numbers()[i].name;
@@ -507,7 +507,7 @@ TEST(IdentificationLong, IntervalsHoldEachNumberOfAHundredBalls) {
 // numbers absorb the error. Their intervals, which cover noise only, then fail.
 TEST(Identification, FindsWhereTheBallStands) {
   const std::string nearer = "truth.ball.misplaced_mm=[0,0,-0.1]";
-  Found free, held;
+  IntervalCoverage free, held;
   for (const std::uint64_t seed : {1, 2}) {
     identify(seed, {nearer}, true, free);
     identify(seed, {nearer}, false, held);

@@ -56,7 +56,7 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
   Wander wander{
       std::mt19937_64(seed), {0, 0, 0.05}, {0, 0, 0.05}, std::uniform_real_distribution<double>(-1.0, 1.0)};
   Inputs probe;
-  test::SpoilOne count{wander.random, -1};
+  test::FieldSpoiler count{wander.random, -1};
   fields(count, probe);
   loop.spoil = [&](Inputs& in) {
     const auto index = static_cast<std::size_t>(wander.random() % 2);
@@ -66,7 +66,8 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
                          {object.X_WO.inverse() * loop.tool_tip, test::kToolRadius}),
                  loop.now() - Duration(15'000'000), Health::ok};
     if (spoil_every == 0 || wander.random() % spoil_every != 0) return;
-    test::SpoilOne one{wander.random, static_cast<int>(wander.random() % static_cast<unsigned>(count.seen))};
+    test::FieldSpoiler one{wander.random,
+                           static_cast<int>(wander.random() % static_cast<unsigned>(count.seen))};
     fields(one, in);
   };
   std::array<int, kModes> modes{};
@@ -324,7 +325,8 @@ void any_pose(const Surface& surface, double zero, std::uint64_t seed) {
     const DentField<double> field = dent_field(surface, dent);
     const Vec3 under = deepest(surface, tip).at.point.e();
     for (int k = 0; k < 40; ++k) {
-      const Nearest at = surface.nearest(Point<'O'>(Vec3(under + pick.uniform(0, 0.02) * pick.direction())));
+      const SurfacePoint at =
+          surface.nearest(Point<'O'>(Vec3(under + pick.uniform(0, 0.02) * pick.direction())));
       const DisplacedPoint to = displaced(field, at.point, at.normal);
       const double in = inside(tip, to.point.e());
       deepest_inside = std::max(deepest_inside, in);
@@ -357,7 +359,7 @@ TEST(DentProperty, TheFieldIsContinuousAndTheContactMovesByTheDepth) {
     const DentSample dent = dent_of(ball, 0, tip);
     if (!(dent.depth > 0.0) || dent.depth > 0.010) continue;
     const DentField<double> field = dent_field(ball, dent);
-    const Nearest contact = deepest(ball, tip).at;
+    const SurfacePoint contact = deepest(ball, tip).at;
     ASSERT_NEAR(displaced(field, contact.point, contact.normal).by, dent.depth, 1e-9);
     // Away along any great circle: a step of 1 um moves the point by a few at most, the last step not at all.
     const Vec3 up = contact.normal.e();

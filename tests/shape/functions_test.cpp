@@ -85,11 +85,11 @@ std::string bare(std::string_view text) {
 
 constexpr std::size_t kMostLines = 40;
 
-struct Longer {
+struct LengthException {
   std::string_view function, why;  // "FILE: NAME", or with its parameters if others have that name
 };
 // These functions may be longer. Remove an entry that is no longer too long; add no new one.
-constexpr auto kExceptions = std::to_array<Longer>({
+constexpr auto kExceptions = std::to_array<LengthException>({
     {"commands.cpp: Commands::all", "the commands of a controller, a table with a line or two for each"},
     {"schema_arm.cpp: describe(Visitor& v, ArmRig& a)", "keys of a file, a table"},
     {"schema_arm.cpp: describe(Visitor& v, sim::ArmTruth& a)", "keys of a file, a table"},
@@ -174,7 +174,7 @@ class Reader {
   [[nodiscard]] bool balanced() const { return open_.empty() && parentheses_ == 0; }
 
  private:
-  struct Open {
+  struct OpenBlock {
     Scope scope;
     std::size_t line;
     std::string head, text;  // squeezed, and as it stands
@@ -184,7 +184,8 @@ class Reader {
   void open() {
     const std::string head = squeezed(head_);
     const auto is = [&](Scope scope) {
-      return std::any_of(open_.begin(), open_.end(), [&](const Open& one) { return one.scope == scope; });
+      return std::any_of(open_.begin(), open_.end(),
+                         [&](const OpenBlock& one) { return one.scope == scope; });
     };
     Scope scope = Scope::other;
     if (is(Scope::function))
@@ -205,14 +206,14 @@ class Reader {
       parentheses_ = -1;  // its beginning is missing
       return;
     }
-    const Open last = open_.back();
+    const OpenBlock last = open_.back();
     open_.pop_back();
     parentheses_ = last.parentheses;
     if (last.scope == Scope::function) all.push_back({name_of(last.head), last.line, line_ - last.line + 1});
     head_ = last.scope == Scope::member ? last.text + "{}" : "";
   }
 
-  std::vector<Open> open_;
+  std::vector<OpenBlock> open_;
   std::string head_;  // since the last end of a statement or block
   std::size_t line_ = 1;
   int parentheses_ = 0;  // open, in this block
@@ -225,12 +226,12 @@ Reader read(std::string_view text) {
 }
 
 // Functions of product code that are too long, "FILE: NAME", each with its place.
-struct Found {
+struct LongFunction {
   std::string file, name, place;
   std::size_t lines;
 };
 struct Product {
-  std::vector<Found> longer;
+  std::vector<LongFunction> longer;
   std::size_t functions = 0;
   std::vector<std::string> unbalanced;  // files
 };
@@ -257,13 +258,13 @@ const Product& product() {
   return kProduct;
 }
 
-bool is(const Found& found, std::string_view listed) {
+bool is(const LongFunction& found, std::string_view listed) {
   const std::string name = found.file + ": " + found.name;
   return name == listed || name.substr(0, name.find('(')) == listed;
 }
-bool is_exception(const Found& found) {
+bool is_exception(const LongFunction& found) {
   return std::any_of(kExceptions.begin(), kExceptions.end(),
-                     [&](const Longer& one) { return is(found, one.function); });
+                     [&](const LengthException& one) { return is(found, one.function); });
 }
 
 TEST(Functions, AreFoundInTheTextOfATest) {
@@ -299,7 +300,7 @@ void outside() {}
 TEST(Functions, HaveAtMostFortyLines) {
   EXPECT_GT(product().functions, 6000U) << "nothing is found any more";
   EXPECT_THAT(product().unbalanced, testing::IsEmpty());
-  for (const Found& one : product().longer)
+  for (const LongFunction& one : product().longer)
     EXPECT_TRUE(is_exception(one)) << one.place << ": " << one.name << " has " << one.lines
                                    << " lines; at most " << kMostLines;
 }
@@ -308,9 +309,9 @@ TEST(Functions, ExceptionsAreFewAndStillNeeded) {
   EXPECT_LE(kExceptions.size(), 20U);
   const auto is_longer = [](std::string_view name) {
     return std::any_of(product().longer.begin(), product().longer.end(),
-                       [&](const Found& one) { return is(one, name); });
+                       [&](const LongFunction& one) { return is(one, name); });
   };
-  for (const Longer& one : kExceptions)
+  for (const LengthException& one : kExceptions)
     EXPECT_TRUE(is_longer(one.function) && !one.why.empty()) << one.function << ": take it off the list";
 }
 

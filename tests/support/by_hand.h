@@ -71,7 +71,7 @@ struct FingerBench {
 
 // Puts an invalid value into one number of the inputs. A visitor of fields(): spoils the `wanted`-th (-1: no
 // number), and counts them. `withheld` and `resumed` are skipped, because they come from no device.
-struct SpoilOne {
+struct FieldSpoiler {
   std::mt19937_64& random;
   int wanted;
   int seen = 0;

@@ -22,7 +22,7 @@ struct DefaultOffer {
     void value(const Setting&, std::string&) override {}
     void value(const Setting&, std::vector<double>&) override {}
   };
-  struct Silent final : Log {
+  struct SilentLog final : Log {
     void say(const std::string&) override {}
   };
   Offer with(const Reach& promised) { return {table, rig, promised, Duration(1'000'000), log}; }
@@ -31,13 +31,13 @@ struct DefaultOffer {
   Defaults table;
   RigSpec rig;
   Reach reach = reach_of(rig);
-  Silent log;
+  SilentLog log;
 };
 
 // The simplest machine behind a fake controller: it reaches each command at once.
 struct FollowingMachine final : Manipulator {
   [[nodiscard]] Reach reach() const override { return can; }
-  Stamped<TipSample> read(Time now) noexcept override {
+  Measurement<TipSample> read(Time now) noexcept override {
     return {{pose, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, Health::ok};
   }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override { pose = X_RH; }
@@ -48,12 +48,12 @@ struct FollowingMachine final : Manipulator {
 };
 
 // Serves a fake in a thread in wall time, as `encounter fake` does.
-class Served {
+class FakeServer {
  public:
-  explicit Served(Fake& fake) : fake_(fake) {}
-  ~Served() { end(); }
-  Served(const Served&) = delete;
-  Served& operator=(const Served&) = delete;
+  explicit FakeServer(Fake& fake) : fake_(fake) {}
+  ~FakeServer() { end(); }
+  FakeServer(const FakeServer&) = delete;
+  FakeServer& operator=(const FakeServer&) = delete;
   void end() {
     end_ = true;
     if (thread_.joinable()) thread_.join();

@@ -209,9 +209,9 @@ repeats = 20
 )";
 
 // Fakes in this process, a terminal, and an armed run in it.
-class Attended {
+class TerminalSession {
  public:
-  explicit Attended(std::vector<std::string> more = {"--yes"}) {
+  explicit TerminalSession(std::vector<std::string> more = {"--yes"}) {
     std::ofstream(scene_) << kScene;
     static std::mutex one_at_a_time;  // several would set variables of this process
     {
@@ -308,14 +308,14 @@ class Attended {
 struct Way {
   const char* name;
   int code;  // exit code of the run; -1: no shell is left
-  std::function<void(Attended& at, pid_t run)> act;
+  std::function<void(TerminalSession& at, pid_t run)> act;
   bool own_input = false;
 };
 
 const std::vector<Way>& ways() {
   // The signal does not come from a key: a busy kernel delivers a key's signal seconds late.
   const auto sent = [](int signal, int times) {
-    return [signal, times](Attended&, pid_t run) {
+    return [signal, times](TerminalSession&, pid_t run) {
       for (int i = 0; i < times; ++i) kill(run, signal);
     };
   };
@@ -324,8 +324,8 @@ const std::vector<Way>& ways() {
       {"SIGINT three times", 130, sent(SIGINT, 3)},
       {"SIGTERM", 143, sent(SIGTERM, 1)},
       {"SIGQUIT", 131, sent(SIGQUIT, 1)},
-      {"closed terminal", -1, [](Attended& at, pid_t) { at.terminal.close(); }},
-      {"closed standard input", 129, [](Attended& at, pid_t) { at.close_input(); }, true}};
+      {"closed terminal", -1, [](TerminalSession& at, pid_t) { at.terminal.close(); }},
+      {"closed standard input", 129, [](TerminalSession& at, pid_t) { at.close_input(); }, true}};
   return kWays;
 }
 
@@ -334,7 +334,7 @@ void end_in(const Way& way, const std::string& mode) {
   std::string met, last;
   for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
     SCOPED_TRACE(std::string(way.name) + " in " + mode);
-    Attended at;
+    TerminalSession at;
     way.own_input ? at.begin_with_own_input() : at.begin();
     const bool there = at.comes_to(mode);
     const pid_t run = at.terminal.child();
@@ -363,7 +363,7 @@ void suspend_in(const std::string& mode) {
   std::string met, last;
   for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
     SCOPED_TRACE("SIGTSTP in " + mode);
-    Attended at;
+    TerminalSession at;
     at.begin();
     const bool there = at.comes_to(mode);
     const pid_t run = at.terminal.child();
@@ -425,7 +425,7 @@ TEST(AtTheTerminalToo, ASuspensionStopsTheMachineAndTheKeysWorkAfterFg) { for_ea
 
 // Space stops and r resumes; the status line has the information that a person needs.
 TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
-  Attended at;
+  TerminalSession at;
   at.begin();
   ASSERT_TRUE(at.comes_to("contact")) << at.terminal.shown();
   EXPECT_THAT(at.terminal.shown(),
@@ -449,7 +449,7 @@ TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
 
 // Ctrl-S: the terminal takes no output. The loop keeps its time, and a stop still stops.
 TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
-  Attended at;
+  TerminalSession at;
   at.begin();
   ASSERT_TRUE(at.comes_to("follow")) << at.terminal.shown();
   at.terminal.type("\x13");
@@ -472,7 +472,7 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
 
 // The link to the terminal hangs: it takes some kB, and then no more bytes, not even an end.
 TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
-  Attended at;
+  TerminalSession at;
   at.begin();
   ASSERT_TRUE(at.comes_to("follow")) << at.terminal.shown();
   const pid_t run = at.terminal.child();
@@ -490,7 +490,7 @@ TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
 // Before the first motion the program states the machine, the distance and the speed. Enter begins; any other
 // key does not.
 TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
-  Attended at(std::vector<std::string>{});
+  TerminalSession at(std::vector<std::string>{});
   at.begin();
   at.terminal.type("\n");  // before the question: not an answer
   ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0)) << at.terminal.shown();

@@ -22,7 +22,7 @@ namespace {
 // ---- One thread writes and one reads, at full speed.
 
 // Too long for one copy instruction: a torn value has two numbers in it.
-struct Long {
+struct LongValue {
   std::array<std::int64_t, 32> same{};
   [[nodiscard]] bool whole() const {
     return std::all_of(same.begin(), same.end(), [this](std::int64_t n) { return n == same[0]; });
@@ -31,11 +31,11 @@ struct Long {
 
 TEST(LatestOfTwoThreads, IsWholeAndNeverGoesBackAndEndsWithTheLast) {
   constexpr std::int64_t kWrites = 300'000;
-  Latest<Long> latest;
+  LatestValue<LongValue> latest;
   std::atomic<bool> reads = false, over = false;
   std::thread writer([&] {
     while (!reads) std::this_thread::yield();
-    Long value;
+    LongValue value;
     for (std::int64_t n = 1; n <= kWrites; ++n) {
       value.same.fill(n);
       latest.write(value);
@@ -43,7 +43,7 @@ TEST(LatestOfTwoThreads, IsWholeAndNeverGoesBackAndEndsWithTheLast) {
     over = true;
   });
   std::int64_t last = 0, torn = 0, older = 0, read = 0;
-  Long value;
+  LongValue value;
   for (bool end = false; !end;) {
     reads = true;
     end = over;  // before the last look
@@ -104,10 +104,10 @@ struct Script {
   std::atomic<Health> health = Health::ok;
   std::atomic<bool> silent = false;
 };
-class Scripted final : public PoseTracker {
+class ScriptedTracker final : public PoseTracker {
  public:
-  explicit Scripted(Script& script) : script_(script) {}
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  explicit ScriptedTracker(Script& script) : script_(script) {}
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     ++script_.asked;
     while (!script_.open) std::this_thread::sleep_for(std::chrono::microseconds(100));
     if (script_.silent) return false;
@@ -127,8 +127,8 @@ class Scripted final : public PoseTracker {
 
 struct Set {
   Script script;
-  ThreadedTracker tracker{std::make_unique<Scripted>(script)};
-  Stamped<TrackedTool> newest;
+  ThreadedTracker tracker{std::make_unique<ScriptedTracker>(script)};
+  Measurement<TrackedTool> newest;
   std::int64_t ms = 0;
   ~Set() { script.open = true; }
 

@@ -44,7 +44,7 @@ std::string driver_of(const models::Setup& setup, const Role& role) {
 
 template <class Role>
 auto make(const Role& role, const models::Setup& setup, const DriverSource& modules, Log& log,
-          Keeping keeping) {
+          TimingMode keeping) {
   return driver_device(driver_of(setup, role), role.make, role.name, setup, modules, log, keeping);
 }
 
@@ -54,7 +54,7 @@ DeviceWords words_of(const char* role, const std::string& driver, const Device& 
           true};
 }
 
-class NoLog final : public Log {
+class SilentLog final : public Log {
   void say(const std::string&) override {}
 };
 
@@ -144,7 +144,7 @@ std::set<std::string> drivers_used(const models::Setup& setup) {
   return used;
 }
 
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping) {
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, TimingMode keeping) {
   const std::set<std::string> used = drivers_used(setup);
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
@@ -203,7 +203,7 @@ std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, c
 }
 
 std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers) {
-  NoLog log;
+  SilentLog log;
   Rig rig;
   return put_each_driver(rig, setup, drivers, log);
 }

@@ -21,7 +21,7 @@ namespace enc::trial {
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 
 // Timing mode of the run and its devices (Offer).
-struct Keeping {
+struct TimingMode {
   bool waits = false, lockstep = false;
 };
 
@@ -51,7 +51,7 @@ void read_driver_tables(models::Setup& setup, const DriverFinder& find);
 
 // Puts the drivers' devices in the slots that the rig names; first it reads their tables. An error names the
 // role and the place that names its driver.
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping);
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, TimingMode keeping);
 
 [[nodiscard]] std::vector<std::string> tool_names(const models::Setup& setup);  // by index
 
@@ -86,7 +86,7 @@ struct DeviceWords {
 // cannot report its abilities.
 void check_devices(const Rig& rig, const RigSpec& spec);
 
-// Counts the periods of an experiment without a simulation; Paced adds wall time.
+// Counts the periods of an experiment without a simulation; PacedClock adds wall time.
 class CountingClock final : public Clock {
  public:
   explicit CountingClock(double rate);  // Hz

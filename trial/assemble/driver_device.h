@@ -25,7 +25,7 @@ namespace enc::trial {
 template <class Device>
 std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> DriverModule::*make,
                                       const char* name, const models::Setup& setup,
-                                      const DriverSource& modules, Log& log, Keeping keeping) {
+                                      const DriverSource& modules, Log& log, TimingMode keeping) {
   const ModuleInfo& module = modules(driver);
   if (module.driver == nullptr || module.driver->*make == nullptr)
     throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name));

@@ -37,7 +37,7 @@ sim::Show show(const models::Setup& setup, const sim::World& world) {
   const sim::TwinSpec& twin = setup.twin;
   const Pose<'W', 'C'> X_WC = pose_of<'W', 'C'>(twin.frames.W_C);
   const Pose<'W', 'C'> moved(X_WC.q(), X_WC.origin() + Vec<'W'>(twin.camera.moved));
-  sim::Shown shown;
+  sim::CameraScene shown;
   shown.look.skin = sim::skin_colour(twin.camera.skin);
   return [&world, before = X_WC.inverse(), after = moved.inverse(), shown, from = twin.camera.hand_from,
           moves = twin.camera.moved_at, machine = twin.arm.machine,
@@ -59,15 +59,15 @@ sim::Show show(const models::Setup& setup, const sim::World& world) {
 }
 
 // A camera with a second observer besides the tracker.
-class Watched final : public StereoCamera {
+class ObservedCamera final : public StereoCamera {
  public:
-  Watched(std::unique_ptr<StereoCamera> camera, Look look)
+  ObservedCamera(std::unique_ptr<StereoCamera> camera, Look look)
       : camera_(std::move(camera)), look_(std::move(look)) {}
   [[nodiscard]] std::string describe() const override { return camera_->describe(); }
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
   [[nodiscard]] std::vector<std::string> remarks() const override { return camera_->remarks(); }
   [[nodiscard]] ImageSize size() const override { return camera_->size(); }
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     if (!camera_->poll(now, newest)) return false;
     if (newest.health == Health::ok) look_(newest);
     return true;
@@ -95,7 +95,7 @@ std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const Driv
                                           const VisionOffer& offer) {
   try {
     return driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera", setup, modules,
-                         offer.log, Keeping{offer.waits});
+                         offer.log, TimingMode{offer.waits});
   } catch (const Error& e) {
     throw of_role(setup, "camera", e);
   }
@@ -118,7 +118,7 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
       camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
                                                *static_cast<const FrameFiles*>(modules("images").frames));
     if (!offer.kept.empty()) camera = std::make_unique<KeptCamera>(std::move(camera), std::move(exposed));
-    if (offer.look) camera = std::make_unique<Watched>(std::move(camera), offer.look);
+    if (offer.look) camera = std::make_unique<ObservedCamera>(std::move(camera), offer.look);
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     const Release release = offer.threaded ? Release::when_done : Release::when_due;
     auto tracker = vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision, release);

@@ -40,7 +40,7 @@ namespace enc::trial {
 }
 
 // Receives each new pair of images before the tracker does.
-using Look = std::function<void(const Stamped<StereoFrame>&)>;
+using Look = std::function<void(const Measurement<StereoFrame>&)>;
 
 struct VisionOffer {
   const sim::World* world = nullptr;  // the twin, whose hand its camera sees; outlives the tracker

@@ -60,14 +60,14 @@ KeepingCamera::~KeepingCamera() {
   if (made_) fs::remove(path_, kept);
 }
 
-bool KeepingCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
+bool KeepingCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   if (!camera_->poll(now, newest)) return false;
   if (newest.health != Health::ok || !failure_.empty()) return true;
   try {
     const std::int64_t exposed = newest.t.time_since_epoch().count();
     for (const auto& [side, image] : {std::pair{"left", newest.value.left}, {"right", newest.value.right}})
       models::write_file(fmt::format("{}/{}/{}.png", path_, side, exposed), files_.png(image),
-                         models::Existing::keep);
+                         models::OverwritePolicy::keep);
   } catch (const std::exception& e) {
     failure_ = e.what();
   }
@@ -96,10 +96,10 @@ std::vector<Time> exposures_in(const std::string& folder) {
   return exposed;
 }
 
-bool KeptCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
+bool KeptCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   const auto next = static_cast<std::size_t>(played_.n);
   if (next == exposed_.size() || exposed_[next] > now) return false;
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   const bool there = camera_->poll(played_.next(), frame);
   ++played_.n;
   if (!there || frame.health != Health::ok) return false;

@@ -24,7 +24,7 @@ class KeepingCamera final : public StereoCamera {
   KeepingCamera(const KeepingCamera&) = delete;
   KeepingCamera& operator=(const KeepingCamera&) = delete;
 
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
   [[nodiscard]] ImageSize size() const override { return camera_->size(); }
   [[nodiscard]] std::string describe() const override { return camera_->describe(); }
@@ -52,7 +52,7 @@ class KeptCamera final : public StereoCamera {
   KeptCamera(std::unique_ptr<StereoCamera> camera, std::vector<Time> exposed)
       : camera_(std::move(camera)), exposed_(std::move(exposed)) {}
 
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
   [[nodiscard]] ImageSize size() const override { return camera_->size(); }
   [[nodiscard]] std::string describe() const override { return camera_->describe(); }
   [[nodiscard]] std::size_t frames() const { return exposed_.size(); }
@@ -60,7 +60,7 @@ class KeptCamera final : public StereoCamera {
  private:
   std::unique_ptr<StereoCamera> camera_;
   std::vector<Time> exposed_;  // in order
-  Every played_{kRate, 0, {}};
+  DueTimes played_{kRate, 0, {}};
 };
 
 }  // namespace enc::trial

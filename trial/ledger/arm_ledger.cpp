@@ -11,10 +11,10 @@ namespace {
 
 // Ratio of the stiffness along the normal to that of the free tip, and distance of the target behind the
 // surface.
-struct Static {
+struct StaticGain {
   double gain, sunk;
 };
-Static static_at(const LawAt& law, double depth) {
+StaticGain static_at(const LawAt& law, double depth) {
   if (!law.felt) return {1.0, 0.0};
   const RenderedStiffness felt =
       felt_at(law.object->interaction, law.object->stiffness, law.stiffness, std::max(0.0, depth));
@@ -22,7 +22,7 @@ Static static_at(const LawAt& law, double depth) {
 }
 
 double along(const LawAt& law, double depth) {
-  const Static at = static_at(law, depth);
+  const StaticGain at = static_at(law, depth);
   return at.gain * law.stiffness * (depth - at.sunk);
 }
 
@@ -72,7 +72,7 @@ Vec3 asked_force(const LawAt& law, const Vec3& error, const Vec3& rate, double d
 Vec3 ideal_force(const LawAt& law, const TipAt& tip) {
   if (!law.live) return Vec3::Zero();
   const Vec3 error = law.target - tip.at;
-  const Static at = static_at(law, law.normal.dot(error));
+  const StaticGain at = static_at(law, law.normal.dot(error));
   LawAt ideal = law;
   ideal.gain = at.gain;
   return asked_force(ideal, error - at.sunk * law.normal, law.target_velocity - tip.velocity,
@@ -135,8 +135,8 @@ ArmLedger::ArmLedger(const models::Setup& setup)
                                        static_cast<std::int64_t>(kRing) - 1)) {}
 
 // The core's request for the true state: passes the true state through the core's filters.
-void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
-                       Known& now) {
+void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::optional<TickState>& was,
+                       TickState& now) {
   const Aim& aim = recall<ImpedanceState>(*glance.state).aim;
   if (!was || !was->law.live) {
     error_ = aim.error.e();
@@ -182,9 +182,9 @@ bool ArmLedger::tick(const Glance& glance) {
 
 void ArmLedger::rest(const Glance& glance) { aim_ = recall<ImpedanceState>(*glance.state).aim; }
 
-ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known>& was) {
+ArmLedger::TickState ArmLedger::know(const Glance& glance, const std::optional<TickState>& was) {
   const Impedance& law = impedance_of(glance.scene);
-  Known now;
+  TickState now;
   now.joints = glance.truth.joints;
   now.rates = glance.truth.work.rates;
   const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
@@ -200,8 +200,8 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known
 }
 
 // The law's commands to the motors, beginning with its ideal form.
-void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
-                     Known& now) {
+void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::optional<TickState>& was,
+                     TickState& now) {
   const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
   const Mat3 turn = X_WR.q().toRotationMatrix();
   const PerJoint& q = glance.in.arm.value.joints;
@@ -227,7 +227,7 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
 }
 
 // The ideal law along the tip's path: the cubic through both ends, by Simpson's rule.
-void ArmLedger::count_ideal(const Known& was, const Known& now, const Vec3& led) {
+void ArmLedger::count_ideal(const TickState& was, const TickState& now, const Vec3& led) {
   const double h = dt_;
   const Vec3 way = now.tip.at - was.tip.at;
   const TipAt middle{0.5 * (was.tip.at + now.tip.at) + h / 8.0 * (was.tip.velocity - now.tip.velocity),
@@ -243,7 +243,7 @@ void ArmLedger::count_ideal(const Known& was, const Known& now, const Vec3& led)
   sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
 }
 
-void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work) {
+void ArmLedger::count(const TickState& was, const TickState& now, const sim::Work& work) {
   const Vec3 turned = vec(now.joints) - vec(was.joints);
   const Vec3 moved = was.jacobian * turned;
   sum_.hand += work.contact;
@@ -273,7 +273,7 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   sum_.surplus = std::max(sum_.surplus, -left_);
 }
 
-void ArmLedger::open(const Known& from) {
+void ArmLedger::open(const TickState& from) {
   sum_ = ContactLedger{};
   first_ = from;
   ideal_ = work_held_ = work_late_ = work_counted_ = work_given_ = 0.0;
@@ -282,7 +282,7 @@ void ArmLedger::open(const Known& from) {
   led_ideal_ = led_held_ = led_late_ = led_counted_ = 0.0;
 }
 
-ContactLedger ArmLedger::so_far(const Known& last) const {
+ContactLedger ArmLedger::so_far(const TickState& last) const {
   ContactLedger sum = sum_;
   sum.kinetic = kinetic_energy(machine_, prop_mass_, last.joints, last.rates) -
                 kinetic_energy(machine_, prop_mass_, first_.joints, first_.rates);

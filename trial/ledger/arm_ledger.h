@@ -59,7 +59,7 @@ struct TipAt {
 class ArmLedger {
  public:
   // All values needed for the period that begins at a tick.
-  struct Known {
+  struct TickState {
     LawAt law;
     TipAt tip;                         // ground truth
     Vec3 held, late, counted, given;   // N
@@ -72,12 +72,12 @@ class ArmLedger {
   // The interface that Book needs.
   [[nodiscard]] bool tick(const Glance& glance);
   void rest(const Glance& glance);
-  [[nodiscard]] Known know(const Glance& glance, const std::optional<Known>& was);
+  [[nodiscard]] TickState know(const Glance& glance, const std::optional<TickState>& was);
   [[nodiscard]] static bool believed(Mode mode) { return mode == Mode::contact; }
-  [[nodiscard]] static bool rendered(const Known& now) { return !now.law.real; }
-  void open(const Known& from);
-  void count(const Known& was, const Known& now, const sim::Work& work);
-  [[nodiscard]] ContactLedger so_far(const Known& last) const;
+  [[nodiscard]] static bool rendered(const TickState& now) { return !now.law.real; }
+  void open(const TickState& from);
+  void count(const TickState& was, const TickState& now, const sim::Work& work);
+  [[nodiscard]] ContactLedger so_far(const TickState& last) const;
 
  private:
   // Values of the law at the encoders' joint angles, which stay constant for some ticks.
@@ -88,9 +88,10 @@ class ArmLedger {
     double damping = kUnset;
   };
   [[nodiscard]] const Posture& posture(const PerJoint& joints, const Impedance& law);
-  void tell(const Glance& glance, const Impedance& law, const std::optional<Known>& was, Known& now);
-  void count_ideal(const Known& was, const Known& now, const Vec3& led);
-  void filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was, Known& now);
+  void tell(const Glance& glance, const Impedance& law, const std::optional<TickState>& was, TickState& now);
+  void count_ideal(const TickState& was, const TickState& now, const Vec3& led);
+  void filter(const Glance& glance, const Impedance& law, const std::optional<TickState>& was,
+              TickState& now);
 
   Arm machine_;  // ground truth
   double prop_mass_;
@@ -109,7 +110,7 @@ class ArmLedger {
   double spring_ = 0.0;  // J, spring energy at the last tick
   // J, energy put in and still in the spring; below 0: deficit.
   double left_ = 0.0;
-  Known first_;
+  TickState first_;
 };
 
 }  // namespace enc::trial

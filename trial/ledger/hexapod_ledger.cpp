@@ -35,13 +35,13 @@ double recoverable(const Object& object, ResponseState state, double depth, doub
 }  // namespace
 
 bool HexapodLedger::tick(const Glance& glance) {
-  const AdmittanceTask* render = glance.scene.render();
+  const AdmittanceTask* render = glance.scene.admittance();
   damped_ = render != nullptr && render->damping.has_value();
   return render != nullptr;
 }
 
-HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::optional<Known>& was) {
-  Known now;
+HexapodLedger::TickState HexapodLedger::know(const Glance& glance, const std::optional<TickState>& was) {
+  TickState now;
   now.felt = glance.truth.contact_force.e();
   now.tip = glance.truth.tip.e();
   const AdmittanceState& rendering = recall<AdmittanceState>(*glance.state);
@@ -79,7 +79,7 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
 }
 
 // A pushing hand pushes against the normal: work is force outwards times motion inwards.
-void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& work) {
+void HexapodLedger::count(const TickState& was, const TickState& now, const sim::Work& work) {
   const Forces& f = was.force;
   const double in = -was.normal.dot(now.tip - was.tip);
   const Vec3 aside = (now.tip - was.tip) + in * was.normal;
@@ -103,7 +103,7 @@ void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& w
   sum_.surplus = std::max(sum_.surplus, -left_);
 }
 
-ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
+ContactLedger HexapodLedger::so_far(const TickState& /*last*/) const {
   ContactLedger sum = sum_;
   sum.spring = (object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0) - loaded_;
   sum.law = ideal_ - led_ - sum.spring;
@@ -117,7 +117,7 @@ ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   return sum;
 }
 
-void HexapodLedger::open(const Known& from) {
+void HexapodLedger::open(const TickState& from) {
   if (from.engaged && object_ != nullptr) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
   sum_ = ContactLedger{};
   left_ = led_ = sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;

@@ -26,7 +26,7 @@ class HexapodLedger {
   struct Forces {
     double held = 0.0, measured = 0.0, filtered = 0.0, wanted = 0.0, commanded = 0.0, ideal = 0.0;
   };
-  struct Known {
+  struct TickState {
     Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true force, N
     Forces force;
     double depth = 0.0;    // m, tip in the object
@@ -36,12 +36,12 @@ class HexapodLedger {
   // The interface that Book needs.
   [[nodiscard]] bool tick(const Glance& glance);
   void rest(const Glance& /*glance*/) {}
-  [[nodiscard]] Known know(const Glance& glance, const std::optional<Known>& was);
+  [[nodiscard]] TickState know(const Glance& glance, const std::optional<TickState>& was);
   [[nodiscard]] static bool believed(Mode mode) { return mode == Mode::contact || mode == Mode::restore; }
-  [[nodiscard]] static bool rendered(const Known& /*now*/) { return true; }
-  void open(const Known& from);
-  void count(const Known& was, const Known& now, const sim::Work& work);
-  [[nodiscard]] ContactLedger so_far(const Known& last) const;
+  [[nodiscard]] static bool rendered(const TickState& /*now*/) { return true; }
+  void open(const TickState& from);
+  void count(const TickState& was, const TickState& now, const sim::Work& work);
+  [[nodiscard]] ContactLedger so_far(const TickState& last) const;
 
  private:
   ContactLedger sum_;

@@ -17,7 +17,7 @@ namespace {
 // The contacts of a run for an energy balance: each contact's begin and end, and its change into another
 // contact. `Ledger` is that of an arm or of a hexapod, and provides
 //
-//   Known                  all values needed for the period that begins at a tick
+//   TickState              all values needed for the period that begins at a tick
 //   tick(glance)           called each tick; false if the scene has no balance of this kind
 //   rest(glance)           called at a tick without a touch
 //   know(glance, was)      values at a tick that may have a touch; `was`: those of the last tick, if known
@@ -38,8 +38,8 @@ class Book final : public Balance {
   }
 
  private:
-  using Known = typename Ledger::Known;
-  void open(const Known& from, double t) {
+  using TickState = typename Ledger::TickState;
+  void open(const TickState& from, double t) {
     on_ = true;
     mark_ = ContactLedger{};
     mark_.began = t;
@@ -61,7 +61,7 @@ class Book final : public Balance {
   }
 
   Ledger ledger_;
-  std::optional<Known> before_;  // values of the last tick
+  std::optional<TickState> before_;  // values of the last tick
   bool on_ = false;
   ContactLedger mark_;   // identifies the present contact
   double last_t_ = 0.0;  // s
@@ -79,7 +79,7 @@ void Book<Ledger>::see(const Glance& glance) {
     ledger_.rest(glance);
     return;
   }
-  const Known now = ledger_.know(glance, before_);
+  const TickState now = ledger_.know(glance, before_);
   const bool again = on_ && contact && mark_.contact != 0 && mark_.contact != glance.out.contacts;
   if (touched && !on_) open(before_ ? *before_ : now, before_ ? t - glance.scene.dt : t);
   if (on_ && before_) ledger_.count(*before_, now, glance.truth.work);

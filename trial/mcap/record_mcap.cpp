@@ -45,7 +45,7 @@ void moment_fields(F& f, Time t) {
   f.integer("nsec", "", nanoseconds(t) % kSecond);
 }
 template <class F, class T>
-void stamp_field(F& f, const Stamped<T>& said) {
+void stamp_field(F& f, const Measurement<T>& said) {
   f.number("stamp_s", "when it was true", stamp_of(said));
 }
 template <class F>
@@ -96,7 +96,7 @@ void frames_fields(F& f, Time t, const std::vector<FixedFrame>& frames) {
 }
 
 template <class F>
-void wrench_fields(F& f, const Stamped<Wrench>& wrench) {
+void wrench_fields(F& f, const Measurement<Wrench>& wrench) {
   f.text("frame", "of both, which is the sensor's", "F");
   vector_field(f, "force_N", "on the haptic-tip's side: weight, inertia and zero error are in it",
                wrench.value.force);
@@ -160,7 +160,7 @@ void core_fields(F& f, const Scene& scene, const std::vector<std::string>& objec
 }
 
 template <class F>
-void surface_fields(F& f, const std::vector<std::string>& objects, const Stamped<DentSample>& dent) {
+void surface_fields(F& f, const std::vector<std::string>& objects, const Measurement<DentSample>& dent) {
   f.text_if("object", "that is dented", name_at(objects, dent.value.object));
   f.number("depth_m", "of the tip's lowest point below the undeformed surface", dent.value.depth);
   vector_field(f, "tip_m", "centre of the tip that dents it, in O", dent.value.tip.centre);
@@ -169,7 +169,7 @@ void surface_fields(F& f, const std::vector<std::string>& objects, const Stamped
 }
 
 template <class F>
-void gripper_fields(F& f, const Stamped<GripSample>& grip, const Grip& told) {
+void gripper_fields(F& f, const Measurement<GripSample>& grip, const Grip& told) {
   f.flag("told_closed", "what it is told", told.closed);
   f.number("told_force_N", "", told.force);
   f.text("phase", "open, closing, closed or opening", word_if_any(grip.value.phase));
@@ -221,7 +221,7 @@ void put_about(RecordTexts& about, std::string_view name, std::string_view text)
 
 // The time of a device's sample. Without a sample, the present time.
 template <class T>
-Time stamp_or(const Stamped<T>& said, Time now) {
+Time stamp_or(const Measurement<T>& said, Time now) {
   return said.health == Health::absent ? now : said.t;
 }
 

@@ -64,7 +64,7 @@ void FingerMeasure::see(const Glance& glance) {
   watch_force(glance);
 }
 
-Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
+PropTarget wanted_at(const Object& object, const Point<'W'>& tip) {
   const stages::NearestInWorld at = stages::nearest(object, tip);
   const Point<'W'> point = object.met_in_its_middle() ? object.X_WO.origin() : at.point;
   return {point, at.normal, at.distance};

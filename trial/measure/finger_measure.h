@@ -70,12 +70,12 @@ class FingerMeasure {
 };
 
 // Ideal position of the prop for a finger at `tip`, and the surface normal there, by ground truth.
-struct Wanted {
+struct PropTarget {
   Point<'W'> point;
   Vec<'W'> normal;
   double distance = kUnset;  // distance of the tip's centre to the surface, m
 };
-[[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
+[[nodiscard]] PropTarget wanted_at(const Object& object, const Point<'W'>& tip);
 
 // Depth of a finger's nearest point below the surface of the core's chosen object, m, and that object's
 // outward normal; by ground truth.

@@ -40,8 +40,8 @@ double greatest_change(const std::vector<FrameForce::Change>& changes, bool touc
   return most;
 }
 
-FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame) {
-  FeltApart apart;
+ForceDifference felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame) {
+  ForceDifference apart;
   std::vector<double> sums{0.0};  // sums of the differences since both came into contact
   const std::size_t ticks = std::min(one.felt().size(), other.felt().size());
   for (std::size_t i = 0; i < ticks; ++i) {

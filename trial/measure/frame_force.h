@@ -24,7 +24,7 @@ class FrameForce {
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
 
  private:
-  Stamped<TrackedTool> newest_, untold_;  // newest pose of the core, and of the second core
+  Measurement<TrackedTool> newest_, untold_;  // newest pose of the core, and of the second core
   State beside_;
   bool runs_ = false;  // the second core runs
   std::vector<Change> changes_;
@@ -46,7 +46,7 @@ class FeltWay {
   std::vector<double> felt_;
 };
 
-struct FeltApart {
+struct ForceDifference {
   std::size_t ticks = 0;  // ticks in which both were in contact
   // Largest difference in one tick, N. It includes the encoders' steps, which a contact 1 ms later has in
   // other ticks.
@@ -55,6 +55,6 @@ struct FeltApart {
   double frame = 0.0;
 };
 // `frame`: ticks in a frame.
-[[nodiscard]] FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);
+[[nodiscard]] ForceDifference felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);
 
 }  // namespace enc::trial

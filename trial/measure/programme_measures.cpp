@@ -30,7 +30,7 @@ void ProbeMeasure::compare(double deflection, double force) {
 
 void ProbeMeasure::see(const Glance& glance) {
   if (glance.out.mode != Mode::probe || glance.out.contacts == 0 || !glance.out.felt.finite()) return;
-  const Vec<'W'> axis = glance.scene.probe()->X_WN * Vec<'N'>(0, 0, 1);
+  const Vec<'W'> axis = glance.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1);
   const double force = dot(glance.out.felt, axis);
   const double deflection = glance.out.deflection;
   if (pushes_.size() != static_cast<std::size_t>(glance.out.contacts)) {
@@ -109,11 +109,11 @@ std::int64_t TravelSums::size() const {
 
 void TravelMeasure::see(const Glance& glance) {
   const Scene& scene = glance.scene;
-  if (scene.travel() == nullptr || glance.state == nullptr) return;
+  if (scene.tracking() == nullptr || glance.state == nullptr) return;
   const Inputs& in = glance.in;
   const TrackingState& now = recall<TrackingState>(*glance.state);
-  if (in.tip.health == Health::absent || !scene.travel()->on_leg(now.leg)) return;
-  const TravelLeg& leg = scene.travel()->legs[static_cast<std::size_t>(now.leg)];
+  if (in.tip.health == Health::absent || !scene.tracking()->on_leg(now.leg)) return;
+  const TravelLeg& leg = scene.tracking()->legs[static_cast<std::size_t>(now.leg)];
   const Vec3 velocity = (scene.X_WR * in.tip.value.velocity).e();
   const double t = seconds(in.tip.t.time_since_epoch());
   if (velocity.norm() > kMoving) moved_ = t;
@@ -127,16 +127,16 @@ void TravelMeasure::see(const Glance& glance) {
   sums_.largest = std::max(sums_.largest, error.norm());
   // A leg to a start counts only for the stop at its end.
   const bool at_rest = now.phase == TravelPhase::dwell && t - moved_ > kSettled;
-  const std::int32_t axis = leg.axis >= 0 ? leg.axis : next_axis(*scene.travel(), now.leg);
+  const std::int32_t axis = leg.axis >= 0 ? leg.axis : next_axis(*scene.tracking(), now.leg);
   if (axis < 0 || (leg.axis < 0 && !at_rest)) return;
-  count({t, tip.xyz[static_cast<std::size_t>(axis)], error[axis], Moving::stopped, axis}, velocity[axis],
-        at_rest);
+  count({t, tip.xyz[static_cast<std::size_t>(axis)], error[axis], MotionDirection::stopped, axis},
+        velocity[axis], at_rest);
 }
 
 void TravelMeasure::count(PacketError packet, double speed, bool at_rest) {
   const auto axis = static_cast<std::size_t>(packet.axis);
   if (std::abs(speed) > kMoving) {
-    packet.moving = speed > 0.0 ? Moving::forward : Moving::back;
+    packet.moving = speed > 0.0 ? MotionDirection::forward : MotionDirection::back;
     (speed > 0.0 ? sums_.forward : sums_.back)[axis].add(packet.error);
   } else if (at_rest) {
     sums_.stopped[axis].add(packet.error);

@@ -56,10 +56,10 @@ struct Errors {
 };
 
 // One packet: time, position along the axis, error along it, and the direction of motion.
-enum class Moving : std::int8_t { back = -1, stopped = 0, forward = 1 };
+enum class MotionDirection : std::int8_t { back = -1, stopped = 0, forward = 1 };
 struct PacketError {
   double t = 0.0, position = 0.0, error = 0.0;  // s, m, m
-  Moving moving = Moving::stopped;
+  MotionDirection moving = MotionDirection::stopped;
   std::int32_t axis = 0;  // axis of W
 };
 

@@ -29,7 +29,7 @@ void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 // Pressing force on the object, N. A probe's force is that measured in this tick, unfiltered. A contact's
 // force is the filtered one that the object answers to.
 double pressing(const Scene& scene, const Outputs& out) {
-  if (scene.probe() != nullptr) return dot(out.felt, scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+  if (scene.indentation() != nullptr) return dot(out.felt, scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
   return -out.force.xyz[2];
 }
 
@@ -67,7 +67,7 @@ RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
 }
 
 // True only in the row that received the packet: a log must not count a packet twice.
-bool RecordTable::news(const Stamped<TrackedTool>& tool) {
+bool RecordTable::news(const Measurement<TrackedTool>& tool) {
   const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
                      tool.value.tool < static_cast<std::int32_t>(scene_.tools.size());
   if (!known || tool.t == tool_t_) return false;
@@ -75,7 +75,7 @@ bool RecordTable::news(const Stamped<TrackedTool>& tool) {
   return true;
 }
 
-void RecordTable::add_tip(std::string& row, const Stamped<TrackedTool>& tool) const {
+void RecordTable::add_tip(std::string& row, const Measurement<TrackedTool>& tool) const {
   const Point<'T'>& centre = scene_.tools[static_cast<std::size_t>(tool.value.tool)].tip.centre;
   for (const double x : (scene_.X_WC * (tool.value.X_CT * centre)).xyz) add(row, 1e3 * x);
   add(row, seconds(tool.t.time_since_epoch()));

@@ -22,8 +22,8 @@ class RecordTable {
 
  private:
   // True if the tracker has a new pose since the last row.
-  bool news(const Stamped<TrackedTool>& tool);
-  void add_tip(std::string& row, const Stamped<TrackedTool>& tool) const;
+  bool news(const Measurement<TrackedTool>& tool);
+  void add_tip(std::string& row, const Measurement<TrackedTool>& tool) const;
   void add_markers(std::string& row, const TrackedTool& tool) const;
 
   const Scene& scene_;

@@ -74,7 +74,7 @@ SeenShift fit(const SeenPress* first, std::size_t n) {
 void SeenMeasure::see(const Glance& glance) {
   if (!glance.scene.has_tracker) return;
   remember(glance);
-  const Stamped<TrackedTool>& seen = glance.in.tool;
+  const Measurement<TrackedTool>& seen = glance.in.tool;
   if (seen.health != Health::ok || seen.t == newest_) return;
   newest_ = seen.t;
   if (seen.value.tool < 0 || !seen.value.X_CT.valid()) return;
@@ -113,7 +113,7 @@ void SeenMeasure::remember(const Glance& glance) {
 }
 
 void SeenMeasure::compare(const Glance& glance, const Moment& then) {
-  const Stamped<TrackedTool>& seen = glance.in.tool;
+  const Measurement<TrackedTool>& seen = glance.in.tool;
   const Tool& tool = glance.scene.tools[static_cast<std::size_t>(seen.value.tool)];
   const Point<'W'> tip = glance.scene.X_WC * (seen.value.X_CT * tool.tip.centre);
   const double above = dot(tip - then.prop, then.normal) - tool.tip.radius;

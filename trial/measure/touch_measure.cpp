@@ -24,7 +24,7 @@ void PlanMeasure::see(const Glance& glance) {
   const std::int32_t more = glance.out.contacts - contacts_;
   contacts_ = glance.out.contacts;
   if (!tries_) return;
-  Tried& now = tried_.back();
+  PressAttempt& now = tried_.back();
   now.contacts += more;
   now.pressed = now.pressed || truth.phase == sim::Phase::hold || truth.phase == sim::Phase::release ||
                 truth.phase == sim::Phase::retreat;
@@ -50,7 +50,7 @@ void TouchMeasure::see(const Glance& glance) {
 void TouchMeasure::see_motors(const Glance& glance) {
   constexpr double kAtOnce = 0.020;  // s: an impact is shorter
   const double dt = glance.scene.dt;
-  const auto see = [&](Acted& limit, std::uint32_t why) {
+  const auto see = [&](LimitAction& limit, std::uint32_t why) {
     limit.now = (glance.out.why & why) != 0 ? limit.now + dt : 0.0;
     if (limit.now < kAtOnce) return;
     if (std::isnan(limit.first)) limit.first = seconds(glance.tick.t.time_since_epoch()) - limit.now;

@@ -19,7 +19,7 @@ namespace enc::trial {
 // recognised a contact.
 //
 // One press of the plan, from one approach to the next.
-struct Tried {
+struct PressAttempt {
   double began = kUnset;      // s
   double touched = kUnset;    // s: first true contact; unset: no contact
   std::int32_t contacts = 0;  // contacts recognised by the core
@@ -32,12 +32,12 @@ class PlanMeasure {
  public:
   void see(const Glance& glance);
   // Excludes the reaches that turn back before a touch.
-  [[nodiscard]] const std::vector<Tried>& tried() const { return tried_; }
+  [[nodiscard]] const std::vector<PressAttempt>& tried() const { return tried_; }
 
  private:
   void begin(const Glance& glance);
 
-  std::vector<Tried> tried_ = with_room<Tried>();
+  std::vector<PressAttempt> tried_ = with_room<PressAttempt>();
   std::int32_t press_ = -1;    // index in the plan
   std::int32_t contacts_ = 0;  // the core's count before this tick
   bool tries_ = false;         // the press intends to touch
@@ -64,11 +64,11 @@ class TouchMeasure {
   void see(const Glance& glance);
   [[nodiscard]] const std::vector<SwingFigures>& swings() const { return swings_; }
   // Time at which a limit of an arm's motors first acted for 20 ms, and the total time, s; unset: never.
-  struct Acted {
+  struct LimitAction {
     double first = kUnset, total = 0.0, now = 0.0;
   };
-  [[nodiscard]] const Acted& peak() const { return peak_; }
-  [[nodiscard]] const Acted& heat() const { return heat_; }
+  [[nodiscard]] const LimitAction& peak() const { return peak_; }
+  [[nodiscard]] const LimitAction& heat() const { return heat_; }
   // Begin of each contact in which nothing was touched, s.
   [[nodiscard]] const std::vector<double>& empty() const { return empty_; }
   [[nodiscard]] const PlanMeasure& plan() const { return plan_; }
@@ -84,7 +84,7 @@ class TouchMeasure {
 
   std::vector<SwingFigures> swings_ = with_room<SwingFigures>();
   std::vector<double> empty_ = with_room<double>();
-  Acted peak_, heat_;
+  LimitAction peak_, heat_;
   PlanMeasure plan_;
   // A contact, as the core recognised it.
   struct Contact {

@@ -66,7 +66,7 @@ class RunWatch {
 
   static constexpr int kStatusEach = 50;  // ticks between two statuses
   RunStatus status_;
-  Latest<RunStatus> statuses_;
+  LatestValue<RunStatus> statuses_;
   Queue<RunEvent, 128> events_;
   std::int64_t ticks_ = 0;
   Mode mode_ = Mode::away;

@@ -41,28 +41,28 @@ bool taken(volatile std::sig_atomic_t& flag) noexcept {
 Signals::Signals() {
   for (volatile std::sig_atomic_t* flag : {&begun, &first_end, &halts, &resumes, &suspensions, &continued})
     *flag = 0;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) take(signal, note_end, Spared::ignored);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) take(signal, note_end, PriorHandling::ignored);
   // A profiler or a test may handle one of these signals.
   for (const int signal : {SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGIO, SIGPWR, SIGSTKFLT})
-    take(signal, note_end, Spared::handled);
-  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) take(signal, note_end, Spared::handled);
+    take(signal, note_end, PriorHandling::handled);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) take(signal, note_end, PriorHandling::handled);
   take_faults();
-  take(SIGUSR1, note_halt, Spared::nothing);
-  take(SIGUSR2, note_resume, Spared::nothing);
-  for (const int signal : {SIGPIPE, SIGXFSZ, SIGTTIN, SIGTTOU}) take(signal, SIG_IGN, Spared::ignored);
+  take(SIGUSR1, note_halt, PriorHandling::nothing);
+  take(SIGUSR2, note_resume, PriorHandling::nothing);
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGTTIN, SIGTTOU}) take(signal, SIG_IGN, PriorHandling::ignored);
 }
 
 Signals::~Signals() {
   for (; count_ > 0; --count_) sigaction(taken_[count_ - 1].signal, &taken_[count_ - 1].before, nullptr);
 }
 
-void Signals::take(int signal, void (*handler)(int), Spared spared) {
+void Signals::take(int signal, void (*handler)(int), PriorHandling spared) {
   if (count_ == taken_.size()) return;
-  Taken& one = taken_[count_];
+  SavedSignal& one = taken_[count_];
   one.signal = signal;
   if (sigaction(signal, nullptr, &one.before) != 0) return;
-  if (spared != Spared::nothing && one.before.sa_handler == SIG_IGN) return;
-  if (spared == Spared::handled && one.before.sa_handler != SIG_DFL) return;
+  if (spared != PriorHandling::nothing && one.before.sa_handler == SIG_IGN) return;
+  if (spared == PriorHandling::handled && one.before.sa_handler != SIG_DFL) return;
   struct sigaction action {};
   action.sa_handler = handler;
   if (sigaction(signal, &action, nullptr) == 0) ++count_;
@@ -70,7 +70,7 @@ void Signals::take(int signal, void (*handler)(int), Spared spared) {
 
 void Signals::take_faults() {
   for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP}) {
-    Taken& one = taken_[count_];
+    SavedSignal& one = taken_[count_];
     one.signal = signal;
     if (sigaction(signal, nullptr, &one.before) != 0) continue;
     faults_before[static_cast<std::size_t>(signal)] = one.before;
@@ -84,8 +84,8 @@ void Signals::take_faults() {
 void Signals::begin() noexcept { begun = 1; }
 
 void Signals::take_suspensions() noexcept {
-  take(SIGTSTP, note_suspension, Spared::ignored);
-  take(SIGCONT, note_continued, Spared::nothing);
+  take(SIGTSTP, note_suspension, PriorHandling::ignored);
+  take(SIGCONT, note_continued, PriorHandling::nothing);
 }
 
 int Signals::caught() noexcept { return first_end; }

@@ -39,16 +39,16 @@ class Signals {
 
  private:
   // Earlier handling of a signal that stays.
-  enum class Spared { nothing, ignored, handled };
-  void take(int signal, void (*handler)(int), Spared spared);
+  enum class PriorHandling { nothing, ignored, handled };
+  void take(int signal, void (*handler)(int), PriorHandling spared);
   void take_faults();
 
-  struct Taken {
+  struct SavedSignal {
     int signal = 0;
     struct sigaction before {};
   };
   static constexpr std::size_t kMost = 64;
-  std::array<Taken, kMost> taken_{};
+  std::array<SavedSignal, kMost> taken_{};
   std::size_t count_ = 0;
 };
 

@@ -152,13 +152,13 @@ void keep_times(const Times& of, bool by_yardstick, PrecisionPoint& point) {
   point.spread = *most / *least;
 }
 
-struct Converged {
+struct ReferenceRuns {
   const Run &truth, &second;
 };
 
 // Runs all points, round by round.
 void run_points(const SetupWith& setup_with, const PrecisionOptions& options, double seconds,
-                const Converged& runs, const std::function<void(double)>& tell, Precision& all) {
+                const ReferenceRuns& runs, const std::function<void(double)>& tell, Precision& all) {
   std::vector<Times> times(all.points.size());
   // Computing the quantities takes time, so a round either computes them or is timed.
   const int first = options.quantities ? -1 : 0;

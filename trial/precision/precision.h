@@ -83,7 +83,7 @@ class Quantities {
   [[nodiscard]] virtual std::vector<double> all() const = 0;  // valid while the trial is alive
 };
 // Makes the quantities of a run with these options; it may change them, except `watch`.
-using QuantitiesOf = std::function<std::unique_ptr<Quantities>(const models::Setup&, TrialOptions&)>;
+using QuantityMaker = std::function<std::unique_ptr<Quantities>(const models::Setup&, TrialOptions&)>;
 
 struct PrecisionOptions {
   std::uint64_t seed = 1;
@@ -96,8 +96,8 @@ struct PrecisionOptions {
   bool twice = true;        // also judges by the other one; the larger error counts
   // Times a fixed piece of work now, s; costs are also reported relative to it. Empty: no relative costs.
   std::function<double()> yardstick{};
-  QuantitiesOf quantities{};  // compared instead of the force; empty: the force
-  DriverSource drivers{};     // drivers, for a scene with a camera
+  QuantityMaker quantities{};  // compared instead of the force; empty: the force
+  DriverSource drivers{};      // drivers, for a scene with a camera
   std::function<void(double)> progress{};
 };
 

@@ -32,9 +32,9 @@ class Faults {
 
  private:
   std::uint8_t bits_ = 0;
-  Stamped<TrackedTool> tool_;  // last sample passed to the core
-  Time read_{};                // stamp of the newest sample read
-  std::int64_t samples_ = 0;   // samples since the first
+  Measurement<TrackedTool> tool_;  // last sample passed to the core
+  Time read_{};                    // stamp of the newest sample read
+  std::int64_t samples_ = 0;       // samples since the first
 };
 
 // Request at a tick.

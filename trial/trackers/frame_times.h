@@ -25,7 +25,7 @@ struct FrameTimes {
     ages = with_room<double>(most);
   }
   // Call this after each reading of the tracker. A repeated result, such as a stale one, is not a frame.
-  void see(Time now, const Stamped<TrackedTool>& newest) noexcept {
+  void see(Time now, const Measurement<TrackedTool>& newest) noexcept {
     if (newest.health == Health::absent || (frames > 0 && newest.t == exposed_)) return;
     if (frames == 0) first = now;
     if (frames > 0 && intervals.size() < intervals.capacity()) intervals.push_back(age(now, last));

@@ -39,7 +39,7 @@ void ThreadedTracker::work() noexcept {
   }
 }
 
-bool ThreadedTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+bool ThreadedTracker::poll(Time now, Measurement<TrackedTool>& newest) noexcept {
   now_.write(now);
   ++calls_;
   calls_.notify_one();

@@ -33,7 +33,7 @@ class ThreadedTracker final : public PoseTracker {
 
   // The newest result of the thread at its last call; neither waits nor allocates. An older result that was
   // not fetched is lost.
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override;
   // False if the tracker reports so, or if the thread has not returned for kPatience polls.
   [[nodiscard]] bool linked() const noexcept override;
   // These two wait for the thread: never call them in the loop.
@@ -45,7 +45,7 @@ class ThreadedTracker final : public PoseTracker {
  private:
   // The thread's report after each call of the tracker.
   struct Word {
-    Stamped<TrackedTool> tool;
+    Measurement<TrackedTool> tool;
     std::uint32_t news = 0;   // number of results so far
     std::uint32_t calls = 0;  // number of calls answered by it
     bool linked = true;
@@ -55,8 +55,8 @@ class ThreadedTracker final : public PoseTracker {
   std::unique_ptr<PoseTracker> tracker_;
   // Held by the thread while it calls the tracker; the loop never takes it.
   mutable std::mutex at_work_;
-  Latest<Time> now_;
-  Latest<Word> said_;
+  LatestValue<Time> now_;
+  LatestValue<Word> said_;
   std::atomic<std::uint32_t> calls_ = 0;  // calls of poll(), and the end
   std::atomic<bool> stop_ = false;
   Word heard_;  // the loop's copy
@@ -78,8 +78,8 @@ class JitteredTracker final : public PoseTracker {
   JitteredTracker(std::unique_ptr<PoseTracker> tracker, const Spec& spec)
       : tracker_(std::move(tracker)), spec_(spec), draw_(spec.seed, "jitter") {}
 
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
-    if (Stamped<TrackedTool> told; tracker_->poll(now, told) && count_ < line_.size()) {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
+    if (Measurement<TrackedTool> told; tracker_->poll(now, told) && count_ < line_.size()) {
       const double early_or_late = (2.0 * draw_.uniform() - 1.0) * seconds(spec_.jitter);
       last_ = std::max({last_, now, told.t + spec_.latency + from_seconds(early_or_late)});
       line_[(first_ + count_++) % line_.size()] = {told, last_};
@@ -96,14 +96,14 @@ class JitteredTracker final : public PoseTracker {
   [[nodiscard]] std::vector<std::string> remarks() const override { return tracker_->remarks(); }
 
  private:
-  struct Waiting {
-    Stamped<TrackedTool> told;
+  struct WaitingSample {
+    Measurement<TrackedTool> told;
     Time due{};
   };
   std::unique_ptr<PoseTracker> tracker_;
   Spec spec_;
   sim::Stream draw_;
-  std::array<Waiting, 64> line_;  // a ring
+  std::array<WaitingSample, 64> line_;  // a ring
   std::size_t first_ = 0, count_ = 0;
   Time last_ = Time::min();
 };

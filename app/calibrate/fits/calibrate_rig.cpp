@@ -36,7 +36,7 @@ using models::RigCalibration;
 using trial::MachineCalibration;
 
 // The result, in the form of the rig file.
-struct Found {
+struct CalibrationOutput {
   const models::Setup& setup;
   const MachineCalibration& made;
   RigCalibration file;
@@ -81,7 +81,7 @@ double turned(const Quat& found, const Vec3& believed) {
   return found.angularDistance(rotation_xyz(believed)) * kDegPerRad;
 }
 
-std::string weight_text(const Found& found) {
+std::string weight_text(const CalibrationOutput& found) {
   const models::WeightFit& fit = *found.made.weight;
   const RigSpec& rig = found.setup.rig;
   return fmt::format(
@@ -98,7 +98,7 @@ std::string weight_text(const Found& found) {
       list(kMmPerM * fit.middle.e(), 1), fit.rms, fit.most);
 }
 
-std::string tracker_text(const Found& found) {
+std::string tracker_text(const CalibrationOutput& found) {
   const models::HandEyeFit& fit = *found.made.hand_eye;
   const RigSpec& rig = found.setup.rig;
   const PoseSpec& W_C = *found.file.W_C;
@@ -124,7 +124,7 @@ std::string tracker_text(const Found& found) {
                     list(kMmPerM * tool.tip, 3));
 }
 
-std::string found_text(const Found& found) {
+std::string found_text(const CalibrationOutput& found) {
   const MachineCalibration& made = found.made;
   std::string text =
       fmt::format("{} poses in {:.1f} s of experiment{}\n", made.stands.size(), made.time,
@@ -140,7 +140,7 @@ std::string found_text(const Found& found) {
 
 Json list_of(const Vec3& v, double unit) { return {v.x() * unit, v.y() * unit, v.z() * unit}; }
 
-Json found_json(const Found& found) {
+Json found_json(const CalibrationOutput& found) {
   const MachineCalibration& made = found.made;
   Json json;
   json["poses"] = made.stands.size();
@@ -239,7 +239,7 @@ void end(std::optional<trial::CarriedTool>& tool) {
 }
 
 // Thrown if the person does not let the machine move.
-struct NotBegun {};
+struct StartRefusal {};
 
 // The question before the first motion; empty: no real machine moves.
 std::string question_for(const trial::Trial& trial, const RigOptions& options) {
@@ -255,7 +255,7 @@ MachineCalibration made_with(const models::Setup& setup, const RigOptions& optio
   };
   std::optional<trial::CarriedTool> tool;
   tool.emplace(setup, trial_options(options, modules));
-  if (options.confirm && !options.confirm(question_for(tool->trial(), options))) throw NotBegun();
+  if (options.confirm && !options.confirm(question_for(tool->trial(), options))) throw StartRefusal();
   try {
     MachineCalibration made =
         trial::calibrate_machine(*tool, options.poses.value_or(trial::kUsualPoses), progress);
@@ -306,17 +306,17 @@ int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules)
   MachineCalibration made;
   try {
     made = made_with(setup, options, modules);
-  } catch (const NotBegun&) {
+  } catch (const StartRefusal&) {
     fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
     return 2;  // a signal sets its own exit code
-  } catch (const trial::CarryingEnded&) {
+  } catch (const trial::MotionInterrupt&) {
     if (!options.stop || !options.stop())
       throw Error("the devices ended the run; nothing was written; see `encounter devices`", {},
                   ErrorKind::device);
     fmt::print(stderr, "stopped by hand: the machine stands, and nothing was written\n");
     return 4;  // a signal sets its own exit code
   }
-  const Found found{setup, made, file_of(setup, made)};
+  const CalibrationOutput found{setup, made, file_of(setup, made)};
   const std::string text = found_text(found);
   fmt::print("{}", options.json ? found_json(found).dump(2) + "\n" : text);
   std::fflush(stdout);  // before writing the file, which may fail

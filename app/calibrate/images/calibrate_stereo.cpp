@@ -66,7 +66,7 @@ std::string name_of(const std::string& path, const std::string& folder) {
 }
 
 // Prints progress every few seconds: searching an image without a board takes seconds.
-class Waiting {
+class SearchProgress {
  public:
   void tell(std::size_t done, std::size_t all, std::size_t found) {
     constexpr auto kEach = std::chrono::seconds(5);
@@ -81,7 +81,7 @@ class Waiting {
 };
 
 // An image in which the board was not found.
-struct Missed {
+struct FailedImage {
   std::string name;
   Image image;
 };
@@ -99,7 +99,8 @@ void refuse_whole(const images::PairList& list, const std::string& folder, const
         folder, name_of(list.pairs.front().left, folder)));
 }
 
-void refuse_other_size(const std::vector<Missed>& missed, const std::string& folder, const Board& board) {
+void refuse_other_size(const std::vector<FailedImage>& missed, const std::string& folder,
+                       const Board& board) {
   for (const auto& [name, image] : missed) {
     const std::optional<Board> size = board_in(image.view(), board);
     if (!size || (size->columns == std::max(board.columns, board.rows) &&
@@ -121,7 +122,7 @@ class BoardSearch {
 
   void find_all(PairStudy& study) {
     const std::size_t pairs = reader_.list().pairs.size();
-    Waiting waiting;
+    SearchProgress waiting;
     for (std::size_t i = 0; i < pairs; ++i) {
       waiting.tell(i, pairs, study.pairs.size());
       look_at(i, study);
@@ -162,8 +163,8 @@ class BoardSearch {
   images::PairReader& reader_;
   const std::string& folder_;
   const Board& board_;
-  std::vector<Missed> missed_;  // images of the first pairs, while none had a board
-  bool found_ = false;          // found in any image
+  std::vector<FailedImage> missed_;  // images of the first pairs, while none had a board
+  bool found_ = false;               // found in any image
 };
 
 void refuse_too_few(const PairStudy& study, const images::PairList& list, const std::string& folder,

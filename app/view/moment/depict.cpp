@@ -90,7 +90,7 @@ Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
 void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   const sim::Truth& truth = m.truth;
   const double azimuth = request.camera.azimuth;
-  const double beside = scale * (m.scene.probe() ? 0.048 : 0.020);  // a real ball hides more
+  const double beside = scale * (m.scene.indentation() ? 0.048 : 0.020);  // a real ball hides more
   const Vec<'W'> right(beside * std::sin(azimuth), -beside * std::cos(azimuth), 0);
   if (touching(m.truth)) {
     const Vec<'W'> along = scale * m.look.force_scale * truth.contact_force;
@@ -143,7 +143,7 @@ void add_object_labels(const Moment& m, sim::ViewRequest& request) {
     middle += across(at[i]) / static_cast<double>(count);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const bool real = m.scene.probe() && m.scene.probe()->object == static_cast<int>(i);
+    const bool real = m.scene.indentation() && m.scene.indentation()->object == static_cast<int>(i);
     const std::string& name = m.setup.scene.objects[i].name;
     request.labels.push_back({count > 4 ? name : fmt::format("{} ({})", name, real ? "real" : "virtual"),
                               at[i], count > 4 && across(at[i]) < middle});
@@ -153,7 +153,7 @@ void add_object_labels(const Moment& m, sim::ViewRequest& request) {
 // ---- the hexapod
 
 const char* hexapod_presser(const Moment& m) {
-  return m.scene.probe() ? "ball" : m.pushed ? "pusher" : "tool";
+  return m.scene.indentation() ? "ball" : m.pushed ? "pusher" : "tool";
 }
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
@@ -175,7 +175,7 @@ void add_legs(const Moment& m, sim::ViewRequest& request) {
 void add_hexapod_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
   const sim::Truth& truth = m.truth;
   const auto in_H = [&](double x, double y, double z) { return m.X_WR * m.platform * Point<'H'>(x, y, z); };
-  request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
+  request.labels.push_back({m.scene.indentation() ? "probe" : "haptic-tip", truth.tip, false});
   add_object_labels(m, request);
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
   if (request.title.empty()) return;  // a close-up has no more labels

@@ -73,7 +73,7 @@ Moment moment_with(trial::Trial& trial, const mjData* data, const Pose<'R', 'H'>
 
 }  // namespace
 
-void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to) {
+void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, RunSnapshot& to) {
   sim::World& world = trial.world();
   const mjModel* model = world.physics().model();
   const mjData* data = world.physics().data();
@@ -108,7 +108,7 @@ Moment moment_of(trial::Trial& trial) {
                      trial.state(), trial.outputs(), trial.now());
 }
 
-Moment moment_of(trial::Trial& trial, const Still& still, mjData* data) {
+Moment moment_of(trial::Trial& trial, const RunSnapshot& still, mjData* data) {
   const mjModel* model = trial.world().physics().model();
   const double* from = still.at.data();
   for (const PoseArray& part : kPoseArrays) {
@@ -138,7 +138,7 @@ AugmentedMoment BelievedMoment::of(trial::Trial& trial) {
   moment.joints = trial.inputs().arm.value.joints;
   if (const Contact& contact = contact_of(trial.state()); contact.X_WN.valid()) q_WN_ = contact.X_WN.q();
   moment.q_WN = q_WN_;
-  const Stamped<TrackedTool>& tool = trial.inputs().tool;
+  const Measurement<TrackedTool>& tool = trial.inputs().tool;
   if (tool.health == Health::ok && tool.value.tool >= 0) moment.finger = tool.value.X_CT.origin();
   for (const Object& object : scene.objects)
     moment.moved.push_back(shift_of(object, moved_in(trial.state())));

@@ -43,7 +43,7 @@ void leave_out_vision(models::Setup& setup);
 }
 
 // A moment of a run by value, which the window shows now or later.
-struct Still {
+struct RunSnapshot {
   sim::Truth truth;
   State state;
   Outputs out;
@@ -57,9 +57,9 @@ struct Still {
 
 // Takes the present moment of a trial with a twin. `simulated`: as in Still. If false, tool and tip are those
 // reported by the devices, not the twin's.
-void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to);
+void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, RunSnapshot& to);
 // The moment for a picture; `data`, of the trial's model, receives the poses.
-[[nodiscard]] Moment moment_of(trial::Trial& trial, const Still& still, mjData* data);
+[[nodiscard]] Moment moment_of(trial::Trial& trial, const RunSnapshot& still, mjData* data);
 
 // Inputs of the augmented view (core/vision/augment) for a run, as the core has them.
 [[nodiscard]] AugmentedSpec believed_spec(const models::Setup& setup, const Scene& scene);

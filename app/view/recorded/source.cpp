@@ -25,7 +25,7 @@ std::uint64_t seed_of(const RecordTexts& texts) {
 
 }  // namespace
 
-Playback::Playback(const std::string& path) : record_(path, Partial::yes) {
+Playback::Playback(const std::string& path) : record_(path, PartialRead::yes) {
   if (record_.ticks() == 0)
     throw Error(path + ": holds no whole tick; there is nothing to see; record it again");
   models::Setup setup = models::setup_of(record_.texts(), path);
@@ -51,7 +51,7 @@ trial::TrialOptions Playback::options() {
   options.steer = [this](std::int64_t tick) { return hand_.at(tick); };
   // The twin's machine follows the recorded motion of a real one.
   options.law = [this](const Scene& scene, const Tick&, const Inputs&, State& state, Outputs& out) {
-    const Stamped<TipSample>& tip = frame_.in.tip;
+    const Measurement<TipSample>& tip = frame_.in.tip;
     if (!simulated_ && trial_->world().machine && tip.health != Health::absent)
       trial_->world().machine->lead(tip.value);
     step(scene, frame_.tick, frame_.in, state, out);
@@ -104,7 +104,7 @@ double Source::now() const {
 double Source::end() const {
   if (!playback_) return trial_->world().programme_time();
   double end = 0.0;
-  RecordReader reader(record_, Partial::yes);
+  RecordReader reader(record_, PartialRead::yes);
   for (RecordedTick frame; reader.next(frame);) end = time_of(frame);
   return end;
 }
@@ -119,7 +119,7 @@ bool Source::person() const {
 }
 
 double deepest_moment(const std::string& record) {
-  RecordReader reader(record, Partial::yes);
+  RecordReader reader(record, PartialRead::yes);
   double at = 0.0, most = 0.0;
   for (RecordedTick frame; reader.next(frame);) {
     if (frame.out.mode == Mode::contact && frame.out.deflection > most) {

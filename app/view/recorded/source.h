@@ -76,7 +76,7 @@ class Source {
   std::unique_ptr<trial::Trial> trial_;  // set for a scene
   std::unique_ptr<Playback> playback_;   // set for a record
   std::string record_;                   // file of the record
-  Still still_;
+  RunSnapshot still_;
   const trial::TrialOptions how_;
 };
 

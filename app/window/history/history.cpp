@@ -92,7 +92,7 @@ constexpr sim::Colour kHold{0.85F, 0.10F, 0.15F, 1.0F};
 
 }  // namespace
 
-void Timeline::add(const Still& still) {
+void Timeline::add(const RunSnapshot& still) {
   const bool newest = !past();
   if (stills_.size() < most_) {
     stills_.push_back(still);

@@ -54,10 +54,10 @@ class Timeline {
   // `most`: number of stills kept; the oldest go first.
   explicit Timeline(std::size_t most) : most_(most) {}
 
-  void add(const Still& still);
+  void add(const RunSnapshot& still);
   [[nodiscard]] bool empty() const { return stills_.empty(); }
-  [[nodiscard]] const Still& shown() const { return at(shown_); }
-  [[nodiscard]] const Still& newest() const { return at(end() - 1); }
+  [[nodiscard]] const RunSnapshot& shown() const { return at(shown_); }
+  [[nodiscard]] const RunSnapshot& newest() const { return at(end() - 1); }
   // True if a still before the newest is shown.
   [[nodiscard]] bool past() const { return !stills_.empty() && shown_ + 1 < end(); }
 
@@ -75,15 +75,17 @@ class Timeline {
   using Number = std::int64_t;
   [[nodiscard]] Number begin() const { return dropped_; }
   [[nodiscard]] Number end() const { return dropped_ + static_cast<Number>(stills_.size()); }
-  [[nodiscard]] const Still& at(Number n) const { return stills_[static_cast<std::size_t>(n) % most_]; }
+  [[nodiscard]] const RunSnapshot& at(Number n) const { return stills_[static_cast<std::size_t>(n) % most_]; }
   void show(Number n);
 
   std::size_t most_;
-  std::vector<Still> stills_;  // a ring once it is full
+  std::vector<RunSnapshot> stills_;  // a ring once it is full
   Number dropped_ = 0, shown_ = 0;
   double rest_ = 0.0;  // s of go_on() that were too short for another still
 };
 
-[[nodiscard]] inline double seconds_of(const Still& still) { return seconds(still.now.t.time_since_epoch()); }
+[[nodiscard]] inline double seconds_of(const RunSnapshot& still) {
+  return seconds(still.now.t.time_since_epoch());
+}
 
 }  // namespace enc::app

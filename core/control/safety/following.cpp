@@ -21,19 +21,19 @@ bool near_segment(const Vec3& p, const Vec3& a, const Vec3& b, double distance) 
 }  // namespace
 
 bool follows(const ServoModel& servo, const Point<'R'>& command, const Vec<'R'>& velocity,
-             const Point<'R'>& measured, Following& state) noexcept {
+             const Point<'R'>& measured, FollowingState& state) noexcept {
   if (!state.expected.finite()) state.expected = measured;
   const Vec3 pull = servo.pull * (command - state.expected).e();
   state.velocity = Vec<'R'>(Vec3((state.velocity.e() + pull) * servo.left));
   state.expected = state.expected + servo.dt * state.velocity;
   // The model may lag by no more than the accepted lag allows. Otherwise a rig file with a servo of 1e-6 Hz
   // would never detect a machine that stands still.
-  const double allowed = kTolerance + state.straying.excused(velocity.norm(), servo.lag, servo.dt);
+  const double allowed = kTolerance + state.deviation.excused(velocity.norm(), servo.lag, servo.dt);
   const Vec3 behind = (state.expected - command).e();
   if (behind.squaredNorm() > allowed * allowed)
     state.expected = Point<'R'>(Vec3(command.e() + behind * (allowed / behind.norm())));
   const bool near = near_segment(measured.e(), state.expected.e(), command.e(), allowed);
-  return !state.straying.too_long(!near, kPatience, servo.dt);
+  return !state.deviation.too_long(!near, kPatience, servo.dt);
 }
 
 }  // namespace enc

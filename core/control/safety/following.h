@@ -29,10 +29,10 @@ struct PathDeviation {
 };
 
 // Memory of follows().
-struct Following {
+struct FollowingState {
   Point<'R'> expected;  // position of the servo model; unset: not started
   Vec<'R'> velocity = Vec<'R'>::zero();
-  PathDeviation straying;
+  PathDeviation deviation;
   bool lost = false;  // off for too long; stays set until the tool leaves
 };
 
@@ -40,6 +40,6 @@ struct Following {
 // once the machine has been off for 50 ms: farther than 0.5 mm plus twice the lag from the segment between
 // model and command.
 [[nodiscard]] bool follows(const ServoModel& servo, const Point<'R'>& command, const Vec<'R'>& velocity,
-                           const Point<'R'>& measured, Following& state) noexcept;
+                           const Point<'R'>& measured, FollowingState& state) noexcept;
 
 }  // namespace enc

@@ -98,8 +98,8 @@ Inside::Inside(const CommonScene& scene, std::int32_t object, double margin, con
 Inside::Inside(const Object& object, double margin, const Vec<'W'>& shift, ObjectHint& hint)
     : object_(object), margin_(margin), shift_(shift), hint_(hint) {}
 
-Nearest Inside::at(const Point<'O'>& p) noexcept {
-  const Nearest found = object_.surface.nearest(p, hint_.feature);
+SurfacePoint Inside::at(const Point<'O'>& p) noexcept {
+  const SurfacePoint found = object_.surface.nearest(p, hint_.feature);
   hint_.feature = found.feature;
   return found;
 }
@@ -112,7 +112,7 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
   std::array<Wall, kWalls> walls;
   std::size_t count = 0, next = 0;
   for (int i = 0; i < kTries; ++i) {
-    const Nearest near = at(p);
+    const SurfacePoint near = at(p);
     if (!std::isfinite(near.distance)) return wanted;
     const double depth = -near.distance;
     if (depth >= margin_ - kClose) return i == 0 ? wanted : object_.X_WO * p + shift_;
@@ -137,7 +137,7 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
 
 // True if the tip may move at v: both its stopping position and the path there are deep enough. `met`:
 // nearest surface point of the first position that is not deep enough.
-bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Nearest& met) noexcept {
+bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, SurfacePoint& met) noexcept {
   const Vec3 way = braking_way(v, brake.acceleration, brake.dt);
   const double length = way.norm();
   const double least = stop_depth(depth);
@@ -155,7 +155,7 @@ bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Neare
   double gone = brake.dt * v.norm();
   if (depth - floor > gone) gone = std::max(depth - floor, kLeastStep);
   for (int i = 0; gone < length; ++i) {
-    const Nearest between = at(local(Point<'W'>(Vec3(brake.at.e() + (gone / length) * way))));
+    const SurfacePoint between = at(local(Point<'W'>(Vec3(brake.at.e() + (gone / length) * way))));
     if (i == kMostSteps || !(-between.distance >= floor)) {
       met = between;
       return false;
@@ -172,7 +172,7 @@ double Inside::stop_depth(double here) const {
 }
 
 Vec3 Inside::velocity(const Brake& brake, double here, const Vec3& wanted) noexcept {
-  Nearest met;
+  SurfacePoint met;
   if (stops_inside(brake, here, wanted, met)) return wanted;
   const double most = brake.acceleration * brake.dt;
   const double least = stop_depth(here);

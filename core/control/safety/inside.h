@@ -67,15 +67,16 @@ class Inside {
   [[nodiscard]] Vec3 velocity(const Brake& brake, double here, const Vec3& wanted) noexcept;
   // True if something that moves at v for this tick can stop inside.
   [[nodiscard]] bool can_stop(const Brake& brake, double here, const Vec3& v) noexcept {
-    Nearest met;
+    SurfacePoint met;
     return stops_inside(brake, here, v, met);
   }
 
  private:
   [[nodiscard]] Point<'O'> local(const Point<'W'>& p) const { return object_.X_OW * (p - shift_); }
-  [[nodiscard]] Nearest at(const Point<'O'>& p) noexcept;
+  [[nodiscard]] SurfacePoint at(const Point<'O'>& p) noexcept;
   [[nodiscard]] double stop_depth(double here) const;
-  [[nodiscard]] bool stops_inside(const Brake& brake, double depth, const Vec3& v, Nearest& met) noexcept;
+  [[nodiscard]] bool stops_inside(const Brake& brake, double depth, const Vec3& v,
+                                  SurfacePoint& met) noexcept;
 
   const Object& object_;
   double margin_;

@@ -146,7 +146,7 @@ void check_ways(const SceneSpec& spec, const Scene& scene) {
     const Object& made = scene.objects[i];
     const bool flat = object.shape == ShapeKind::plane || object.shape == ShapeKind::button;
     if (!flat || made.interaction.kind == Interaction::passive || made.met_in_its_middle()) continue;
-    const Nearest near = made.surface.nearest(made.X_OW * Point<'W'>(0, 0, 0));
+    const SurfacePoint near = made.surface.nearest(made.X_OW * Point<'W'>(0, 0, 0));
     PerJoint q{};
     static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * (made.X_WO * near.point), q));
     const Vec<'R'> normal = scene.X_WR.inverse() * (made.X_WO * near.normal);
@@ -164,7 +164,7 @@ void check_arm_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const Point<'W'> home(0, 0, 0);
-    const Nearest near = object.surface.nearest(object.X_OW * home);
+    const SurfacePoint near = object.surface.nearest(object.X_OW * home);
     if (gets_to(scene, object.met_in_its_middle() ? object.X_WO.origin() : object.X_WO * near.point))
       continue;
     throw Error("the arm does not get to object '" + spec.objects[i].name +

@@ -162,7 +162,8 @@ void find_thin(const Object& object, const Mesh& mesh, double margin, Room& room
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Facet facet = facet_of(mesh, i);
     if (!(facet.area > 0.0)) continue;
-    const Nearest near = object.surface.nearest(Point<'O'>(Vec3(facet.on - margin * facet.normal)), feature);
+    const SurfacePoint near =
+        object.surface.nearest(Point<'O'>(Vec3(facet.on - margin * facet.normal)), feature);
     feature = near.feature;
     area += facet.area;
     if (-near.distance >= margin - 1e-6 || near.normal.e().dot(facet.normal) >= kOpposite) continue;
@@ -190,12 +191,12 @@ Room room_in(const Object& object, double margin, bool thin) {
 }
 
 bool room_under(const Object& object, double margin, const Point<'W'>& on, const Vec<'W'>& normal) {
-  const Nearest near = object.surface.nearest(object.X_OW * (on - margin * normal));
+  const SurfacePoint near = object.surface.nearest(object.X_OW * (on - margin * normal));
   return -near.distance >= margin - 1e-6 || dot(object.X_WO * near.normal, normal) >= kOpposite;
 }
 
 void check_room(const SceneSpec& spec, const Scene& scene) {
-  if (scene.render() == nullptr) return;
+  if (scene.admittance() == nullptr) return;
   constexpr double kRounding = 1e-6;  // m
   const double margin = room_margin(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -46,12 +46,12 @@ double carried(const Response& response, double wanted, double strength) {
 
 Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope, double strength) {
   if (spec.behaviour.empty() && scene.probe && &spec == &probed_object(scene))
-    return {surface_of(spec), place_of(spec), {}, kUnset, kUnset, Tangential::stick, kUnset};
+    return {surface_of(spec), place_of(spec), {}, kUnset, kUnset, TangentialMode::stick, kUnset};
   const BehaviourSpec& behaviour = behaviour_of(scene.behaviours, spec);
-  if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
+  if (behaviour.tangential == TangentialMode::spring && !(behaviour.tangential_stiffness > 0.0))
     throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
                 "object." + spec.name + ".behaviour");
-  if (behaviour.tangential == Tangential::spring && behaviour.tangential_stiffness < lowest_slope)
+  if (behaviour.tangential == TangentialMode::spring && behaviour.tangential_stiffness < lowest_slope)
     throw Error("behaviour '" + behaviour.name + "' gives sideways more than the loop renders stably",
                 "object." + spec.name + ".behaviour");
   const auto too_shallow = [&](double limit) { return limit < scene.follow.inset; };
@@ -109,7 +109,7 @@ PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
     throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
                     "'; lower it, or raise that limit",
                 "pusher.depth");
-  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  const SurfacePoint near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
   ResponseState rest;
   const double depth = object.response.deflection(rest, pusher.force, std::min(pusher.depth, object.limit));
   return {{object.X_WO * near.point, object.X_WO * near.normal}, depth, object.response.press(depth)};
@@ -131,13 +131,13 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   const std::string advice =
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (scene.probe() != nullptr && scene.probe()->object == static_cast<std::int32_t>(i))
+    if (scene.indentation() != nullptr && scene.indentation()->object == static_cast<std::int32_t>(i))
       continue;  // this object is checked already
     const Object& object = scene.objects[i];
-    const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
+    const SurfacePoint near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
         near.distance < 0 ? near.point : object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.1)).point;
-    const Nearest top = object.surface.nearest(top_O);
+    const SurfacePoint top = object.surface.nearest(top_O);
     if (!carried_to(scene, {object.X_WO * near.point, object.X_WO * near.normal}, 0.0) &&
         !carried_to(scene, {object.X_WO * top.point, object.X_WO * top.normal}, 0.0))
       throw Error("object '" + spec.objects[i].name + "' is outside the machine's reach" + advice,
@@ -252,7 +252,7 @@ PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
     return {X_WO * point, X_WO * normal};
   }
   const double out = object.shape == ShapeKind::sphere ? object.radius : 0.0;
-  const Nearest at = surface_of(object).nearest(X_WO.inverse() * (through + Vec<'W'>(Vec3(out * axis))));
+  const SurfacePoint at = surface_of(object).nearest(X_WO.inverse() * (through + Vec<'W'>(Vec3(out * axis))));
   return {X_WO * at.point, X_WO * at.normal};
 }
 
@@ -286,10 +286,10 @@ void set_law(const RigSpec& rig, Scene& scene) {
 }
 
 void check_passivity(const RigSpec& rig, const Scene& scene) {
-  const char* why = scene.render() == nullptr ? "the scene renders nothing"
-                    : scene.objects.empty()   ? "the scene has no object"
-                    : !scene.has_force        ? "the scene has no [force]"
-                                              : nullptr;
+  const char* why = scene.admittance() == nullptr ? "the scene renders nothing"
+                    : scene.objects.empty()       ? "the scene has no object"
+                    : !scene.has_force            ? "the scene has no [force]"
+                                                  : nullptr;
   if (rig.admittance.passivity != PassivityForm::none && why != nullptr)
     refuse_passivity(why, "rig.admittance.passivity");
 }
@@ -480,7 +480,7 @@ class Chains {
     const Ball bound = object.surface.bound();
     const Vec3 way(0.61, -0.37, 0.83);  // outside of it
     const Vec3 p = std::isfinite(bound.radius) ? Vec3(bound.centre.e() + 1.5 * bound.radius * way) : way;
-    const Nearest in_O = object.surface.nearest(Point<'O'>(p));
+    const SurfacePoint in_O = object.surface.nearest(Point<'O'>(p));
     const stages::NearestInWorld in_W = stages::nearest(object, Point<'W'>(placed(W_O, p)));
     compare(in_W.point.e(), placed(W_O, in_O.point.e()));
     compare(in_W.normal.e(), turn_of(W_O) * in_O.normal.e());

@@ -29,9 +29,9 @@ struct Scene : CommonScene {
 
   // The task if it has this type, else null. The law of an arm is that of ImpedanceTask or of
   // DynamicObjectTask.
-  [[nodiscard]] const AdmittanceTask* render() const { return std::get_if<AdmittanceTask>(&task); }
-  [[nodiscard]] const IndentationTask* probe() const { return std::get_if<IndentationTask>(&task); }
-  [[nodiscard]] const TrackingTask* travel() const { return std::get_if<TrackingTask>(&task); }
+  [[nodiscard]] const AdmittanceTask* admittance() const { return std::get_if<AdmittanceTask>(&task); }
+  [[nodiscard]] const IndentationTask* indentation() const { return std::get_if<IndentationTask>(&task); }
+  [[nodiscard]] const TrackingTask* tracking() const { return std::get_if<TrackingTask>(&task); }
   [[nodiscard]] const Impedance* impedance() const {
     if (const auto* push = std::get_if<DynamicObjectTask>(&task)) return push;
     return std::get_if<ImpedanceTask>(&task);

@@ -139,8 +139,9 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
 
 double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin / loop_.hand_stiffness); }
 
-Steadiness::Worst Steadiness::worst(const Response& object, double limit, double ramp, double share) const {
-  Worst worst;
+Steadiness::WorstDepth Steadiness::worst(const Response& object, double limit, double ramp,
+                                         double share) const {
+  WorstDepth worst;
   for (const double part : kDepths) {
     const double here = swing(object, part * limit, limit, ramp, share);
     if (here > kCareful * still() && here > worst.swing) worst = {part * limit, here};

@@ -35,10 +35,10 @@ class Steadiness {
   [[nodiscard]] double swing(const Response& object, double depth, double limit, double ramp,
                              double share = 1.0) const;
   // The depth with the largest oscillation, of a few up to the limit; 0: stable at each depth.
-  struct Worst {
+  struct WorstDepth {
     double depth = 0.0, swing = 0.0;  // m
   };
-  [[nodiscard]] Worst worst(const Response& object, double limit, double ramp, double share = 1.0) const;
+  [[nodiscard]] WorstDepth worst(const Response& object, double limit, double ramp, double share = 1.0) const;
   // The least share of the object's force that is still stable, i.e. how much softer a stable object may be;
   // not below half.
   static constexpr double kLeastShare = 0.5;

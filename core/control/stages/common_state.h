@@ -64,7 +64,7 @@ struct CommonState {
   std::int32_t contacts = 0;
   std::int32_t object = -1;
   bool entered = false;  // the tip has been inside that object
-  Stamped<TrackedTool> tool;
+  Measurement<TrackedTool> tool;
   TipMotion tip_motion;  // motion of the tracked tool's tip
   Vec<'W'> force = Vec<'W'>::zero();
   // Last tick's position of the tracked tool's tip, and the surface point under it.

@@ -25,7 +25,7 @@ void begin_anew(CommonState& state, CommandState& now) {
   state.mode = Mode::away;
   now.command = Point<'R'>();
   now.command_velocity = Vec<'R'>::zero();
-  now.following = Following{};
+  now.following = FollowingState{};
 }
 
 void track_tip(StepContext& context, CommonState& state, CommandState& now) {
@@ -55,14 +55,14 @@ void track_tip(StepContext& context, CommonState& state, CommandState& now) {
   }
   // A withheld command needs no following check, so that check starts anew.
   if (context.in.withheld)
-    now.following = Following{};
+    now.following = FollowingState{};
   else if (!follows(context.scene.servo, now.command, now.command_velocity, tip.X_RH.origin(), now.following))
     now.following.lost = true;
 }
 
 }  // namespace
 
-void track(StepContext& context, const Displacing&, CommonState& state, CommandState& now) noexcept {
+void track(StepContext& context, const DisplacementTask&, CommonState& state, CommandState& now) noexcept {
   context.stops_tool = true;
   if (context.in.resumed) begin_anew(state, now);
   if (context.scene.has_manipulator) track_tip(context, state, now);
@@ -71,7 +71,7 @@ void track(StepContext& context, const Displacing&, CommonState& state, CommandS
 
 void grip(StepContext& context) noexcept {
   if (context.scene.clamped_tool < 0) return;
-  const Stamped<GripSample>& sample = context.in.grip;
+  const Measurement<GripSample>& sample = context.in.grip;
   const GripSample& jaws = sample.value;
   const bool possible = std::abs(jaws.opening) < kWidestJaws &&
                         std::abs(jaws.force) < kMostGrip &&  // false for NaN
@@ -91,7 +91,7 @@ void hold_lost(StepContext& context, CommonState& state, CommandState& now) noex
   const bool gone = context.scene.has_tracker && context.tool_known && context.tool_fresh &&
                     context.gap > context.scene.follow.pause;
   if (gone && back) {
-    now.following = Following{};
+    now.following = FollowingState{};
     state.mode = Mode::away;
   } else {
     context.why |= kNotFollowing;

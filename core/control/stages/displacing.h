@@ -10,13 +10,13 @@ namespace enc {
 struct CommonState;
 
 // Base of such a task. It uses the stages of this file unless it has its own.
-struct Displacing {};
+struct DisplacementTask {};
 
 // State of these stages.
 struct CommandState {
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
-  Following following;
+  FollowingState following;
   Vec<'F'> force_zero = Vec<'F'>::zero();
   double tared = 0.0;  // s of signal in force_zero
   // Means over Tare::window: the present window so far, and the one before.
@@ -35,15 +35,16 @@ void fields(F& f, CommandState& d) {
   fields(f, "command_velocity_R", d.command_velocity);
   fields(f, "expected_R", d.following.expected);
   fields(f, "expected_velocity_R", d.following.velocity);
-  f("fastest_command", d.following.straying.fastest);
-  f("off_course", d.following.straying.off);
+  f("fastest_command", d.following.deviation.fastest);
+  f("off_course", d.following.deviation.off);
   f("lost", d.following.lost);
 }
 
 namespace stages {
 struct StepContext;
 // Computes the poses of tip and tool.
-void track(StepContext& context, const Displacing& task, CommonState& state, CommandState& now) noexcept;
+void track(StepContext& context, const DisplacementTask& task, CommonState& state,
+           CommandState& now) noexcept;
 // Checks that the gripper holds its tool, if the scene has a clamped tool.
 void grip(StepContext& context) noexcept;
 // Computes the force on the tip. `clear`: nothing can touch the tip, so the sensor's reading is its zero.

@@ -41,7 +41,7 @@ struct StepContext {
   Vec<'W'> normal;      // outward
   double gap = kUnset;  // m
   // check_tip: nearest to the tip's centre, in the frame of state.object.
-  Nearest at_tip;
+  SurfacePoint at_tip;
   Vec<'W'> force;                           // sense: force on the tip, N
   Vec<'W'> felt;                            // sense: that force before the low-pass, N
   Point<'W'> target;                        // target: wanted tip centre
@@ -49,7 +49,7 @@ struct StepContext {
   Vec3 target_acceleration = Vec3::Zero();  // aim: acceleration of an arm's target on its path, m/s^2
   Vec3 target_change = Vec3::Zero();        // aim: that acceleration on and off its path, m/s^2
   Vec<'W'> tip_velocity;                    // track: velocity of an arm's tip
-  Vec<'W'> wanted_force;                    // impede: force that the law asks for; unset: none
+  Vec<'W'> wanted_force;                    // render_impedance(): force that the law asks for; unset: none
   double along_mass = 0.0;                  // kg, tip mass along the normal, with a passivity controller
   Vec<'R'> arm_force;                       // guard: commanded force of an arm
 };

@@ -20,7 +20,7 @@ bool tells_noise(const TrackedTool& tool, double most) {
   return silent || (possible(tool.along) && possible(tool.across));
 }
 
-bool plausible(const StepContext& context, const Stamped<TrackedTool>& sample) {
+bool plausible(const StepContext& context, const Measurement<TrackedTool>& sample) {
   const auto& tool = sample.value;
   return tells_noise(tool, context.scene.tracker.farthest) && tool.X_CT.valid() &&
          tool.X_CT.p().norm() < context.scene.tracker.farthest && tool.tool >= 0 &&
@@ -113,14 +113,15 @@ void track_tool(StepContext& context, CommonState& state, bool pressing) noexcep
 // ---- The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
 
 NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
-  const Nearest found = object.surface.nearest(object.X_OW * p);
+  const SurfacePoint found = object.surface.nearest(object.X_OW * p);
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
 
 NearestInWorld nearest(const CommonScene& scene, std::int32_t index, const Point<'W'>& p,
                        ObjectHint& hint) noexcept {
   const Object& object = scene.objects[static_cast<std::size_t>(index)];
-  const Nearest found = object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
+  const SurfacePoint found =
+      object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
   hint = {index, found.feature};
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
@@ -207,7 +208,7 @@ Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
 // Position of the finger or the tool after follow.ahead, but not beyond the first surface on its path. A
 // machine needs time to move from one object to the next, and a hand on an oblique path changes its nearest
 // object late.
-Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
+Query predicted(const Query& query, const Vec<'W'>& velocity, double clear) {
   Query later = query;
   const double way = query.scene.follow.ahead * velocity.norm();
   if (way > 0.0)
@@ -223,7 +224,7 @@ Candidate chosen_object(const Query& query, const CommonState& state, const Poin
   const Vec<'W'>& velocity = state.tip_motion.velocity;
   const double clear = here.at.distance - query.radius;
   if (query.scene.follow.ahead == 0.0 || !velocity.finite()) return here;
-  Query later = foreseen(query, velocity, clear);
+  Query later = predicted(query, velocity, clear);
   if (comes_to.finite() && clear > 0.0) later.p = comes_to;
   Candidate there = nearest_object(later, state.object, hints);
   there.at = nearest(query, there.hint.object, there.hint);

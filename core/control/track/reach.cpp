@@ -32,7 +32,7 @@ constexpr Tries kFew{12, 3, 2}, kAll{12, 5, 3};
 
 // Normal equations of three unknowns a, b and c, where each value is a + u b + v c. All axes share the left
 // sides; each axis has a right side of its own. Weights are 1 / variance.
-struct Left {
+struct LeftSide {
   double a = 0.0, ab = 0.0, b = 0.0, ac = 0.0, bc = 0.0, c = 0.0;
   void see(double u, double v, double weight) {
     a += weight;
@@ -43,7 +43,7 @@ struct Left {
     c += weight * v * v;
   }
 };
-struct Right {
+struct RightSide {
   double a = 0.0, b = 0.0, c = 0.0;
   void see(double u, double v, double weighted) {
     a += weighted;
@@ -54,7 +54,7 @@ struct Right {
 // Gaussian elimination: a and b are eliminated, and the rest depends on c alone.
 struct Pivots {
   double a, ab, b, ac, bc, c;
-  explicit Pivots(const Left& m)
+  explicit Pivots(const LeftSide& m)
       : a(m.a),
         ab(m.ab / m.a),
         b(m.b - ab * m.ab),
@@ -62,10 +62,10 @@ struct Pivots {
         bc((m.bc - ac * m.ab) / b),
         c(m.c - ac * m.ac - bc * bc * b) {}
 };
-struct Known {
+struct AxisSolution {
   double a, b, c;  // right side
   double agrees;   // twice the logarithm of the probability, as far as a and b determine it
-  Known(const Pivots& p, const Right& r)
+  AxisSolution(const Pivots& p, const RightSide& r)
       : a(r.a), b(r.b - p.ab * a), c(r.c - p.ac * a - p.bc * b), agrees(a * a / p.a + b * b / p.b) {}
   // The unknowns for a given c.
   [[nodiscard]] Vec3 solved(const Pivots& p, double last) const {
@@ -134,8 +134,8 @@ double takes(const ReachBelief& hand, double down, double second, double width) 
 
 // Evidence of the pictures on the unknowns along each axis.
 struct Axes {
-  Left xy, z;
-  Right of_x, of_y, of_z;
+  LeftSide xy, z;
+  RightSide of_x, of_y, of_z;
   // Adds a picture in which each movement has covered the given share of its path.
   void see(const Vec3& at, double weight, double first, double second, double rest, double beyond) {
     const double u = first + rest * second;
@@ -182,7 +182,7 @@ Fit fit(const ReachBelief& hand, const TurnedSightings& seen, const Timing& t, d
   const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
   const Axes axes = axes_of(seen, t, rest, beyond);
   const Pivots xy(axes.xy), z(axes.z);
-  const Known of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
+  const AxisSolution of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
   // The errors left along x and z are correlated.
   const double y_weight = xy.c + seen.left_y;
   const double x_weight = xy.c + seen.left_xz(0, 0), z_weight = z.c + seen.left_xz(1, 1);
@@ -220,7 +220,7 @@ Fit fit(const ReachBelief& hand, const TurnedSightings& seen, const Timing& t, d
 Axes even(std::span<const Sighting> pictures, double weight) {
   Axes axes;
   for (const auto& [at, age] : pictures) axes.see(at, weight, -age, 0.0, 0.0, 0.0);
-  for (Left* one : {&axes.xy, &axes.z}) {
+  for (LeftSide* one : {&axes.xy, &axes.z}) {
     one->a += kVague;
     one->b += kVague;
   }
@@ -232,7 +232,7 @@ Fit fit_even(const TurnedSightings& seen) {
   Axes axes = even(seen.pictures(), seen.weight);
   axes.z.a += kExact;
   const Pivots aside(axes.xy), z(axes.z);
-  const Known x(aside, axes.of_x), y(aside, axes.of_y), down(z, axes.of_z);
+  const AxisSolution x(aside, axes.of_x), y(aside, axes.of_y), down(z, axes.of_z);
   Fit fit;
   fit.place = {x.solved(aside, 0.0)[0], y.solved(aside, 0.0)[0]};
   const double speed = std::abs(down.solved(z, 0.0)[1]), pivots = aside.a * aside.b;
@@ -317,7 +317,7 @@ double passes_by(std::span<const Sighting> newest_first, double noise, double un
   if (pictures.empty()) return -std::numeric_limits<double>::infinity();
   const Axes axes = even(pictures, 1.0 / (noise * noise));
   const Pivots pivots(axes.xy);
-  const Known x(pivots, axes.of_x), y(pivots, axes.of_y), z(pivots, axes.of_z);
+  const AxisSolution x(pivots, axes.of_x), y(pivots, axes.of_y), z(pivots, axes.of_z);
   const Vec3 down = z.solved(pivots, 0.0);
   const double later = until - pivots.ab, height = down[0] + until * down[1];
   const double spread = std::sqrt(1.0 / pivots.a + later * later / pivots.b);

@@ -48,7 +48,7 @@ struct Object {
   double limit = kUnset;  // Rendered deflection limit, m; with `limits`, the largest of them.
   // Limit that object, behaviour and response ask for; larger than `limit` only if the machine is too weak.
   double wanted = kUnset;
-  Tangential tangential = Tangential::stick;
+  TangentialMode tangential = TangentialMode::stick;
   double tangential_stiffness = kUnset;  // N/m
   Pose<'O', 'W'> X_OW = X_WO.inverse();
   Point<'W'> centre = X_WO * surface.bound().centre;  // centre of a ball that contains the object

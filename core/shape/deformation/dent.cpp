@@ -136,7 +136,7 @@ Shift<double> shift_at(const DentField<double>& field, const Point<'O'>& p) {
 
 // The undeformed surface above or below p along n: Newton steps on the distance. False if there is no
 // surface, or if it turns away from n.
-bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Nearest at, double& up) {
+bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, SurfacePoint at, double& up) {
   constexpr double kFlat = 0.2;
   up = 0.0;
   for (int i = 0; i < 12; ++i) {
@@ -226,7 +226,7 @@ DisplacedPoint displaced(const DentField<double>& field, const Point<'O'>& p,
 
 double dented_distance(const Surface& surface, const DentSample& dent, const Point<'O'>& p,
                        std::int32_t hint) noexcept {
-  const Nearest at = surface.nearest(p, hint);
+  const SurfacePoint at = surface.nearest(p, hint);
   const DentField<double> field = dent_field(surface, dent, at.feature);
   if (!field.active) return at.distance;
   const Vec3 n = vec(field.n);
@@ -339,7 +339,8 @@ void copy(const DentField<float>& /*field*/, const float* x, const float* y, con
 
 }  // namespace
 
-void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, std::size_t count) noexcept {
+void apply(const DentField<float>& field, const DentInput& in, const DentOutput& out,
+           std::size_t count) noexcept {
   const Range range(field);
   const auto moves = [&](std::size_t at) {
     if (!field.active || at >= count) return Moves::nothing;

@@ -21,7 +21,7 @@ namespace enc {
 // The deepest ball of a tip in an object: its centre, and the surface point under it.
 struct DeepestBall {
   Point<'O'> centre;
-  Nearest at;  // nearest to the centre
+  SurfacePoint at;  // nearest to the centre
 };
 // `hint`, here and below: start of the search (surface.h); it never changes a result.
 [[nodiscard]] DeepestBall deepest(const Surface& surface, const Tip<'O'>& tip,
@@ -66,13 +66,14 @@ struct DisplacedPoint {
 
 // As displaced(), for arrays, as the renderer draws them: positions and undeformed unit normals in, displaced
 // ones out. In and out must not overlap. No heap; points out of reach are only copied.
-struct DentIn {
+struct DentInput {
   const float *x, *y, *z, *nx, *ny, *nz;
 };
-struct DentOut {
+struct DentOutput {
   float *x, *y, *z, *nx, *ny, *nz;
 };
-void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, std::size_t count) noexcept;
+void apply(const DentField<float>& field, const DentInput& in, const DentOutput& out,
+           std::size_t count) noexcept;
 
 // Signed distance of p to the deformed surface, m, negative inside. The sign is exact. The magnitude is the
 // height over the surface along n times the cosine of its slope, which is the distance near the surface.

@@ -388,7 +388,7 @@ struct MeshTree::Search {
     }
   }
 
-  [[nodiscard]] Nearest answer() const {
+  [[nodiscard]] SurfacePoint answer() const {
     const auto& ids = tree.mesh_.triangles[static_cast<std::size_t>(triangle)];
     Vec3 n = Vec3::Zero();
     if (at.part.kind == Part::corner) n = tree.vertex_normal(ids[at.part.i]);
@@ -399,13 +399,13 @@ struct MeshTree::Search {
   }
 };
 
-Nearest MeshTree::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept {
+SurfacePoint MeshTree::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept {
   const Vec3 from_centre = p.e() - centre_;
   if (!(from_centre.norm() <= kFarthest)) return {};  // NaN as well
   Search search(*this, p.e(), from_centre);
   if (hint >= 0 && static_cast<std::size_t>(hint) < mesh_.triangles.size()) search.offer(hint);
   search.run();
-  return search.triangle >= 0 ? search.answer() : Nearest{};
+  return search.triangle >= 0 ? search.answer() : SurfacePoint{};
 }
 
 std::array<Vec3, 3> MeshTree::corners(std::int32_t triangle) const noexcept {

@@ -35,7 +35,7 @@ class MeshTree {
   // pseudo-normal there, weighted by angle, which also gives the sign [Baerentzen and Aanaes 2005]. On the
   // surface itself the distance is 0. A p that is not finite, or farther than 1e9 m, has no answer: all is
   // NaN and `feature` is -1.
-  [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
+  [[nodiscard]] SurfacePoint nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] Ball bound() const { return {Point<'O'>(centre_), radius_}; }

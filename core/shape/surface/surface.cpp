@@ -9,11 +9,11 @@
 namespace enc {
 namespace {
 
-Nearest nearest_on(const Plane&, const Point<'O'>& p) {
+SurfacePoint nearest_on(const Plane&, const Point<'O'>& p) {
   return {Point<'O'>(p.xyz[0], p.xyz[1], 0.0), Vec<'O'>(0, 0, 1), p.xyz[2], -1};
 }
 
-Nearest nearest_on(const Sphere& sphere, const Point<'O'>& p) {
+SurfacePoint nearest_on(const Sphere& sphere, const Point<'O'>& p) {
   const double r = p.e().norm();
   const Vec3 n = r > 1e-12 ? Vec3(p.e() / r) : Vec3(0, 0, 1);
   return {Point<'O'>(Vec3(sphere.radius * n)), Vec<'O'>(n), r - sphere.radius, -1};
@@ -24,7 +24,7 @@ Point<'O'> into_box(const Button& b, const Point<'O'>& p) {
   return {std::clamp(p.xyz[0], -w, w), std::clamp(p.xyz[1], -h, h), std::clamp(p.xyz[2], -b.thickness, 0.0)};
 }
 
-Nearest nearest_on(const Button& button, const Point<'O'>& p) {
+SurfacePoint nearest_on(const Button& button, const Point<'O'>& p) {
   constexpr double kRounding = 1e-12;  // m; a point this close to the edge counts as over the face
   const Point<'O'> at = into_box(button, p);
   const Vec<'O'> away = p - at;
@@ -37,7 +37,7 @@ Nearest nearest_on(const Button& button, const Point<'O'>& p) {
 
 }  // namespace
 
-Nearest Surface::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept {
+SurfacePoint Surface::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept {
   if (const auto* sphere = std::get_if<Sphere>(&shape_)) return nearest_on(*sphere, p);
   if (const auto* mesh = std::get_if<MeshSurface>(&shape_)) return mesh->tree->nearest(p, hint);
   if (const auto* button = std::get_if<Button>(&shape_)) return nearest_on(*button, p);

@@ -40,7 +40,7 @@ struct Ball {
   double radius = kUnset;  // m; infinite for a half space
 };
 
-struct Nearest {
+struct SurfacePoint {
   Point<'O'> point;          // on the surface
   Vec<'O'> normal;           // outward, unit
   double distance = kUnset;  // distance of the query, m; negative inside
@@ -58,7 +58,7 @@ class Surface {
   // Nearest surface point to p. If several are equally near, the choice is fixed: +z at the centre of a
   // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it only makes the
   // search faster.
-  [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
+  [[nodiscard]] SurfacePoint nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
   // Button: the nearest point over the face, if it is within `margin` of p; else p. Shapes without a face
   // return p.
   [[nodiscard]] Point<'O'> over_face(const Point<'O'>& p, double margin) const noexcept;

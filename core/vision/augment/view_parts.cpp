@@ -15,11 +15,11 @@ namespace enc::augment {
 namespace {
 
 // Colours at the ends of a gap in a row or a column, weighted by the inverse of the squared distance.
-using Weighed = std::array<float, 4>;  // r, g, b times the weight; and the weight
+using WeightedColour = std::array<float, 4>;  // r, g, b times the weight; and the weight
 
 // Sweeps one line of pixels, `step` apart, there or back: each unknown pixel gets the last known colour.
 void sweep(const Image& image, const Mask& known, std::ptrdiff_t first, std::ptrdiff_t step, int count,
-           std::vector<Weighed>& sums) {
+           std::vector<WeightedColour>& sums) {
   std::ptrdiff_t last = -1;
   int since = 0;
   for (int i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ void sweep(const Image& image, const Mask& known, std::ptrdiff_t first, std::ptr
     ++since;
     if (last < 0) continue;
     const float weight = 1.0F / static_cast<float>(since * since);
-    Weighed& sum = sums[static_cast<std::size_t>(at)];
+    WeightedColour& sum = sums[static_cast<std::size_t>(at)];
     for (std::size_t c = 0; c < 3; ++c)
       sum[c] += weight * static_cast<float>(image.rgb[3 * static_cast<std::size_t>(last) + c]);
     sum[3] += weight;
@@ -68,7 +68,7 @@ void CleanBackground::add(const ImageView& frame, const Mask& covered) {
 
 // A gap is filled from its four sides, so that edges along rows and columns continue behind it.
 void CleanBackground::fill() {
-  std::vector<Weighed> sums(count_.size());
+  std::vector<WeightedColour> sums(count_.size());
   const std::ptrdiff_t width = image_.width, height = image_.height;
   for (std::ptrdiff_t y = 0; y < height; ++y) {
     sweep(image_, known_, y * width, 1, image_.width, sums);

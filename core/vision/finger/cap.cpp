@@ -31,13 +31,13 @@ const std::array<Direction, kRays>& directions() {
 
 // The part of the mask that the fit may read, so that its result does not depend on what was segmented
 // beyond.
-struct Around {
+struct MaskWindow {
   const Mask& skin;
   Region part;
 };
 
 // Share of skin at a position between pixels; 0 outside.
-double skin_at(const Around& around, double x, double y) {
+double skin_at(const MaskWindow& around, double x, double y) {
   const Mask& skin = around.skin;
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   if (!around.part.contains(left, top) || !around.part.contains(left + 1, top + 1)) return 0.0;
@@ -49,7 +49,7 @@ double skin_at(const Around& around, double x, double y) {
 }
 
 // Distance to the edge; NaN if the start is not in the mask or the edge is farther than `most`.
-double edge_along(const Around& skin, const Pixel& from, const Direction& to, double least, double most) {
+double edge_along(const MaskWindow& skin, const Pixel& from, const Direction& to, double least, double most) {
   constexpr double kStep = 0.5;
   double before = skin_at(skin, from.column + least * to.x, from.row + least * to.y);
   if (before < 0.5) return kUnset;
@@ -93,7 +93,7 @@ double sharpest(const Grey& image, const Pixel& from, const Direction& to, doubl
 
 // Direction towards the rest of the finger on a circle around the tip; zero if the circle has no skin or skin
 // on all sides.
-Direction knuckle(const Around& skin, const Tangent& tangent, double radius) {
+Direction knuckle(const MaskWindow& skin, const Tangent& tangent, double radius) {
   Direction sum{0.0, 0.0};
   for (const Direction& d : directions()) {
     const Pixel at = tangent.image({radius * d.x, radius * d.y});
@@ -132,7 +132,8 @@ void take(double x, double y, const Direction& along, double radius, double most
 }
 
 // Searches edges along straight lines of the image, and evaluates them in the view where they are circles.
-Round look(const Around& skin, const Grey* image, const Tangent& tangent, const CapFit& now, double most) {
+Round look(const MaskWindow& skin, const Grey* image, const Tangent& tangent, const CapFit& now,
+           double most) {
   Round round;
   const Direction along{now.along_x, now.along_y};
   for (const Direction& d : directions()) {
@@ -152,15 +153,15 @@ Round look(const Around& skin, const Grey* image, const Tangent& tangent, const 
 
 constexpr int kFewestEdges = 12;  // edges
 
-Around around(const Mask& mask, const Pixel& start, double radius) {
+MaskWindow around(const Mask& mask, const Pixel& start, double radius) {
   const int x = static_cast<int>(start.column), y = static_cast<int>(start.row);
   const int far = static_cast<int>(kFarthest * radius);
   return {mask, Region{x - far, y - far, x + far + 1, y + far + 1}.cut(mask.whole())};
 }
 
 // False if there are too few edges to fit.
-bool improve(const Around& skin, const Grey* image, const RectifiedPair& pair, double knuckle_at, double most,
-             CapFit& fit) {
+bool improve(const MaskWindow& skin, const Grey* image, const RectifiedPair& pair, double knuckle_at,
+             double most, CapFit& fit) {
   const Tangent tangent(pair, fit.centre);
   const Direction along = knuckle(skin, tangent, knuckle_at * fit.radius);
   if (along.x == 0.0 && along.y == 0.0) return false;
@@ -178,7 +179,7 @@ bool improve(const Around& skin, const Grey* image, const RectifiedPair& pair, d
 }  // namespace
 
 CapFit fit_cap(const Mask& mask, const RectifiedPair& pair, const Pixel& start, double radius) {
-  const Around skin = around(mask, start, radius);
+  const MaskWindow skin = around(mask, start, radius);
   CapFit fit{false, start, radius};
   for (int i = 0; i < kFitRounds; ++i) {
     // The first rounds look beyond the square's corner, because a finger may extend far behind its tip; but
@@ -194,7 +195,7 @@ CapFit fit_cap(const Mask& mask, const RectifiedPair& pair, const Pixel& start, 
 }
 
 CapFit sharpen_cap(const Mask& mask, const Grey& image, const RectifiedPair& pair, const CapFit& fit) {
-  const Around skin = around(mask, fit.centre, fit.radius);
+  const MaskWindow skin = around(mask, fit.centre, fit.radius);
   CapFit sharp = fit;
   for (int i = 0; i < 4; ++i) {
     // The last rounds reject edges of anything else.
@@ -299,9 +300,9 @@ struct Sums {
 };
 
 // A finger of one slope, and a finger that is a little steeper.
-class Bent {
+class SlopePair {
  public:
-  Bent(const Tangent& tangent, const Fingertip& tip, double disparity, double slope)
+  SlopePair(const Tangent& tangent, const Fingertip& tip, double disparity, double slope)
       : tangent_(tangent),
         solid_(tangent, tip, slope),
         steeper_(tangent, tip, slope + kLittle),
@@ -362,7 +363,7 @@ class Comparison {
 
   // Selects the pixels to compare for this slope; both eyes must see them.
   void choose(double disparity, double slope) {
-    const Bent bent(tangent_, tip_, disparity, slope);
+    const SlopePair bent(tangent_, tip_, disparity, slope);
     count_ = 0;
     for (int y = part_.y0; y < part_.y1; y += step_)
       for (int x = part_.x0; x < part_.x1; x += step_)
@@ -370,7 +371,7 @@ class Comparison {
   }
   // Keeps the selected pixels at another slope, except those that are not visible there.
   void bend(double disparity, double slope) {
-    const Bent bent(tangent_, tip_, disparity, slope);
+    const SlopePair bent(tangent_, tip_, disparity, slope);
     const auto kept = std::remove_if(spots_.begin(), end(), [&](Spot& spot) { return !bent.lay(spot); });
     count_ = static_cast<std::size_t>(kept - spots_.begin());
   }

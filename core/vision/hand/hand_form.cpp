@@ -12,7 +12,7 @@ constexpr double kWidens = 1.55;        // times the finger's width: at this wid
 constexpr double kStep = 0.25;          // radii
 constexpr std::size_t kMostSteps = 96;  // steps
 
-struct Across {
+struct CrossSection {
   double left = 0.0, right = 0.0;  // px of skin on either side of the middle line
   [[nodiscard]] double width() const { return left + right; }
 };
@@ -33,15 +33,15 @@ class Walk {
     at_ = {at_.column + kStep * radius_ * along_x_, at_.row + kStep * radius_ * along_y_};
     return part_.contains(x_of(at_), y_of(at_));
   }
-  [[nodiscard]] Across across() const {
-    Across seen;
+  [[nodiscard]] CrossSection across() const {
+    CrossSection seen;
     if (!on(0.0)) return seen;
     seen.left = side(-1.0);
     seen.right = side(1.0);
     return seen;
   }
   // Moves to the middle of the cross-section and turns with it: half as far, because edges are rough.
-  void centre(const Across& seen) {
+  void centre(const CrossSection& seen) {
     const double off = 0.25 * (seen.right - seen.left);
     at_ = {at_.column - off * along_y_, at_.row + off * along_x_};
     const double turn = 0.3 * off / radius_;
@@ -104,7 +104,7 @@ FingerForm form_of(const Mask& skin, const Fingertip& tip, double reach) {
                      : FormEnd::border;
       break;
     }
-    const Across seen = walk.across();
+    const CrossSection seen = walk.across();
     if (seen.width() <= 0.0) break;
     if (seen.width() > kWidens * usual) {
       form.end = FormEnd::hand;

@@ -81,7 +81,7 @@ SeenPair RectifiedPainter::draw(const StereoFrame& raw, const PoseTracker& by) c
   if (vision == nullptr) return pair;
   const FingerTracker& tracker = vision->tracker();
   const LookStats& stats = tracker.stats();
-  if (stats.refused != Refused::no || !tracker.learned()) return pair;
+  if (stats.refused != FrameRefusal::no || !tracker.learned()) return pair;
   const Region window = stats.window.cut(all);
   tint(pair.left, tracker.skin(), window);
   frame(pair.left, window);

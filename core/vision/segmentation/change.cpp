@@ -27,7 +27,7 @@ bool of_skins_hue(const Planes& background, std::size_t at, const Cut& cut) {
 
 }  // namespace
 
-void Hueless::add_row(const ImageView& frame, const Mask& hueless, int y, int sign, int x0, int x1) {
+void HuelessChange::add_row(const ImageView& frame, const Mask& hueless, int y, int sign, int x0, int x1) {
   if (y < 0 || y >= frame.height) return;
   const std::uint8_t* on = hueless.row(y);
   const std::uint8_t* p = frame.at(x0, y);
@@ -39,7 +39,7 @@ void Hueless::add_row(const ImageView& frame, const Mask& hueless, int y, int si
   }
 }
 
-bool Hueless::is_skin(const Sum& sum, const std::uint16_t (&white)[3], const Cut& cut) {
+bool HuelessChange::is_skin(const Sum& sum, const std::uint16_t (&white)[3], const Cut& cut) {
   const auto whiter = [&](std::size_t c) { return (sum.rgb[c] * white[c] + 128) >> 8; };
   const int r = whiter(0), g = whiter(1), b = whiter(2);
   const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b)), chroma = most - least;
@@ -48,8 +48,8 @@ bool Hueless::is_skin(const Sum& sum, const std::uint16_t (&white)[3], const Cut
          in_cut(hue_of_any(r, g, b, most, least), cut);
 }
 
-void Hueless::find(const ImageView& frame, const Planes& background, const Mask& hueless,
-                   const Region& region, const std::uint16_t (&white)[3], const Cut& cut, Mask& skin) {
+void HuelessChange::find(const ImageView& frame, const Planes& background, const Mask& hueless,
+                         const Region& region, const std::uint16_t (&white)[3], const Cut& cut, Mask& skin) {
   const int x0 = std::max(0, region.x0 - kAround), x1 = std::min(frame.width, region.x1 + kAround);
   std::fill(columns_.begin() + x0, columns_.begin() + x1, Sum{});
   for (int y = region.y0 - kAround; y < region.y0 + kAround; ++y) add_row(frame, hueless, y, 1, x0, x1);
@@ -138,7 +138,7 @@ void Change::candidates(const ImageView& frame, const Region& region, double cha
   const Light light = meter_.measure(frame);
   const FrameLight how = explained(light, change);
   const Region wide = grid_.touched(region, surroundings_.margin());
-  const Region widest = grid_.touched(wide, Hueless::kAround);
+  const Region widest = grid_.touched(wide, HuelessChange::kAround);
   for (int y = widest.y0; y < widest.y1; ++y) {
     if (y == widest.y0 || y % grid_.tile == 0) row_of(light, y, widest);
     const int x = widest.x0;

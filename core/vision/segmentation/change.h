@@ -47,10 +47,10 @@ struct Planes {
 //
 // A shadow is dim too. So a pixel found here must be more saturated than a bright grey wall in a shadow. If
 // the background itself has the hue of skin, no pixel is found: its shadow would look the same.
-class Hueless {
+class HuelessChange {
  public:
   static constexpr int kAround = 2;  // px to each side
-  explicit Hueless(int width) : columns_(static_cast<std::size_t>(width)) {}
+  explicit HuelessChange(int width) : columns_(static_cast<std::size_t>(width)) {}
 
   // Sets `skin` for the `hueless` pixels within `region` that have the hue of skin. `hueless` is valid up to
   // kAround px beyond it. `white` as in FrameLight.
@@ -86,7 +86,7 @@ class Change {
   std::vector<std::uint16_t> side_;
   LightMeter meter_;
   Majority surroundings_;
-  Hueless by_sums_;
+  HuelessChange by_sums_;
   Mask strong_, skin_, hueless_, near_;
 };
 

@@ -60,7 +60,7 @@ Disparity Matcher::at(const Grey& left, const Grey& right, int x, int y, const M
       x0 >= 0 && y0 >= 0 && x0 + spec_.columns <= left.width && y0 + spec_.rows <= left.height;
   const int most = std::min(most_, x0);
   const int count = most - least_ + 1;
-  if (!inside || count < 3) return {Matched::outside, kNone};
+  if (!inside || count < 3) return {MatchOutcome::outside, kNone};
   std::uint16_t* cost = cost_.data();
   Block block{left.at(x0, y0), left.stride, nullptr, 0};
   if (mask != nullptr && !all_on(*mask, x0, y0, spec_.columns, spec_.rows)) {
@@ -69,20 +69,21 @@ Disparity Matcher::at(const Grey& left, const Grey& right, int x, int y, const M
   }
   compare(block, right.at(x0 - most, y0), right.stride, count);
   const int best = kernel_.least(cost, count);
-  if (best == 0 || best == count - 1) return {Matched::at_limit, kNone};
+  if (best == 0 || best == count - 1) return {MatchOutcome::at_limit, kNone};
   const int below = cost[best - 1], lowest = cost[best], above = cost[best + 1];
   const int from = std::max(0, best - kBeside), to = std::min(count - 1, best + kBeside);
   std::fill(cost + from, cost + to + 1, std::uint16_t{0xffff});
   const int next = cost[kernel_.least(cost, count)];
-  if (static_cast<double>(next) <= (1.0 + spec_.uniqueness) * lowest) return {Matched::not_unique, kNone};
+  if (static_cast<double>(next) <= (1.0 + spec_.uniqueness) * lowest)
+    return {MatchOutcome::not_unique, kNone};
   const int disparity = most - best;
   block.level = right.at(x0 - disparity, y0);
   block.stride = right.stride;
   if (spec_.agreement >= 0.0 && !mutual(left, block, x0 - disparity, y0, disparity))
-    return {Matched::not_mutual, kNone};
+    return {MatchOutcome::not_mutual, kNone};
   const int bend = below - 2 * lowest + above;
   const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0.0;  // shift of the position to the right
-  return {Matched::yes, static_cast<float>(disparity - shift)};
+  return {MatchOutcome::yes, static_cast<float>(disparity - shift)};
 }
 
 // Searches the left image for a block at `column` of the right one.
@@ -182,7 +183,7 @@ int ExchangeCheck::matched(const Grey& left, const Grey& right) {
     const int y = (2 * row + 1) * height_ / (2 * kRows);
     for (int column = 0; column < kColumns; ++column) {
       const int x = (kSteps * column + frame_ % kSteps) * width_ / (kSteps * kColumns);
-      count += matcher_.at(left, right, x, y).matched == Matched::yes ? 1 : 0;
+      count += matcher_.at(left, right, x, y).matched == MatchOutcome::yes ? 1 : 0;
     }
   }
   return count;

@@ -15,10 +15,10 @@
 namespace enc {
 
 // Result for a pixel.
-enum class Matched : std::uint8_t { yes, outside, at_limit, not_unique, not_mutual };
+enum class MatchOutcome : std::uint8_t { yes, outside, at_limit, not_unique, not_mutual };
 
 struct Disparity {
-  Matched matched = Matched::outside;
+  MatchOutcome matched = MatchOutcome::outside;
   float pixels = 0.0F;  // parabola through the least cost and its neighbours; NaN unless matched
 };
 

@@ -20,12 +20,12 @@ using CompareMasked = void (*)(const std::uint8_t* block, std::size_t block_stri
                                int columns, int rows, int count, std::uint16_t* cost);
 // Index of the smallest of count > 0 numbers; the first if equal. The entries up to the next multiple of 16
 // are overwritten.
-using Least = int (*)(std::uint16_t* cost, int count);
+using LeastIndex = int (*)(std::uint16_t* cost, int count);
 
 struct Kernel {
   Compare compare = nullptr;
   CompareMasked compare_masked = nullptr;
-  Least least = nullptr;
+  LeastIndex least = nullptr;
 };
 [[nodiscard]] Kernel plain();
 [[nodiscard]] Kernel avx2();  // null if not compiled for this kind of processor

@@ -7,12 +7,12 @@
 namespace enc {
 namespace {
 
-struct Bent {
+struct RayDerivatives {
   Ray ray;
   double xx, xy, yy;  // derivatives of that ray; the matrix is symmetric
 };
 
-Bent bend(const Lens& lens, const Ray& ray) {
+RayDerivatives bend(const Lens& lens, const Ray& ray) {
   const auto& [k1, k2, p1, p2, k3] = lens.distortion;
   const double x = ray.x, y = ray.y;
   const double r2 = x * x + y * y;
@@ -38,7 +38,7 @@ Ray ray_of(const Lens& lens, const Pixel& pixel) {
   const Ray wanted{(pixel.column - lens.centre_x) / lens.focal_x, (pixel.row - lens.centre_y) / lens.focal_y};
   Ray ray = wanted;
   for (int i = 0; i < kSteps; ++i) {  // Newton
-    const Bent now = bend(lens, ray);
+    const RayDerivatives now = bend(lens, ray);
     const double dx = wanted.x - now.ray.x, dy = wanted.y - now.ray.y;
     if (std::abs(dx) + std::abs(dy) < kExact) return ray;
     const double det = now.xx * now.yy - now.xy * now.xy;
@@ -149,8 +149,8 @@ Pixel Rectifier::raw(Side side, const Pixel& rectified) const {
 
 void Rectifier::make_map() {
   for (const Side side : {Side::left, Side::right}) {
-    std::vector<From>& map = map_[static_cast<std::size_t>(side)];
-    map.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), From{});
+    std::vector<SourcePixel>& map = map_[static_cast<std::size_t>(side)];
+    map.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), SourcePixel{});
     std::size_t i = 0;
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x, ++i) {
@@ -167,7 +167,7 @@ void Rectifier::make_map() {
 }
 
 void Rectifier::part(Side side, const ImageView& raw, const Region& wanted, Image& rectified) const {
-  const std::vector<From>& map = map_[static_cast<std::size_t>(side)];
+  const std::vector<SourcePixel>& map = map_[static_cast<std::size_t>(side)];
   const Region cut = wanted.cut({0, 0, width_, height_});
   const std::size_t next = 3 * static_cast<std::size_t>(raw.width);
   for (int y = cut.y0; y < cut.y1; ++y) {
@@ -176,7 +176,8 @@ void Rectifier::part(Side side, const ImageView& raw, const Region& wanted, Imag
       std::copy_n(raw.at(cut.x0, y), 3 * std::max(0, cut.width()), to);
       continue;
     }
-    const From* from = map.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + cut.x0;
+    const SourcePixel* from =
+        map.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + cut.x0;
     for (int x = cut.x0; x < cut.x1; ++x, ++from, to += 3) {
       if (from->x < 0) {
         to[0] = to[1] = to[2] = 0;

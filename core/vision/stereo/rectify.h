@@ -58,7 +58,7 @@ class Rectifier {
   [[nodiscard]] Pixel raw(Side side, const Pixel& rectified) const;
 
  private:
-  struct From {
+  struct SourcePixel {
     std::int16_t x = -1, y = -1;       // upper left of the four pixels; -1: outside
     std::uint8_t right = 0, down = 0;  // share of the other pixels, 1/256
   };
@@ -69,7 +69,7 @@ class Rectifier {
   std::array<Lens, 2> lens_;
   std::array<Mat3, 2> turn_;  // rotation from the rectified axes to the camera's
   RectifiedPair pair_;
-  std::array<std::vector<From>, 2> map_;
+  std::array<std::vector<SourcePixel>, 2> map_;
 };
 
 // A position or a rate in (column, row, disparity), px or px/s. Matching noise is uniform in these

@@ -22,7 +22,8 @@ ServoLaw law_of(const ManipulatorRig& rig) {
 
 }  // namespace
 
-Controlled::Controlled(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link)
+ControllerDriver::ControllerDriver(const Offer& offer, const GcsSettings& settings,
+                                   std::unique_ptr<Link> link)
     : settings_(settings),
       log_(offer.log),
       link_(std::move(link)),
@@ -40,12 +41,12 @@ Controlled::Controlled(const Offer& offer, const GcsSettings& settings, std::uni
     say(fmt::format(": an error of before this run: {}", error_words(found_.left_over)));
 }
 
-std::string Controlled::describe() const {
+std::string ControllerDriver::describe() const {
   return fmt::format("{} at {}, firmware {}, referenced", found_.identity, settings_.place(),
                      found_.firmware.empty() ? "unknown" : found_.firmware);
 }
 
-const Aim& Controlled::aim(const Pose<'R', 'H'>& X_RH) noexcept {
+const Aim& ControllerDriver::aim(const Pose<'R', 'H'>& X_RH) noexcept {
   Coordinates to{};
   const bool within = X_RH.valid() && reach_.contains(X_RH);
   if (!X_RH.valid() || !coordinates_of(within ? X_RH : clamped(reach_, aim_.X_RH, X_RH), found_.stand, to)) {

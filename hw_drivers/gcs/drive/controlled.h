@@ -57,13 +57,13 @@ struct Aim {
   Health health = Health::ok;
 };
 
-class Controlled {
+class ControllerDriver {
  public:
   // Throws Error (kind device) as inspect() does.
-  Controlled(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link);
+  ControllerDriver(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link);
 
   [[nodiscard]] const GcsSettings& settings() const noexcept { return settings_; }
-  [[nodiscard]] const Found& found() const noexcept { return found_; }
+  [[nodiscard]] const ControllerInfo& found() const noexcept { return found_; }
   [[nodiscard]] const Reach& reach() const noexcept { return reach_; }
   [[nodiscard]] const Pose<'R', 'H'>& at_first() const noexcept { return at_first_; }  // pose at the start
   [[nodiscard]] Link& link() noexcept { return *link_; }
@@ -82,7 +82,7 @@ class Controlled {
   GcsSettings settings_;
   Log& log_;
   std::unique_ptr<Link> link_;
-  Found found_;
+  ControllerInfo found_;
   Reach reach_;
   Pose<'R', 'H'> at_first_;
   Aim aim_;

@@ -61,12 +61,12 @@ void Conversation::lose(Loss loss) noexcept {
 std::string_view Conversation::send(Duration now) noexcept {
   out_.clear();
   if (loss_ != Loss::none) return {};
-  if (awaiting_ != Awaiting::nothing && now - asked_ > timeout_) {
+  if (awaiting_ != PendingQuery::nothing && now - asked_ > timeout_) {
     lose(Loss::silent);
     return {};
   }
   add_stop(now);
-  if (awaiting_ == Awaiting::nothing && now - asked_ >= poll_) add_question(now);
+  if (awaiting_ == PendingQuery::nothing && now - asked_ >= poll_) add_question(now);
   return out_.view();
 }
 
@@ -75,14 +75,14 @@ std::string_view Conversation::send(Duration now) noexcept {
 void Conversation::add_stop(Duration now) noexcept {
   const bool asked = order_.stops != report_.stops;
   const bool silent = moving_ && now - order_.given >= watchdog_;
-  const bool again = overtaken_ && awaiting_ == Awaiting::nothing;
+  const bool again = overtaken_ && awaiting_ == PendingQuery::nothing;
   if (!asked && !silent && !again) return;
   out_.add(kStopByte);
   if (silent && !asked) {
     ++watchdogs_;
     sent_ = order_.number;
   }
-  overtaken_ = awaiting_ != Awaiting::nothing && carries_move_;
+  overtaken_ = awaiting_ != PendingQuery::nothing && carries_move_;
   report_.stops = order_.stops;
   moving_ = false;
   stopped_us_ = true;
@@ -92,16 +92,16 @@ void Conversation::add_stop(Duration now) noexcept {
 // Before the first set-point, set the velocity and the path source and read both back.
 void Conversation::add_question(Duration now) noexcept {
   carries_move_ = false;
-  if (ask_servos_) return ask("SVO?", Awaiting::servos, now);
+  if (ask_servos_) return ask("SVO?", PendingQuery::servos, now);
   const bool move =
       order_.number > std::max(sent_, order_.stopped) && now >= due_ && now - order_.given < watchdog_;
   if (move && velocity_ > 0.0) {
     add_velocity(out_, velocity_);
-    return ask("VLS?", Awaiting::velocity, now);
+    return ask("VLS?", PendingQuery::velocity, now);
   }
   if (move && !path_told_) {
     by_points_ ? add_points(out_, seconds(cycle_)) : add_own_path(out_);
-    return ask("SPA? X 0x19001900", Awaiting::path, now);
+    return ask("SPA? X 0x19001900", PendingQuery::path, now);
   }
   // Points in the controller's buffer add delay. While some are pending, keep the newest set-point here,
   // where a later one replaces it.
@@ -115,7 +115,7 @@ void Conversation::add_question(Duration now) noexcept {
     due_ = now - due_ < cycle_ ? due_ + cycle_ : now + cycle_;
   }
   if (by_points()) out_.add(kRoomByte);
-  ask("POS?", by_points() ? Awaiting::room : Awaiting::position, now);
+  ask("POS?", by_points() ? PendingQuery::room : PendingQuery::position, now);
 }
 
 // The next point towards the set-point, no farther than the speed limit allows in one cycle; without points,
@@ -130,7 +130,7 @@ Coordinates Conversation::next_point() const noexcept {
   return to;
 }
 
-void Conversation::ask(std::string_view line, Awaiting what, Duration now) noexcept {
+void Conversation::ask(std::string_view line, PendingQuery what, Duration now) noexcept {
   add_line(out_, line);
   add_line(out_, "ERR?");
   awaiting_ = what;
@@ -142,25 +142,26 @@ bool Conversation::take(std::string_view bytes, Duration now) noexcept {
   bool news = false;
   while (!bytes.empty() && loss_ == Loss::none) {
     bytes.remove_prefix(reader_.take(bytes));
-    if (reader_.overflown() || awaiting_ == Awaiting::nothing) {  // too long, or an answer without a query
+    if (reader_.overflown() ||
+        awaiting_ == PendingQuery::nothing) {  // too long, or an answer without a query
       lose(Loss::garbled);
       break;
     }
     if (!reader_.complete()) break;
     switch (awaiting_) {
-      case Awaiting::room:
+      case PendingQuery::room:
         take_room();
         break;
-      case Awaiting::position:
+      case PendingQuery::position:
         take_position(now);
         break;
-      case Awaiting::velocity:
+      case PendingQuery::velocity:
         take_velocity();
         break;
-      case Awaiting::path:
+      case PendingQuery::path:
         take_path();
         break;
-      case Awaiting::servos:
+      case PendingQuery::servos:
         take_servos();
         break;
       default:
@@ -186,7 +187,7 @@ void Conversation::take_position(Duration now) noexcept {
     from_ = report_.X_RH.p();
     from_t_ = report_.t;
   }
-  awaiting_ = Awaiting::error;
+  awaiting_ = PendingQuery::error;
 }
 
 void Conversation::take_velocity() noexcept {
@@ -195,13 +196,13 @@ void Conversation::take_velocity() noexcept {
   if (!read_single(reader_.answer(), said)) return lose(Loss::garbled);
   if (!(std::abs(metres(said) - velocity_) <= kShare * velocity_)) return lose(Loss::velocity);
   velocity_ = 0.0;
-  awaiting_ = Awaiting::error;
+  awaiting_ = PendingQuery::error;
 }
 
 void Conversation::take_room() noexcept {
   if (!read_error(reader_.answer(), room_) || room_ < 0) return lose(Loss::garbled);
   most_room_ = std::max(most_room_, room_);
-  awaiting_ = Awaiting::position;
+  awaiting_ = PendingQuery::position;
 }
 
 // The answer looks like "X 0x19001900=1".
@@ -212,7 +213,7 @@ void Conversation::take_path() noexcept {
     return lose(Loss::garbled);
   if (source != (by_points_ ? 1.0 : 0.0)) return lose(Loss::path);
   path_told_ = true;
-  awaiting_ = Awaiting::error;
+  awaiting_ = PendingQuery::error;
 }
 
 void Conversation::take_servos() noexcept {
@@ -221,7 +222,7 @@ void Conversation::take_servos() noexcept {
   if (std::any_of(on.begin(), on.end(), [](double axis) { return axis != 1.0; }))
     return lose(Loss::servo_off);
   ask_servos_ = false;
-  awaiting_ = Awaiting::error;
+  awaiting_ = PendingQuery::error;
 }
 
 // A stop by somebody else, or a fault of a strut, ends the motion for this run: a person who clears the fault
@@ -229,7 +230,7 @@ void Conversation::take_servos() noexcept {
 void Conversation::take_error() noexcept {
   int error = 0;
   if (!read_error(reader_.answer(), error)) return lose(Loss::garbled);
-  awaiting_ = Awaiting::nothing;
+  awaiting_ = PendingQuery::nothing;
   const bool ours = error == kStopped && stopped_us_;
   if (ours || after_stop_) stopped_us_ = false;
   if (ours) {

@@ -62,18 +62,18 @@ class Conversation {
   // True if all stops are sent and none needs repeating: the controller has answered every command that a
   // stop may have overtaken.
   [[nodiscard]] bool stopped() const noexcept {
-    return order_.stops == report_.stops && !overtaken_ && awaiting_ == Awaiting::nothing;
+    return order_.stops == report_.stops && !overtaken_ && awaiting_ == PendingQuery::nothing;
   }
 
  private:
   // The pending query; each is followed by ERR?.
-  enum class Awaiting : std::uint8_t { nothing, room, position, velocity, path, servos, error };
+  enum class PendingQuery : std::uint8_t { nothing, room, position, velocity, path, servos, error };
 
   void lose(Loss loss) noexcept;
   void add_stop(Duration now) noexcept;
   void add_question(Duration now) noexcept;
   [[nodiscard]] Coordinates next_point() const noexcept;
-  void ask(std::string_view line, Awaiting what, Duration now) noexcept;
+  void ask(std::string_view line, PendingQuery what, Duration now) noexcept;
   void take_position(Duration now) noexcept;
   void take_room() noexcept;
   void take_velocity() noexcept;
@@ -102,7 +102,7 @@ class Conversation {
   bool overtaken_ = false;     // a stop was sent during that query: the move may be executed after it
   bool after_stop_ = false;    // the pending query was sent after our stop
   bool ask_servos_ = false;    // our stop replaced the error number of an earlier fault: query the servos
-  Awaiting awaiting_ = Awaiting::nothing;
+  PendingQuery awaiting_ = PendingQuery::nothing;
   Report report_;
   Vec3 from_;  // start of the velocity's measurement: position and time
   Duration from_t_;

@@ -81,7 +81,7 @@ GcsManipulator::~GcsManipulator() {
   static_cast<void>(machine_.link().send(text.view()));
 }
 
-Stamped<TipSample> GcsManipulator::read(Time now) noexcept {
+Measurement<TipSample> GcsManipulator::read(Time now) noexcept {
   tick_ = machine_.link().now();
   if (!thread_.joinable()) turn();
   if (reports_.read(report_) || !read_) {
@@ -196,7 +196,7 @@ LockstepManipulator::LockstepManipulator(const Offer& offer, const GcsSettings& 
   sample_ = {machine_.at_first(), Vec<'R'>::zero(), Vec<'R'>::zero()};
 }
 
-Stamped<TipSample> LockstepManipulator::read(Time now) noexcept {
+Measurement<TipSample> LockstepManipulator::read(Time now) noexcept {
   send("POS?\n");
   Coordinates at{};
   if (linked_ && !read_axes(hear(), kAxisNames, at)) lose(": no position in time");

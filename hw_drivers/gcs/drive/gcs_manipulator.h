@@ -34,7 +34,7 @@ class GcsManipulator final : public Manipulator {
   [[nodiscard]] bool linked() const noexcept override { return linked_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::vector<std::string> remarks() const override;
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
-  Stamped<TipSample> read(Time now) noexcept override;
+  Measurement<TipSample> read(Time now) noexcept override;
   void command(const Pose<'R', 'H'>& X_RH) noexcept override;
   // Waits until the stop is sent and no later command can follow it, or the link is gone; at most 100 ms.
   void stop() noexcept override;
@@ -48,7 +48,7 @@ class GcsManipulator final : public Manipulator {
   // The second parameter is true if a set-point was sent: the machine may be moving and gets a stop.
   void lose(Loss loss, bool told) noexcept;
 
-  Controlled machine_;
+  ControllerDriver machine_;
 
   // Data of the loop.
   Order order_;
@@ -65,8 +65,8 @@ class GcsManipulator final : public Manipulator {
   int said_ = kNoError;  // last error reported to the user
 
   // Shared by both.
-  Latest<Order> orders_;
-  Latest<Report> reports_;
+  LatestValue<Order> orders_;
+  LatestValue<Report> reports_;
   std::atomic<std::int64_t> stops_sent_ = 0, answers_ = 0, watchdogs_ = 0;
   std::atomic<Duration::rep> longest_ = 0;
   std::atomic<bool> linked_ = true, end_ = false;
@@ -86,7 +86,7 @@ class LockstepManipulator final : public Manipulator {
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
   // Both wait for the answer, at most timeout_ms.
-  Stamped<TipSample> read(Time now) noexcept override;
+  Measurement<TipSample> read(Time now) noexcept override;
   void command(const Pose<'R', 'H'>& X_RH) noexcept override;
   void stop() noexcept override;
 
@@ -96,7 +96,7 @@ class LockstepManipulator final : public Manipulator {
   hear() noexcept;  // the next answer, valid until the next call; empty: link lost
   void lose(const std::string& why) noexcept;
 
-  Controlled machine_;
+  ControllerDriver machine_;
   double period_;  // s
   AnswerReader reader_;
   std::array<char, kMostText> bytes_{};

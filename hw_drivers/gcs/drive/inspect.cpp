@@ -49,10 +49,10 @@ struct Inspector {
     return names;
   }
 
-  void identify(Found& found);
+  void identify(ControllerInfo& found);
   void plain() const;
   void ready() const;
-  void able(Found& found) const;
+  void able(ControllerInfo& found) const;
   Travel far_enough(const Stand& stand) const;
 };
 
@@ -82,7 +82,7 @@ int compared(std::string_view is, std::string_view least) {
 }
 
 // The answer looks like "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119012345, 2.10.0.1".
-void Inspector::identify(Found& found) {
+void Inspector::identify(ControllerInfo& found) {
   const std::string answer = ask("*IDN?");
   if (answer.find(settings.identity) == std::string::npos)
     refuse(
@@ -174,7 +174,7 @@ Travel Inspector::far_enough(const Stand& stand) const {
   return can;
 }
 
-void Inspector::able(Found& found) const {
+void Inspector::able(ControllerInfo& found) const {
   const auto pivot = axes<3>("SPI?", kPivotNames);
   found.stand.origin = {0, 0, settings.origin_height};
   found.stand.pivot = {metres(pivot[0]), metres(pivot[1]), metres(pivot[2])};
@@ -196,8 +196,8 @@ void Inspector::able(Found& found) const {
 
 }  // namespace
 
-Found inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised) {
-  Found found;
+ControllerInfo inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised) {
+  ControllerInfo found;
   Inspector inspector{ask, settings, promised};
   inspector.identify(found);
   found.left_over = inspector.error();

@@ -14,7 +14,7 @@ namespace enc::gcs {
 // Sends a line and returns the whole answer; throws Error (kind device) if no answer comes.
 using Ask = std::function<std::string(std::string_view line)>;
 
-struct Found {
+struct ControllerInfo {
   std::string identity;  // "C-887.53 119012345"
   std::string firmware;
   double velocity = kUnset;  // m/s, platform
@@ -27,6 +27,6 @@ struct Found {
 };
 
 // Throws Error (kind device): another device, not referenced, a servo off, or less than the rig states.
-[[nodiscard]] Found inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised);
+[[nodiscard]] ControllerInfo inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised);
 
 }  // namespace enc::gcs

@@ -18,42 +18,42 @@ constexpr std::array<std::string_view, kAxes> kUnits{"MM", "MM", "MM", "DEG", "D
 }  // namespace
 
 std::span<const Commands::Entry> Commands::all() noexcept {
-  using Of = Controller&;
+  using ControllerRef = Controller&;
   using Rest = std::string_view;
   static constexpr std::array kAll = std::to_array<Entry>({
-      {"*IDN?", "Get Device Identification", [](Of of, Rest) { of.say(of.settings_.identity); }},
+      {"*IDN?", "Get Device Identification", [](ControllerRef of, Rest) { of.say(of.settings_.identity); }},
       {"CST?", "[{<AxisID>}] Get Assignment Of Stages To Axes",
-       [](Of of, Rest rest) {
+       [](ControllerRef of, Rest rest) {
          std::array<std::string_view, kAxes> names;
          names.fill(of.settings_.stage);
          of.say_axes(rest, kAxisNames, names);
        }},
-      {"CSV?", "Get Current Syntax Version", [](Of of, Rest) { of.say("2.0"); }},
+      {"CSV?", "Get Current Syntax Version", [](ControllerRef of, Rest) { of.say("2.0"); }},
       {"ERR?", "Get Error Number", error},
       {"FRF", "[{<AxisID>}] Fast Reference Move To Reference Switch", reference},
       {"FRF?", "[{<AxisID>}] Get Referencing Result",
-       [](Of of, Rest rest) { of.say_flags(rest, same(of.referenced_)); }},
+       [](ControllerRef of, Rest rest) { of.say_flags(rest, same(of.referenced_)); }},
       {"HLP?", "Get List Of Available Commands", help},
       {"HLT", "[{<AxisID>}] Halt Motion Smoothly", halt},
-      {"KEN?", "[{<CSName>}] Get Enabled Coordinate Systems", [](Of of, Rest) { of.say("ZERO=KSD"); }},
+      {"KEN?", "[{<CSName>}] Get Enabled Coordinate Systems", [](ControllerRef of, Rest) { of.say("ZERO=KSD"); }},
       {"MOV", "{<AxisID> <Position>} Set Target Position", move},
       {"MOV?", "[{<AxisID>}] Get Target Position",
-       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.profile_.aim())); }},
+       [](ControllerRef of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.profile_.aim())); }},
       {"MVR", "{<AxisID> <Distance>} Set Target Relative To Current Position", move_by},
       {"ONT?", "[{<AxisID>}] Get On-Target State",
-       [](Of of, Rest rest) { of.say_flags(rest, of.on_target()); }},
+       [](ControllerRef of, Rest rest) { of.say_flags(rest, of.on_target()); }},
       {"POS?", "[{<AxisID>}] Get Real Position",
-       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.measured_)); }},
+       [](ControllerRef of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.measured_)); }},
       {"PUN?", "[{<AxisID>}] Get Axis Unit",
-       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, std::span<const std::string_view>(kUnits)); }},
+       [](ControllerRef of, Rest rest) { of.say_axes(rest, kAxisNames, std::span<const std::string_view>(kUnits)); }},
       {"SAI?", "[ALL] Get List Of Current Axis Identifiers",
-       [](Of of, Rest rest) {
+       [](ControllerRef of, Rest rest) {
          if (const Rest word = next_word(rest); of.wrong(!word.empty() && word != "ALL", kSyntax)) return;
          of.answer_ += "X \nY \nZ \nU \nV \nW\n";
        }},
       {"SCT", "T <Time> Set Cycle Time, ms", cycle_time},
       {"SCT?", "[T] Get Cycle Time, ms",
-       [](Of of, Rest) {
+       [](ControllerRef of, Rest) {
          Text text;
          of.say(text.add("T=").add(1e3 * of.points_cycle_).view());
        }},
@@ -61,21 +61,21 @@ std::span<const Commands::Entry> Commands::all() noexcept {
       {"SPA?", "[{<ItemID> <PamID>}] Get Volatile Memory Parameters", parameter},
       {"SPI", "{<PPCoordinate> <Position>} Set Pivot Point", pivot},
       {"SPI?", "[{<PPCoordinate>}] Get Pivot Point",
-       [](Of of, Rest rest) {
+       [](ControllerRef of, Rest rest) {
          of.say_axes(rest, kPivotNames, in_millimetres(of.stand_.pivot));
        }},
-      {"SSN?", "Get Device Serial Number", [](Of of, Rest) { of.say("119000000"); }},
-      {"STP", "Stop All Axes", [](Of of, Rest) { of.stop(kAbrupt); }},
+      {"SSN?", "Get Device Serial Number", [](ControllerRef of, Rest) { of.say("119000000"); }},
+      {"STP", "Stop All Axes", [](ControllerRef of, Rest) { of.stop(kAbrupt); }},
       {"SVO", "{<AxisID> <ServoState>} Set Servo Mode", servo},
-      {"SVO?", "[{<AxisID>}] Get Servo Mode", [](Of of, Rest rest) { of.say_flags(rest, of.servo_); }},
+      {"SVO?", "[{<AxisID>}] Get Servo Mode", [](ControllerRef of, Rest rest) { of.say_flags(rest, of.servo_); }},
       {"TMN?", "[{<AxisID>}] Get Minimum Commandable Position",
-       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.low)); }},
+       [](ControllerRef of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.low)); }},
       {"TMX?", "[{<AxisID>}] Get Maximum Commandable Position",
-       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.high)); }},
-      {"VER?", "Get Versions Of Firmware And Drivers", [](Of of, Rest) { of.say("FW: fake"); }},
+       [](ControllerRef of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.high)); }},
+      {"VER?", "Get Versions Of Firmware And Drivers", [](ControllerRef of, Rest) { of.say("FW: fake"); }},
       {"VLS", "<SystemVelocity> Set System Velocity", velocity},
       {"VLS?", "Get System Velocity",
-       [](Of of, Rest) {
+       [](ControllerRef of, Rest) {
          Text text;
          of.say(text.add(millimetres(of.velocity_)).view());
        }},

@@ -31,7 +31,7 @@ std::span<const std::byte> Line::next() noexcept {
   return stream_.next();
 }
 
-void Line::say(const Written& message) noexcept {
+void Line::say(const OutgoingMessage& message) noexcept {
   const std::size_t sent = socket_.send(message.bytes());
   stuck_ = stuck_ || (sent > 0 && sent < message.bytes().size());
 }
@@ -47,22 +47,22 @@ constexpr int kSettled = 3;            // after this many such polls in a row th
 constexpr std::int32_t kEachPose = 1;  // ms, the shortest interval that a client can request: every pose
 
 // Describes why the server's data are not a valid message.
-const char* fault(Wrong why) {
+const char* fault(MessageFault why) {
   switch (why) {
-    case Wrong::no_checksum:
+    case MessageFault::no_checksum:
       return "what it sends has CRC 0; expected the CRC of each message; let the server compute it";
-    case Wrong::checksum:
+    case MessageFault::checksum:
       return "what it sends has a wrong CRC; expected CRC-64 ECMA-182 of the body; see the server's version";
-    case Wrong::version:
+    case MessageFault::version:
       return "what it sends has a header of another version; expected 1 or 2; see the server's version";
     default:
       return "what it sends is cut or of a wrong size; expected messages of OpenIGTLink; see the server";
   }
 }
 
-Error no_answer(const IgtlSettings& settings, const Line& line, Wrong why) {
+Error no_answer(const IgtlSettings& settings, const Line& line, MessageFault why) {
   const char* const what =
-      why != Wrong::nothing ? fault(why)
+      why != MessageFault::nothing ? fault(why)
       : line.lost()
           ? "what answers does not speak OpenIGTLink; see that this is the port of the tracker's server"
       : line.closed()      ? "let us in and hung up; see that it takes another client"
@@ -92,12 +92,12 @@ void IgtlTracker::first_answer() {
   constexpr Duration kAgain{50'000'000};  // a datagram may be lost
   constexpr Duration kStatus{100'000'000};
   bool answered = false;
-  Wrong why = Wrong::nothing;  // fault of the last message
+  MessageFault why = MessageFault::nothing;  // fault of the last message
   for (Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
     Message answer;
     const std::span<const std::byte> bytes = line_.next();
     if (!bytes.empty()) why = read(bytes, answer);
-    const bool came = !bytes.empty() && why == Wrong::nothing;
+    const bool came = !bytes.empty() && why == MessageFault::nothing;
     if (came && answer.type.view() == "STATUS") {
       fake_ = answer.device.view() == kFakeName;
       return;
@@ -119,7 +119,7 @@ IgtlTracker::~IgtlTracker() {
 }
 
 void IgtlTracker::say(const char* what, std::span<const std::byte> content) noexcept {
-  line_.say(Written(what, "Encounter", 0, 0, content));
+  line_.say(OutgoingMessage(what, "Encounter", 0, 0, content));
 }
 
 void IgtlTracker::ask() noexcept {
@@ -162,7 +162,7 @@ void IgtlTracker::keep_awake(Time now) noexcept {
   say("GET_STATUS");
 }
 
-bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+bool IgtlTracker::poll(Time now, Measurement<TrackedTool>& newest) noexcept {
   news_ = false;
   const bool first = !polled_;
   arrival_.begin(now, net::steady_now());

@@ -26,7 +26,7 @@ class Line {
   // Throws Error (kind device) if no server listens there.
   explicit Line(const IgtlSettings& settings);
 
-  void say(const Written& message) noexcept;
+  void say(const OutgoingMessage& message) noexcept;
   // The next message; empty: no message yet. Valid until the next call.
   [[nodiscard]] std::span<const std::byte> next() noexcept;
   [[nodiscard]] Duration came() const noexcept {
@@ -58,7 +58,7 @@ class IgtlTracker final : public PoseTracker {
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
   [[nodiscard]] std::string refused() const override;
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override;
 
  private:
   void ask() noexcept;  // requests data from the server
@@ -74,7 +74,7 @@ class IgtlTracker final : public PoseTracker {
   Reception reception_;
   Line line_;
   net::Arrival arrival_;
-  Stamped<TrackedTool> newest_;
+  Measurement<TrackedTool> newest_;
   Time begun_{}, asked_{}, heard_{};
   bool fake_ = false;  // identified by the name in its STATUS
   bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;

@@ -62,10 +62,10 @@ std::string Reception::expected() const {
   return text;
 }
 
-void Reception::count_wrong(Wrong why) noexcept {
-  const bool none = why == Wrong::no_checksum;
+void Reception::count_wrong(MessageFault why) noexcept {
+  const bool none = why == MessageFault::no_checksum;
   if (none) ++counts_.no_checksum;
-  ++(none || why == Wrong::checksum ? counts_.checksum : counts_.wrong);
+  ++(none || why == MessageFault::checksum ? counts_.checksum : counts_.wrong);
 }
 
 // A stamp that comes twice is a repeated message. A stamp that comes a third time stands still.
@@ -107,9 +107,9 @@ bool Reception::is_newer(const Message& message) noexcept {
   return true;
 }
 
-bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<TrackedTool>& newest) noexcept {
+bool Reception::take(std::span<const std::byte> bytes, Time now, Measurement<TrackedTool>& newest) noexcept {
   Message message;
-  if (const Wrong why = read(bytes, message); why != Wrong::nothing) {
+  if (const MessageFault why = read(bytes, message); why != MessageFault::nothing) {
     count_wrong(why);
     return false;
   }
@@ -126,7 +126,7 @@ bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<Tracked
     ++counts_.unseen;
     return false;
   }
-  Told told{message.device, {}, message.stamp_ns};
+  ToolMessage told{message.device, {}, message.stamp_ns};
   if (!(position ? read_position(message.content, told.X_CT) : read_transform(message.content, told.X_CT)) ||
       !sharpen(message, told.X_CT)) {
     ++counts_.wrong;
@@ -136,7 +136,7 @@ bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<Tracked
 }
 
 // Takes all tools of one frame; at most one of them is in the hand.
-bool Reception::take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept {
+bool Reception::take_all(const Message& message, Time now, Measurement<TrackedTool>& newest) noexcept {
   const std::size_t count = elements_of(message.content);
   if (count == 0 && !message.content.empty()) ++counts_.wrong;
   bool news = false;
@@ -150,7 +150,7 @@ bool Reception::take_all(const Message& message, Time now, Stamped<TrackedTool>&
   return news;
 }
 
-bool Reception::take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept {
+bool Reception::take_one(const ToolMessage& told, Time now, Measurement<TrackedTool>& newest) noexcept {
   const auto named = [&](const Name<20>& name) { return same_name(name.view(), told.device.view()); };
   auto name = std::find_if(devices_.begin(), devices_.end(), named);
   auto tool = static_cast<std::size_t>(name - devices_.begin());

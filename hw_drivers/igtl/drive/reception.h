@@ -40,7 +40,7 @@ class Reception {
   Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep);
 
   // Returns true if `newest` is new.
-  bool take(std::span<const std::byte> message, Time now, Stamped<TrackedTool>& newest) noexcept;
+  bool take(std::span<const std::byte> message, Time now, Measurement<TrackedTool>& newest) noexcept;
   [[nodiscard]] std::string expected() const;  // "'stylusToTracker' or 'knifeToTracker'"
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
   [[nodiscard]] net::ClockEstimate clock() const noexcept { return tie_.estimate(); }
@@ -49,23 +49,23 @@ class Reception {
 
  private:
   // The data of one tool in a message.
-  struct Told {
+  struct ToolMessage {
     Name<20> device;
     Pose<'C', 'T'> X_CT;
     std::int64_t stamp_ns = 0;
   };
   [[nodiscard]] bool is_newer(const Message& message) noexcept;  // compares message numbers
-  [[nodiscard]] bool take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept;
-  bool take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept;
+  [[nodiscard]] bool take_one(const ToolMessage& told, Time now, Measurement<TrackedTool>& newest) noexcept;
+  bool take_all(const Message& message, Time now, Measurement<TrackedTool>& newest) noexcept;
   [[nodiscard]] bool goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept;
   void count_old(std::size_t tool, std::int64_t stamp_ns) noexcept;
   void set_back() noexcept;  // the tracker's clock was set back
-  void count_wrong(Wrong why) noexcept;
+  void count_wrong(MessageFault why) noexcept;
 
   std::vector<Name<20>> devices_, tools_;
   bool lockstep_, ordered_;
   net::ClockTie tie_;
-  InHand in_hand_;
+  HeldToolFinder in_hand_;
   Counts counts_;
   bool heard_ = false, numbered_ = false;
   std::uint32_t number_ = 0;

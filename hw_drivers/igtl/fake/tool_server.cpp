@@ -116,7 +116,7 @@ void ToolServer::serve(Time now) {
     apart_ = {};
   }
   for (auto bytes = door_.next(); !bytes.empty(); bytes = door_.next())
-    if (Message message; read(bytes, message) == Wrong::nothing) answer(now, message);
+    if (Message message; read(bytes, message) == MessageFault::nothing) answer(now, message);
   door_.leave(now);
 }
 
@@ -139,7 +139,7 @@ void ToolServer::answer(Time now, const Message& message) {
 
 void ToolServer::publish(Time now) {
   if (now < sent_) sent_ = posed_ = now;  // the simulation was restarted
-  Stamped<TrackedTool> newest;
+  Measurement<TrackedTool> newest;
   const bool seen = tracker_.poll(now, newest) && newest.health == Health::ok && newest.value.tool >= 0 &&
                     static_cast<std::size_t>(newest.value.tool) < devices_.size();
   if (seen && status_ == 1 && now - posed_ >= apart_) {
@@ -151,7 +151,7 @@ void ToolServer::publish(Time now) {
   door_.leave(now);
 }
 
-void ToolServer::say_pose(Time now, const Stamped<TrackedTool>& newest) {
+void ToolServer::say_pose(Time now, const Measurement<TrackedTool>& newest) {
   sent_ = posed_ = now;
   const std::string& device = devices_[static_cast<std::size_t>(newest.value.tool)];
   const std::int64_t stamp = newest.t.time_since_epoch().count();
@@ -171,9 +171,9 @@ void ToolServer::say(Time now, const char* type, std::string_view device, std::i
   ++number_;
   if (!asked_) return;
   if (!streams() || knows_two_)
-    door_.put(now, Written(type, device, stamp_ns, number_, content, key, value).bytes());
+    door_.put(now, OutgoingMessage(type, device, stamp_ns, number_, content, key, value).bytes());
   else
-    door_.put(now, Written(type, device, stamp_ns, content).bytes());
+    door_.put(now, OutgoingMessage(type, device, stamp_ns, content).bytes());
 }
 
 bool ToolServer::knows(const Trouble& trouble) const {

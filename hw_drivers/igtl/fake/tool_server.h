@@ -86,7 +86,7 @@ class ToolServer final : public Fake {
   void answer(Time now, const Message& message);
   void say(Time now, const char* type, std::string_view device, std::int64_t stamp_ns,
            std::span<const std::byte> content, std::string_view key = {}, std::string_view value = {});
-  void say_pose(Time now, const Stamped<TrackedTool>& newest);
+  void say_pose(Time now, const Measurement<TrackedTool>& newest);
   void say_status(Time now);
   [[nodiscard]] bool streams() const { return settings_.transport == Transport::tcp; }
 

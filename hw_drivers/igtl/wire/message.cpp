@@ -33,14 +33,14 @@ std::uint64_t crc64(std::span<const std::byte> bytes) noexcept {
   return crc;
 }
 
-Wrong read(std::span<const std::byte> bytes, Message& message) noexcept {
-  if (bytes.size() < kHeader) return Wrong::cut;
+MessageFault read(std::span<const std::byte> bytes, Message& message) noexcept {
+  if (bytes.size() < kHeader) return MessageFault::cut;
   const auto version = take<std::uint16_t>(bytes, 0);
-  if (version != 1 && version != 2) return Wrong::version;
+  if (version != 1 && version != 2) return MessageFault::version;
   const std::span<const std::byte> body = bytes.subspan(kHeader);
-  if (take<std::uint64_t>(bytes, 42) != body.size()) return Wrong::size;
+  if (take<std::uint64_t>(bytes, 42) != body.size()) return MessageFault::size;
   const auto checksum = take<std::uint64_t>(bytes, 50);
-  if (checksum != crc64(body)) return checksum == 0 ? Wrong::no_checksum : Wrong::checksum;
+  if (checksum != crc64(body)) return checksum == 0 ? MessageFault::no_checksum : MessageFault::checksum;
   Message read;
   read.type = take_name<12>(bytes, 2);
   read.device = take_name<20>(bytes, 14);
@@ -49,22 +49,23 @@ Wrong read(std::span<const std::byte> bytes, Message& message) noexcept {
                                             ((fraction * kBillion + (1ULL << 31U)) >> 32U));
   read.content = body;
   if (version == 2) {
-    if (body.size() < kExtendedHeader) return Wrong::size;
+    if (body.size() < kExtendedHeader) return MessageFault::size;
     const std::size_t extended = take<std::uint16_t>(body, 0);
     const std::size_t behind = std::size_t{take<std::uint16_t>(body, 2)} + take<std::uint32_t>(body, 4);
     if (extended < kExtendedHeader || extended > body.size() || behind > body.size() - extended)
-      return Wrong::size;
+      return MessageFault::size;
     read.numbered = true;
     read.number = take<std::uint32_t>(body, 8);
     read.content = body.subspan(extended, body.size() - extended - behind);
     read.metadata = body.last(behind);
   }
   message = read;
-  return Wrong::nothing;
+  return MessageFault::nothing;
 }
 
-Written::Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
-                 std::span<const std::byte> content, std::string_view key, std::string_view value) noexcept {
+OutgoingMessage::OutgoingMessage(std::string_view type, std::string_view device, std::int64_t stamp_ns,
+                                 std::uint32_t number, std::span<const std::byte> content,
+                                 std::string_view key, std::string_view value) noexcept {
   constexpr std::size_t kCount = 2, kPair = 8;
   constexpr std::uint16_t kAscii = 3;
   const std::size_t header = kCount + (key.empty() ? 0 : kPair), text = key.size() + value.size();
@@ -91,16 +92,16 @@ Written::Written(std::string_view type, std::string_view device, std::int64_t st
   finish(2, type, device, stamp_ns);
 }
 
-Written::Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
-                 std::span<const std::byte> content) noexcept {
+OutgoingMessage::OutgoingMessage(std::string_view type, std::string_view device, std::int64_t stamp_ns,
+                                 std::span<const std::byte> content) noexcept {
   size_ = std::min(bytes_.size(), kHeader + content.size());
   std::copy_n(content.begin(), size_ - kHeader, bytes_.begin() + kHeader);
   finish(1, type, device, stamp_ns);
 }
 
 // Writes the header in front of the finished body.
-void Written::finish(std::uint16_t version, std::string_view type, std::string_view device,
-                     std::int64_t stamp_ns) noexcept {
+void OutgoingMessage::finish(std::uint16_t version, std::string_view type, std::string_view device,
+                             std::int64_t stamp_ns) noexcept {
   const std::span<std::byte> all(bytes_.data(), size_), body = all.subspan(kHeader);
   const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp_ns, 0));
   put(all, 0, version);

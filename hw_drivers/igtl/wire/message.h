@@ -57,20 +57,20 @@ struct Message {
 };
 
 // no_checksum: the header has CRC 0, as from a server that does not compute it.
-enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum, no_checksum };
+enum class MessageFault : std::uint8_t { nothing, cut, version, size, checksum, no_checksum };
 // Returns the reason why the bytes are not a message; sets `message` if they are.
-[[nodiscard]] Wrong read(std::span<const std::byte> bytes, Message& message) noexcept;
+[[nodiscard]] MessageFault read(std::span<const std::byte> bytes, Message& message) noexcept;
 
 // A message to send, in a buffer that never grows.
-class Written {
+class OutgoingMessage {
  public:
   // Version 2, numbered, with one key and its value.
-  Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
-          std::span<const std::byte> content, std::string_view key = {},
-          std::string_view value = {}) noexcept;
+  OutgoingMessage(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
+                  std::span<const std::byte> content, std::string_view key = {},
+                  std::string_view value = {}) noexcept;
   // Version 1, for peers that support only this version.
-  Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
-          std::span<const std::byte> content) noexcept;
+  OutgoingMessage(std::string_view type, std::string_view device, std::int64_t stamp_ns,
+                  std::span<const std::byte> content) noexcept;
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {bytes_.data(), size_}; }
 
  private:

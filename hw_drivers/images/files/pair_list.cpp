@@ -33,10 +33,10 @@ enum class Eye : std::uint8_t { left, right };
 // some more words or stands alone.
 enum class Mark : std::uint8_t { word, letter, number };
 constexpr std::array kMarks{Mark::word, Mark::letter, Mark::number};
-enum class Named : std::uint8_t { file, folder };
+enum class MarkPlace : std::uint8_t { file, folder };
 
 // One part of a name that states this eye. The right camera's number is the left one's plus one.
-struct Marked {
+struct EyeMark {
   std::string rest;     // the name without that part
   std::string partner;  // the other eye's name, in small letters
 };
@@ -59,8 +59,8 @@ std::string small_letters(std::string_view text) {
 }
 
 // A name whose part at `at` states the side; the partner's name has `other` in its place.
-Marked marked(std::string_view name, std::size_t at, std::size_t length, std::string_view other) {
-  Marked out{std::string(name), small_letters(name)};
+EyeMark marked(std::string_view name, std::size_t at, std::size_t length, std::string_view other) {
+  EyeMark out{std::string(name), small_letters(name)};
   out.rest.erase(at, length);
   out.partner.replace(at, length, other);
   return out;
@@ -76,21 +76,21 @@ bool of_other_word(std::string_view small, std::size_t at) {
          });
 }
 
-std::vector<Marked> words_in(std::string_view name, Eye eye) {
+std::vector<EyeMark> words_in(std::string_view name, Eye eye) {
   const std::string_view word = eye == Eye::left ? "left" : "right",
                          other = eye == Eye::left ? "right" : "left";
   const std::string small = small_letters(name);
-  std::vector<Marked> found;
+  std::vector<EyeMark> found;
   for (std::size_t at = small.find(word); at != std::string::npos; at = small.find(word, at + 1))
     if (!of_other_word(small, at)) found.push_back(marked(name, at, word.size(), other));
   return found;
 }
 
-std::vector<Marked> letters_in(std::string_view name, Eye eye) {
+std::vector<EyeMark> letters_in(std::string_view name, Eye eye) {
   const char letter = eye == Eye::left ? 'l' : 'r';
   const std::string_view other = eye == Eye::left ? "r" : "l";
   const std::string small = small_letters(name);
-  std::vector<Marked> found;
+  std::vector<EyeMark> found;
   for (std::size_t i = 0; i < small.size(); ++i) {
     if (small[i] != letter || (i + 1 < small.size() && is_small(small[i + 1]))) continue;
     if (i == 0 || !is_small(small[i - 1]) || (is_capital(name[i]) && is_small(name[i - 1])))
@@ -100,7 +100,7 @@ std::vector<Marked> letters_in(std::string_view name, Eye eye) {
 }
 
 // True if the word before a number means a camera. A file needs a second number that counts its images.
-bool numbers_cameras(std::string_view before, std::string_view behind, Named named) {
+bool numbers_cameras(std::string_view before, std::string_view behind, MarkPlace named) {
   constexpr std::array<std::string_view, 2> kCameras{"cam", "camera"};
   constexpr std::array<std::string_view, 14> kFolders{"c",      "eye",    "image", "images", "img",
                                                       "infra",  "ir",     "lens",  "video",  "view",
@@ -113,16 +113,16 @@ bool numbers_cameras(std::string_view before, std::string_view behind, Named nam
   const auto is_one_of = [&](const auto& list) {
     return std::find(list.begin(), list.end(), word) != list.end();
   };
-  if (named == Named::folder)
+  if (named == MarkPlace::folder)
     return before.empty() ? behind.empty() : is_one_of(kCameras) || is_one_of(kFolders);
   const auto counts = [](std::string_view text) { return std::any_of(text.begin(), text.end(), is_digit); };
   return is_one_of(kCameras) && (counts(before) || counts(behind));
 }
 
-std::vector<Marked> numbers_in(std::string_view name, Eye eye, Named named) {
+std::vector<EyeMark> numbers_in(std::string_view name, Eye eye, MarkPlace named) {
   constexpr std::size_t kLongest = 2;  // digits: longer numbers count images or belong to a maker
   const std::string small = small_letters(name);
-  std::vector<Marked> found;
+  std::vector<EyeMark> found;
   for (std::size_t at = 0, end = 0; at < small.size(); at = end + 1) {
     for (end = at; end < small.size() && is_digit(small[end]);) ++end;
     const std::size_t length = end - at;
@@ -143,7 +143,7 @@ std::string_view number_at(const std::string& text, std::size_t& at) {
   return std::string_view(text).substr(begin, at - begin);
 }
 
-std::vector<Marked> marks_in(std::string_view name, Mark mark, Eye eye, Named named) {
+std::vector<EyeMark> marks_in(std::string_view name, Mark mark, Eye eye, MarkPlace named) {
   switch (mark) {
     case Mark::word:
       return words_in(name, eye);
@@ -271,7 +271,7 @@ struct FolderPair {
 std::vector<FolderPair> folder_pairs(const std::vector<EyeFolder>& folders, Mark mark) {
   std::vector<FolderPair> pairs;
   for (const EyeFolder& left : folders)
-    for (const Marked& found : marks_in(left.name, mark, Eye::left, Named::folder))
+    for (const EyeMark& found : marks_in(left.name, mark, Eye::left, MarkPlace::folder))
       for (const EyeFolder& right : folders)
         if (small_letters(right.name) == found.partner && !left.images.empty() && !right.images.empty())
           pairs.push_back({left, right});
@@ -302,7 +302,7 @@ std::vector<std::string> shared_names(const fs::path& file, Eye eye) {
   const std::string name = file.stem().string();
   std::vector<std::string> names{small_letters(name)};
   for (const Mark mark : kMarks)
-    for (const Marked& found : marks_in(name, mark, eye, Named::file)) {
+    for (const EyeMark& found : marks_in(name, mark, eye, MarkPlace::file)) {
       const std::string rest = small_letters(found.rest);
       const std::size_t begin = rest.find_first_not_of(kJoints);
       names.push_back(
@@ -339,18 +339,18 @@ std::vector<PairFiles> pairs_of(const FolderPair& folders) {
 // ---- both eyes in one folder
 
 bool says(const fs::path& file, Mark mark, Eye eye) {
-  return !marks_in(file.stem().string(), mark, eye, Named::file).empty();
+  return !marks_in(file.stem().string(), mark, eye, MarkPlace::file).empty();
 }
 
-struct Flat {
+struct FlatFolder {
   std::vector<std::pair<std::string, PairFiles>> pairs;
   std::map<fs::path, Eye> eyes;  // eyes of the images in pairs
 };
 
-Flat paired(const Files& files, Mark mark) {
-  Flat flat;
+FlatFolder paired(const Files& files, Mark mark) {
+  FlatFolder flat;
   for (const auto& [name, left] : files)
-    for (const Marked& found : marks_in(left.stem().string(), mark, Eye::left, Named::file)) {
+    for (const EyeMark& found : marks_in(left.stem().string(), mark, Eye::left, MarkPlace::file)) {
       const auto right = files.find(found.partner);
       if (right == files.end()) continue;
       for (const auto& [file, eye] : {std::pair{left, Eye::left}, {right->second, Eye::right}})
@@ -364,7 +364,7 @@ Flat paired(const Files& files, Mark mark) {
   return flat;
 }
 
-void refuse_singles(const Files& files, const Flat& flat, Mark mark) {
+void refuse_singles(const Files& files, const FlatFolder& flat, Mark mark) {
   std::map<fs::path, Eye> singles;
   std::size_t left = flat.pairs.size(), right = left;
   for (const auto& [name, file] : files)
@@ -383,9 +383,10 @@ std::optional<Mark> mark_of(const std::vector<fs::path>& images) {
   for (const fs::path& image : images) files.emplace(small_letters(image.stem().string()), image);
   const auto has_pair = [&](Mark mark) {
     return std::any_of(files.begin(), files.end(), [&](const auto& file) {
-      const std::vector<Marked> marks = marks_in(file.second.stem().string(), mark, Eye::left, Named::file);
+      const std::vector<EyeMark> marks =
+          marks_in(file.second.stem().string(), mark, Eye::left, MarkPlace::file);
       return std::any_of(marks.begin(), marks.end(),
-                         [&](const Marked& m) { return files.contains(m.partner); });
+                         [&](const EyeMark& m) { return files.contains(m.partner); });
     });
   };
   for (const Mark mark : kMarks)
@@ -433,7 +434,7 @@ FoundPairs find_pairs(const fs::path& folder) {
   for (const fs::path& image : images)
     if (says(image, *mark, Eye::left) || says(image, *mark, Eye::right)) sided.push_back(image);
   const Files files = by_name(sided);
-  Flat flat = paired(files, *mark);
+  FlatFolder flat = paired(files, *mark);
   refuse_singles(files, flat, *mark);
   return {in_order(std::move(flat.pairs)), images.size() - sided.size()};
 }

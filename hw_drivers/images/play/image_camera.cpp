@@ -131,7 +131,7 @@ ImageCamera::ImageCamera(const Reel& reel, Log& log, bool waits) {
   }
 }
 
-bool ImageCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
+bool ImageCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   using State = Playback::State;
   // The end comes after the last frame, even if both are known at once.
   const bool newer = playback_->take(now);

@@ -64,7 +64,7 @@ class Playback {
   std::atomic<State> state_ = State::playing;
 
   // Data of the caller of take().
-  Every frames_;
+  DueTimes frames_;
   bool begun_ = false;
   Time exposed_{};
   std::thread reader_, teller_;
@@ -83,7 +83,7 @@ class ImageCamera final : public StereoCamera {
   [[nodiscard]] ImageSize size() const override { return size_; }
   // Frame n has the time n / rate after the first poll. The end or a stall (stale) and a damaged file (fault)
   // are reported once, with the last frame and its time.
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
 
  private:
   std::string words_;

@@ -212,7 +212,7 @@ std::string NetftSensor::describe() const {
   return text;
 }
 
-Stamped<Wrench> NetftSensor::read(Time now) noexcept {
+Measurement<Wrench> NetftSensor::read(Time now) noexcept {
   const bool first = !reading_;
   reading_ = true;
   arrival_.begin(now, net::steady_now());
@@ -233,7 +233,7 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   // The silence counts from the time of reading, not of arrival. Records lost in a full socket during a
   // delayed tick are not silence.
   if (session_.counts().records > before) heard_ = arrival_.of(now, net::steady_now());
-  Stamped<Wrench> newest = session_.newest();
+  Measurement<Wrench> newest = session_.newest();
   newest.t = std::min(newest.t, now);  // the record may be newer than the time of a delayed tick
   if (linked_) read_ = now;            // after a lost link, the silence no longer grows
   if (silence() > settings_.silent + 1e-9) linked_ = false;

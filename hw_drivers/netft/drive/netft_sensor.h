@@ -48,7 +48,7 @@ class NetftSensor final : public ForceSensor {
   [[nodiscard]] bool is_fake() const override { return found_.serial.find(kFakeName) != std::string::npos; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
-  Stamped<Wrench> read(Time now) noexcept override;
+  Measurement<Wrench> read(Time now) noexcept override;
 
  private:
   void ask(Command command) noexcept;

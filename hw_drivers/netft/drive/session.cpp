@@ -41,11 +41,11 @@ double CounterRate::measured() const noexcept {
   const auto quarter = static_cast<std::ptrdiff_t>(seen_.size() / 4);
   constexpr int kTurns = 3;
   for (int turn = 0; turn < kTurns && rate > 0.0; ++turn) {
-    const auto quicker = [rate](const Seen& a, const Seen& b) {
+    const auto quicker = [rate](const SampleArrival& a, const SampleArrival& b) {
       return a.came - a.sample / rate < b.came - b.sample / rate;
     };
-    const Seen& early = *std::min_element(seen_.begin(), seen_.begin() + quarter, quicker);
-    const Seen& late = *std::min_element(seen_.end() - quarter, seen_.end(), quicker);
+    const SampleArrival& early = *std::min_element(seen_.begin(), seen_.begin() + quarter, quicker);
+    const SampleArrival& late = *std::min_element(seen_.end() - quarter, seen_.end(), quicker);
     if (late.came > early.came) rate = (late.sample - early.sample) / (late.came - early.came);
   }
   return rate;

@@ -37,14 +37,14 @@ class CounterRate {
   [[nodiscard]] double known() const noexcept;
 
  private:
-  struct Seen {
+  struct SampleArrival {
     double sample = 0.0;  // since the first
     double came = 0.0;    // s, since the first
   };
   double set_;
   std::uint32_t last_ = 0;
   Duration first_{};
-  std::vector<Seen> seen_;
+  std::vector<SampleArrival> seen_;
 };
 
 // "7,000"
@@ -70,7 +70,7 @@ class Session {
   // one continues from there, as after a restart of the box.
   void take(std::span<const std::byte> datagram, Time now) noexcept;
   // absent before the first record
-  [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
+  [[nodiscard]] const Measurement<Wrench>& newest() const noexcept { return newest_; }
   [[nodiscard]] net::ClockEstimate clock() const noexcept {
     return tie_.estimate();
   }  // 0 at its first record
@@ -95,7 +95,7 @@ class Session {
   // Samples and time of the first record, or of the first one after a restart of the box.
   std::int64_t since_samples_ = 0;
   Time since_{};
-  Stamped<Wrench> newest_;
+  Measurement<Wrench> newest_;
   Time last_{};  // arrival of the last record
 };
 

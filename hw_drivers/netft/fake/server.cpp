@@ -49,7 +49,7 @@ bool Box::take(std::span<const std::byte> bytes) noexcept {
 }
 
 Record Box::record(Time now) noexcept {
-  const Stamped<Wrench> said = sensor_.read(now);
+  const Measurement<Wrench> said = sensor_.read(now);
   const Wrench& wrench = said.value;
   Record record;
   record.status = failure_;

@@ -176,10 +176,10 @@ double half_width(const Eigen::RowVectorXd& values) {
   return 0.5 * (at(0.975) - at(0.025));
 }
 
-BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::array<double, 4>& curve,
-                  double limit, bool pressing, const CurveErrors& errors) {
+BranchEstimate known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::array<double, 4>& curve,
+                     double limit, bool pressing, const CurveErrors& errors) {
   const Eigen::Index at = pressing ? 0 : 4;
-  BranchKnown k;
+  BranchEstimate k;
   const Eigen::MatrixXd x = drawn.middleRows(at, 4);
   for (std::size_t i = 0; i < 4; ++i)
     k.coefficients[i] = {curve[i], half_width(x.row(static_cast<Eigen::Index>(i))) /

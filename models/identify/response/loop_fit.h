@@ -11,14 +11,14 @@
 namespace enc::models {
 
 // A value and half of the width of its 95 % interval.
-struct Known {
+struct LoopEstimate {
   double value = 0.0, half = 0.0;
 };
 
-struct BranchKnown {
-  std::array<Known, 4> coefficients;  // coefficients of d^1..d^4, N/m^k
+struct BranchEstimate {
+  std::array<LoopEstimate, 4> coefficients;  // coefficients of d^1..d^4, N/m^k
   // N, at 1, 2, ... mm up to the limit: includes noise, repeats, the zero and the polynomial's shape.
-  std::vector<Known> curve;
+  std::vector<LoopEstimate> curve;
   // N, at these depths: half of the interval of the repeats' mean; unset for fewer than three repeats.
   std::vector<double> repeats;
   double condition = 0.0;     // condition of the normal matrix, its columns scaled to length 1
@@ -29,7 +29,7 @@ struct BranchKnown {
 struct LoopFit {
   ResponseFit curves;
   StopsFit stops;
-  BranchKnown press, release;
+  BranchEstimate press, release;
   double repeatability = 0.0;     // N: largest spread between repeats at equal deflection and branch
   double repeatability_at = 0.0;  // m
   std::size_t presses = 0, readings = 0;

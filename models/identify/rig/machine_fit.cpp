@@ -31,7 +31,7 @@ constexpr double kScaleOff = 0.005;         // share of a tracker's lengths: a g
 constexpr double kScaleSure = 4.0;          // standard deviations
 constexpr double kExactPlace = 1e-8, kExactTurn = 1e-9;  // m, rad: no device is better
 
-struct Both {
+struct PosePair {
   Pose<'W', 'C'> X_WC;
   Pose<'H', 'T'> X_HT;
 };
@@ -60,7 +60,7 @@ Mat3 rotation_of(const Eigen::Matrix<double, 9, 1>& stacked) {
   return nearest_rotation(m.determinant() < 0.0 ? Mat3(-m) : m);
 }
 
-Both first_guess(std::span<const EyeStand> stands) {
+PosePair first_guess(std::span<const EyeStand> stands) {
   Mat9 K = Mat9::Zero();
   for (const EyeStand& stand : stands) {
     const Mat3 A = stand.X_WH.q().toRotationMatrix(), B = stand.X_CT.q().toRotationMatrix();
@@ -83,7 +83,7 @@ Both first_guess(std::span<const EyeStand> stands) {
 }
 
 // Unknowns: rotation and position of C in W about and along W's axes, then those of T in H along H's axes.
-Both moved(const Both& at, const VectorXd& by) {
+PosePair moved(const PosePair& at, const VectorXd& by) {
   const Pose<'W', 'C'>& c = at.X_WC;
   const Pose<'H', 'T'>& t = at.X_HT;
   return {{(turn_by(by.segment<3>(0)) * c.q()).normalized(), Vec3(c.p() + by.segment<3>(3))},
@@ -91,7 +91,7 @@ Both moved(const Both& at, const VectorXd& by) {
 }
 
 // Residuals, measured minus expected: position of the tool in C, then its rotation, stand by stand.
-VectorXd left_over(std::span<const EyeStand> stands, const Both& at) {
+VectorXd left_over(std::span<const EyeStand> stands, const PosePair& at) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   VectorXd left(6 * n);
   const Pose<'C', 'W'> X_CW = at.X_WC.inverse();
@@ -104,7 +104,7 @@ VectorXd left_over(std::span<const EyeStand> stands, const Both& at) {
   return left;
 }
 
-MatrixXd slopes(std::span<const EyeStand> stands, const Both& at) {
+MatrixXd slopes(std::span<const EyeStand> stands, const PosePair& at) {
   constexpr double kStep = 1e-6;  // rad and m
   MatrixXd by(6 * static_cast<Eigen::Index>(stands.size()), kPoseUnknowns);
   for (Eigen::Index k = 0; k < kPoseUnknowns; ++k) {
@@ -147,7 +147,7 @@ bool settled(const Scatter& now, const Scatter& before) {
 
 // Both positions absorb a tracker's scale error, so only their residuals show it. Their scatter is known once
 // the scale is removed.
-void check_scale(std::span<const EyeStand> stands, const Both& at, const VectorXd& left) {
+void check_scale(std::span<const EyeStand> stands, const PosePair& at, const VectorXd& left) {
   const auto n = static_cast<Eigen::Index>(stands.size());
   MatrixXd by(6 * n, kPoseUnknowns + 1);
   by.leftCols(kPoseUnknowns) = slopes(stands, at);
@@ -175,8 +175,8 @@ void check_scale(std::span<const EyeStand> stands, const Both& at, const VectorX
 }
 
 // Least squares over position and rotation, with the scatter of both from the residuals.
-Both best_fit(std::span<const EyeStand> stands) {
-  Both at = first_guess(stands);
+PosePair best_fit(std::span<const EyeStand> stands) {
+  PosePair at = first_guess(stands);
   Scatter scatter = scatter_of(left_over(stands, at));
   constexpr int kRounds = 50;
   for (int round = 0; round < kRounds; ++round) {
@@ -192,7 +192,7 @@ Both best_fit(std::span<const EyeStand> stands) {
 }
 
 // Sets poses, tip and their intervals. inverse: of the normal equations; reach: Student's t.
-void set_poses(const Both& at, const MatrixXd& inverse, double reach, HandEyeFit& fit) {
+void set_poses(const PosePair& at, const MatrixXd& inverse, double reach, HandEyeFit& fit) {
   fit.X_WC = at.X_WC;
   fit.X_HT = at.X_HT;
   const VectorXd half = reach * inverse.diagonal().cwiseSqrt();
@@ -237,7 +237,7 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
                     "the tracker sees it in all poses",
                     stands.size(), kFewestSeen));
   check_turns(stands);
-  const Both at = best_fit(stands);
+  const PosePair at = best_fit(stands);
   const VectorXd left = left_over(stands, at);
   const MatrixXd by = weights_of(scatter_of(left), left.size()).asDiagonal() * slopes(stands, at);
   const MatrixXd inverse = (by.transpose() * by).inverse();
@@ -336,7 +336,7 @@ MatrixXd covariance(const Log& log, double ratio) {
   return all;
 }
 
-struct Solved {
+struct FitSolution {
   Estimate at;
   MatrixXd inverse;                                              // inverse of the normal matrix
   double variance = kUnset;                                      // variance of a stand's mean
@@ -345,13 +345,14 @@ struct Solved {
 };
 
 // The rows of each axis are together, so that one triangular matrix whitens every axis.
-struct Whitened {
+struct Whitening {
   MatrixXd by;
   VectorXd left;
 };
-Whitened whitened(std::span<const WeightStand> stands, const Estimate& at, const Eigen::LLT<MatrixXd>& root) {
+Whitening whitened(std::span<const WeightStand> stands, const Estimate& at,
+                   const Eigen::LLT<MatrixXd>& root) {
   const auto n = static_cast<Eigen::Index>(stands.size());
-  Whitened w{MatrixXd::Zero(3 * n, kWeightUnknowns), VectorXd(3 * n)};
+  Whitening w{MatrixXd::Zero(3 * n, kWeightUnknowns), VectorXd(3 * n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const WeightStand& stand = stands[static_cast<std::size_t>(i)];
     const Vec3 each = at.R_FH * weight_per_kg(stand), left = left_over(stand, at);
@@ -370,13 +371,13 @@ Whitened whitened(std::span<const WeightStand> stands, const Estimate& at, const
   return w;
 }
 
-Solved solved(const Log& log, Estimate at, double ratio) {
+FitSolution solved(const Log& log, Estimate at, double ratio) {
   const std::span<const WeightStand> stands = log.stands;
   const Eigen::LLT<MatrixXd> root(covariance(log, ratio));
-  Solved result;
+  FitSolution result;
   result.ratio = ratio;
   constexpr int kRounds = 20;
-  Whitened w = whitened(stands, at, root);
+  Whitening w = whitened(stands, at, root);
   for (int round = 0; round < kRounds; ++round) {
     const VectorXd step = w.by.colPivHouseholderQr().solve(w.left);
     at.R_FH = (turn_by(step.head<3>()) * Quat(at.R_FH)).normalized().toRotationMatrix();
@@ -397,10 +398,10 @@ Solved solved(const Log& log, Estimate at, double ratio) {
   return result;
 }
 
-Solved best_of(const Log& log, const Estimate& guess) {
-  Solved best = solved(log, guess, 0.0);
+FitSolution best_of(const Log& log, const Estimate& guess) {
+  FitSolution best = solved(log, guess, 0.0);
   for (int i = -16; i <= 16; ++i) {
-    const Solved one = solved(log, guess, std::pow(10.0, 0.25 * i));
+    const FitSolution one = solved(log, guess, std::pow(10.0, 0.25 * i));
     if (one.likelihood > best.likelihood) best = one;
   }
   return best;
@@ -411,7 +412,7 @@ Solved best_of(const Log& log, const Estimate& guess) {
 struct AxisSlope {
   double value = kUnset, deviation = kUnset;
 };
-AxisSlope slope_of(const Log& log, const Solved& found, Eigen::Index axis) {
+AxisSlope slope_of(const Log& log, const FitSolution& found, Eigen::Index axis) {
   const auto n = static_cast<Eigen::Index>(log.stands.size());
   MatrixXd by(n, 2);
   VectorXd read(n);
@@ -429,7 +430,7 @@ AxisSlope slope_of(const Log& log, const Solved& found, Eigen::Index axis) {
   return {slope(0), std::sqrt(std::max(left, 1e-18) * inverse(0, 0))};
 }
 
-void check_axes(const Log& log, const Solved& found) {
+void check_axes(const Log& log, const FitSolution& found) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const AxisSlope slope = slope_of(log, found, axis);
     const double off = std::abs(slope.value - 1.0);
@@ -470,7 +471,7 @@ WeightFit fit_weight(std::span<const WeightStand> stands, double end) {
                             kFewestWeighed));
   const double last = stands.back().time;
   const Log log{stands, end > last ? end : last};
-  const Solved found = best_of(log, first_guess(stands));
+  const FitSolution found = best_of(log, first_guess(stands));
   const double freedom = 3.0 * static_cast<double>(stands.size()) - static_cast<double>(kWeightUnknowns);
   const double reach = student(freedom, kNormal99) * std::sqrt(found.variance);
   const VectorXd half = reach * found.inverse.diagonal().cwiseSqrt();

@@ -16,7 +16,7 @@ inline constexpr double kNormal99 = 2.575829;  // two-sided quantile of 99 %
 
 // Half of the width of the 99 % interval. A wrong calibration moves a machine to a wrong position, so its
 // intervals are wider than those of a report.
-struct Uncertain {
+struct UncertainValue {
   double value = kUnset, half = kUnset;
   [[nodiscard]] bool holds(double x) const { return std::abs(x - value) <= half; }
 };
@@ -72,7 +72,7 @@ struct WeightStand {
 };
 
 struct WeightFit {
-  Uncertain mass;        // kg, everything behind the sensor
+  UncertainValue mass;   // kg, everything behind the sensor
   UncertainVec zero;     // N in F, at `end`
   Quat R_HF;             // rotation of the sensor under the tip
   Vec3 turn_half;        // rad, 99 %, about F's axes

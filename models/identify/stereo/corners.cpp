@@ -24,7 +24,7 @@ struct Grid {
 
 // The area beyond a side: the board goes on if the squares alternate there, and ends if a margin or
 // background begins. The answer is open if the image ends before.
-enum class Beyond : std::uint8_t { ends, goes_on, open };
+enum class Continuation : std::uint8_t { ends, goes_on, open };
 
 // Half of the window in which a corner is refined. Its diagonal must not reach the board's edge, which may be
 // half a square away, and never the next corner.
@@ -91,7 +91,7 @@ bool alternates(const cv::Mat& grey, const Grid& grid) {
 }
 
 // Examines the area beyond the last column. The grid must have at least three columns and rows.
-Beyond beyond(const cv::Mat& grey, const Grid& grid) {
+Continuation beyond(const cv::Mat& grey, const Grid& grid) {
   constexpr float kInto = 0.3F;       // share of a square, from a corner into the four squares around it
   constexpr double kAlike = -0.5;     // share of the contrast before the corner, for the contrast behind it
   constexpr double kContrast = 12.0;  // of 255
@@ -110,8 +110,8 @@ Beyond beyond(const cv::Mat& grey, const Grid& grid) {
     const double behind = brightness(grey, corner + out + along) - brightness(grey, corner + out - along);
     if (std::abs(before) > kContrast && behind / before < kAlike) ++alternate;
   }
-  if (2 * seen < grid.rows + 1) return Beyond::open;
-  return 4 * alternate >= 3 * seen ? Beyond::goes_on : Beyond::ends;
+  if (2 * seen < grid.rows + 1) return Continuation::open;
+  return 4 * alternate >= 3 * seen ? Continuation::goes_on : Continuation::ends;
 }
 
 // A quarter turn: the last column becomes the first row.
@@ -161,7 +161,7 @@ bool find_by_outlines(const cv::Mat& grey, const cv::Size& size, std::vector<cv:
 
 bool goes_on(const cv::Mat& grey, Grid grid) {
   for (int side = 0; side < 4; ++side, grid = turned(grid))
-    if (beyond(grey, grid) == Beyond::goes_on) return true;
+    if (beyond(grey, grid) == Continuation::goes_on) return true;
   return false;
 }
 

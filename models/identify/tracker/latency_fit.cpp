@@ -81,14 +81,14 @@ using Mat4 = Eigen::Matrix4d;
 enum Column : Eigen::Index { kRest, kMoving, kAge, kStep };
 
 // One packet as seen by an axis.
-struct Seen {
+struct PacketObservation {
   double error, speed;  // m: tool minus tip at the assumed age; m/s of the tip then
   std::size_t block;
   double t;
 };
-using Axis = std::vector<Seen>;
+using Axis = std::vector<PacketObservation>;
 
-struct Solved {
+struct LatencySolution {
   Vec4 x = Vec4::Zero();
   std::array<bool, 4> used{};
   std::array<Blocks, 4> blocks;
@@ -175,25 +175,25 @@ class Fit {
   // Determines whether an axis moves, from which speed on, and in which directions.
   void describe(std::size_t a) {
     std::vector<double> speeds;
-    for (const Seen& s : axes_[a])
+    for (const PacketObservation& s : axes_[a])
       if (std::abs(s.speed) > kStill) speeds.push_back(std::abs(s.speed));
     fastest_[a] = speeds.empty() ? 0.0 : percentile(speeds, 0.95);  // one jump of a reading is no motion
     limit_[a] = std::max(kStill, 0.1 * fastest_[a]);
     std::size_t ahead = 0, back = 0;
-    for (const Seen& s : axes_[a]) ahead += s.speed > limit_[a], back += s.speed < -limit_[a];
+    for (const PacketObservation& s : axes_[a]) ahead += s.speed > limit_[a], back += s.speed < -limit_[a];
     moving_[a] = ahead + back;
     backwards_[a] = std::min(ahead, back);
     moved_[a] = travel_(static_cast<Eigen::Index>(a)) > kStill && moving_[a] >= kFewestPackets;
     both_[a] = moved_[a] && backwards_[a] >= kFewestPackets;
   }
 
-  [[nodiscard]] bool moves(std::size_t a, const Seen& s) const {
+  [[nodiscard]] bool moves(std::size_t a, const PacketObservation& s) const {
     return moved_[a] && std::abs(s.speed) > limit_[a];
   }
-  [[nodiscard]] double variance(std::size_t a, const Seen& s) const {
+  [[nodiscard]] double variance(std::size_t a, const PacketObservation& s) const {
     return noise_[a] * noise_[a] + std::pow(s.speed * scatter_, 2);
   }
-  [[nodiscard]] Vec4 row(std::size_t a, const Seen& s, bool with_step) const {
+  [[nodiscard]] Vec4 row(std::size_t a, const PacketObservation& s, bool with_step) const {
     Vec4 x = Vec4::Zero();
     const bool moving = moves(a, s);
     x(moving && both_[a] ? kMoving : kRest) = 1.0;
@@ -202,15 +202,15 @@ class Fit {
     return x;
   }
 
-  [[nodiscard]] Solved solve(std::size_t a, bool with_step) const {
+  [[nodiscard]] LatencySolution solve(std::size_t a, bool with_step) const {
     Mat4 gram = Mat4::Zero();
     Vec4 moment = Vec4::Zero();
-    for (const Seen& s : axes_[a]) {
+    for (const PacketObservation& s : axes_[a]) {
       const Vec4 x = row(a, s, with_step);
       gram += x * x.transpose() / variance(a, s);
       moment += x * s.error / variance(a, s);
     }
-    Solved out;
+    LatencySolution out;
     for (Eigen::Index c = 0; c < 4; ++c) {
       out.used[static_cast<std::size_t>(c)] = gram(c, c) > 0.0;
       if (!(gram(c, c) > 0.0)) gram(c, c) = 1.0;
@@ -223,7 +223,7 @@ class Fit {
         size.cwiseInverse().asDiagonal() * scaled.inverse() * size.cwiseInverse().asDiagonal();
     out.x = covariance * moment;
     for (Blocks& b : out.blocks) b.influence.assign(blocks_, 0.0), b.weight.assign(blocks_, 0.0);
-    for (const Seen& s : axes_[a]) {
+    for (const PacketObservation& s : axes_[a]) {
       const Vec4 x = row(a, s, with_step);
       const Vec4 influence = covariance * x * ((s.error - x.dot(out.x)) / variance(a, s));
       for (Eigen::Index c = 0; c < 4; ++c) {
@@ -242,7 +242,7 @@ class Fit {
       if (noise_[a] <= 0.0) noise_[a] = rough_noise(a);
       solved_[a] = solve(a, false);
       double sum = 0.0, count = 0.0;
-      for (const Seen& s : axes_[a]) {
+      for (const PacketObservation& s : axes_[a]) {
         if (std::abs(s.speed) > kStill) continue;
         sum += std::pow(s.error - row(a, s, false).dot(solved_[a].x), 2);
         ++count;
@@ -254,7 +254,7 @@ class Fit {
     if (bottom > 0.0) scatter_ = std::sqrt(std::max(0.0, top / bottom));
   }
   void add_scatter(std::size_t a, double& top, double& bottom) const {
-    for (const Seen& s : axes_[a]) {
+    for (const PacketObservation& s : axes_[a]) {
       if (!moves(a, s)) continue;
       const double u = s.speed * s.speed, w = u / std::pow(variance(a, s), 2);
       const double left = s.error - row(a, s, false).dot(solved_[a].x);
@@ -264,7 +264,7 @@ class Fit {
   }
   double rough_noise(std::size_t a) const {
     std::vector<double> errors;
-    for (const Seen& s : axes_[a])
+    for (const PacketObservation& s : axes_[a])
       if (std::abs(s.speed) <= kStill) errors.push_back(s.error);
     const double middle = median(errors);
     for (double& e : errors) e = std::abs(e - middle);
@@ -274,7 +274,7 @@ class Fit {
   void drop_outliers() {
     for (std::size_t i = 0; i < index_.size(); ++i)
       for (std::size_t a = 0; a < 3; ++a) {
-        const Seen& s = axes_[a][i];
+        const PacketObservation& s = axes_[a][i];
         const double left = s.error - row(a, s, false).dot(solved_[a].x);
         if (std::abs(left) > kOutlier * std::sqrt(variance(a, s)) + 5e-6) left_out_[index_[i]] = true;
       }
@@ -284,9 +284,9 @@ class Fit {
   [[nodiscard]] Interval common() const {
     double information = 0.0, sum = 0.0;
     Blocks all{std::vector<double>(blocks_, 0.0), std::vector<double>(blocks_, 0.0)};
-    for (const Solved& s : solved_) information += s.information;
+    for (const LatencySolution& s : solved_) information += s.information;
     if (!(information > 0.0)) return {0.0, kUnset};
-    for (const Solved& s : solved_) {
+    for (const LatencySolution& s : solved_) {
       const double share = s.information / information;
       sum += share * s.x(kAge);
       for (std::size_t b = 0; b < blocks_; ++b) {
@@ -301,7 +301,7 @@ class Fit {
     constexpr std::array<double, 3> kChance{0.0, 3.841, 5.991};  // chi-squared, 95 %, by freedom
     double sum = 0.0;
     std::size_t count = 0;
-    for (const Solved& s : solved_) {
+    for (const LatencySolution& s : solved_) {
       if (!s.used[kAge]) continue;
       sum += std::pow(s.x(kAge) - shared, 2) / s.blocks[kAge].variance();
       ++count;
@@ -317,7 +317,7 @@ class Fit {
     if (!(bottom > 0.0)) return {};
     const double square = std::max(0.0, top / bottom);
     for (std::size_t a = 0; a < 3; ++a)
-      for (const Seen& s : axes_[a]) {
+      for (const PacketObservation& s : axes_[a]) {
         if (!moves(a, s)) continue;
         const double u = s.speed * s.speed, w = u / std::pow(variance(a, s), 2);
         const double left = s.error - row(a, s, false).dot(solved_[a].x);
@@ -350,7 +350,7 @@ class Fit {
 
   [[nodiscard]] AxisLatency axis(std::size_t a) const {
     AxisLatency out;
-    const Solved& s = solved_[a];
+    const LatencySolution& s = solved_[a];
     out.latency = s.interval(kAge);
     out.latency.value += age_;
     out.bias = rest_[a] >= kFewestPackets || both_[a]
@@ -386,7 +386,7 @@ class Fit {
   [[nodiscard]] bool speeds_differ(std::size_t a) const {
     if (!moved_[a]) return false;
     double slow = 0.0, fast = 0.0;
-    for (const Seen& s : axes_[a]) {
+    for (const PacketObservation& s : axes_[a]) {
       if (!moves(a, s)) continue;
       if (std::abs(s.speed) > 0.85 * fastest_[a]) ++fast;
       if (std::abs(s.speed) > 0.2 * fastest_[a] && std::abs(s.speed) < 0.6 * fastest_[a]) ++slow;
@@ -421,7 +421,7 @@ class Fit {
   std::vector<bool> left_out_;
   std::vector<std::size_t> index_;  // packet of each entry of an axis
   std::array<Axis, 3> axes_;
-  std::array<Solved, 3> solved_;
+  std::array<LatencySolution, 3> solved_;
   std::size_t blocks_ = 0;
   std::array<double, 3> noise_{}, fastest_{}, limit_{};
   std::array<std::size_t, 3> moving_{}, backwards_{}, rest_{};

@@ -48,13 +48,13 @@ TEST(Extremes, TheJudgeObjectsToACommandOfAnArm) {
 
 TEST(Extremes, EachNumberOfTheInputsIsSpoiledAlone) {
   Inputs none;
-  Spoil count;
+  InputSpoiler count;
   fields(count, none);
   ASSERT_GT(count.seen, 60);
   for (const Junk junk : kJunk)
     for (int i = 0; i < count.seen; ++i) {
       Inputs in;
-      Spoil one{i, junk};
+      InputSpoiler one{i, junk};
       fields(one, in);
       EXPECT_FALSE(one.name.empty()) << i;
       EXPECT_EQ(one.seen, count.seen);

@@ -20,7 +20,7 @@ Law law(double stiffness, double friction) {
 
 TEST(FirstTouch, IsFoundAndJudgedAlikeByTheLawOfItsOwn) {
   const models::Setup setup = session();
-  const Watched watched = watch_touch(setup, 1);
+  const TouchRecord watched = watch_touch(setup, 1);
   EXPECT_EQ(watched.failure, "");
   ASSERT_FALSE(std::isnan(watched.touch.at));
   EXPECT_GT(watched.touch.speed, 5e-3);
@@ -34,7 +34,7 @@ TEST(FirstTouch, IsFoundAndJudgedAlikeByTheLawOfItsOwn) {
 
 TEST(FirstTouch, LawConvergesAndWithoutStiffnessNothingPushes) {
   const models::Setup setup = session();
-  const Watched watched = watch_touch(setup, 1);
+  const TouchRecord watched = watch_touch(setup, 1);
   const FirstTouch coarse = refer(setup, 1, watched, law(1e5, 0.6), 5e-6);
   const FirstTouch fine = refer(setup, 1, watched, law(1e5, 0.6), 2e-6);
   EXPECT_NEAR(coarse.grip, fine.grip, 2e-3 * fine.grip);

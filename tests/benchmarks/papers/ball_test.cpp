@@ -53,7 +53,7 @@ TEST(Contour, TwoCirclesAreTheirRadiiApart) {
   EXPECT_NEAR(gap.rms, 0.5e-3, 1e-8);
   EXPECT_NEAR(gap.largest, 0.5e-3, 1e-7);
   EXPECT_NEAR(gap.half_rms, 0.5e-3, 1e-8);
-  const GapAlong along = gap_along(circle(kRadius), circle(kRadius - 0.5e-3));
+  const GapProfile along = gap_along(circle(kRadius), circle(kRadius - 0.5e-3));
   EXPECT_NEAR(along.outside.front(), -0.5e-3, 1e-7);
   EXPECT_NEAR(along.outside.back(), -0.5e-3, 1e-7);
   EXPECT_NEAR(along.length.back(), 0.5 * std::numbers::pi * kRadius, 0.1e-3);

@@ -62,7 +62,7 @@ TEST(ButtonProperty, DistancesAreThoseOfABoxAndInsideThoseToItsFace) {
     const Button button{random.even(0.002, 0.05), random.even(0.002, 0.05), random.even(0.002, 0.05)};
     const Surface surface{button};
     const Vec3 p = random.in_cube(0.06);
-    const Nearest at = surface.nearest(Point<'O'>(p));
+    const SurfacePoint at = surface.nearest(Point<'O'>(p));
     const bool over = std::abs(p.x()) <= 0.5 * button.width && std::abs(p.y()) <= 0.5 * button.height;
     const bool face = over && p.z() >= -button.thickness;
     inside += face && p.z() < 0.0 ? 1 : 0;
@@ -83,7 +83,7 @@ TEST(ButtonProperty, EdgesAreExact) {
     const Button button{random.even(0.002, 0.05), random.even(0.002, 0.05), 0.02};
     const double off = i % 2 == 0 ? 1e-9 : -1e-9;
     const double y = random.even(-0.4, 0.4) * button.height, z = random.even(-0.01, 0.01);
-    const Nearest at = Surface{button}.nearest(Point<'O'>(0.5 * button.width + off, y, z));
+    const SurfacePoint at = Surface{button}.nearest(Point<'O'>(0.5 * button.width + off, y, z));
     ASSERT_EQ(at.feature, off > 0 ? kButtonSide : kButtonFace);
     ASSERT_NEAR(at.point.xyz[0], 0.5 * button.width + std::min(off, 0.0), 1e-15);
   }
@@ -108,7 +108,7 @@ TEST(NearestObject, IsTheRightOneInAllQueries) {
     loop.state = State{};
     loop.tool_tip = Point<'W'>(random.in_cube(bench::switching::kCrowdRoom));
     loop.tick();
-    const bench::switching::Nearby right = bench::switching::brute_force(loop.scene, loop.tool_tip);
+    const bench::switching::NearestObject right = bench::switching::brute_force(loop.scene, loop.tool_tip);
     ASSERT_EQ(loop.out.object, right.object) << i;
     // Beside a button the gap is the distance to its edge.
     const bool beside =

@@ -109,7 +109,7 @@ TEST(ReachMeasure, SaysWhichObjectIsFelt) {
 
 TEST(WantedAt, IsUnderTheFingerOrInTheMiddleOfAButton) {
   Object wall{Surface{Plane{}}, Pose<'W', 'O'>::shift(0, 0, 0), {}};
-  const trial::Wanted under = trial::wanted_at(wall, {0.01, 0.02, 0.03});
+  const trial::PropTarget under = trial::wanted_at(wall, {0.01, 0.02, 0.03});
   EXPECT_LT((under.point - Point<'W'>(0.01, 0.02, 0.0)).norm(), 1e-15);
   EXPECT_NEAR(under.distance, 0.03, 1e-15);
   Object key{Surface{Button{0.015, 0.015, 0.01}}, Pose<'W', 'O'>::shift(0.1, 0, 0), {}};
@@ -138,7 +138,7 @@ SeenReach seen_reach() {
 
 TEST(ReachIdeal, FindsWhereAReachTouchesThatIsToldWhen) {
   const SeenReach reach = seen_reach();
-  const Ideal ideal = ideal_place({}, reach, reach.met, reach.met);
+  const IdealPrediction ideal = ideal_place({}, reach, reach.met, reach.met);
   EXPECT_LT((ideal.place - reach.where).norm(), 4e-3);  // the newest picture is 75 ms old
   EXPECT_GT(ideal.within, 0.1);
   EXPECT_LT(ideal.within, 1.0);

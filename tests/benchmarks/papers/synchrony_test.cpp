@@ -170,7 +170,7 @@ TEST(Display, AgeOfASurfaceAtEachFrameRate) {
     sim::DisplayTruth truth;
     truth.rate = rate;
     sim::DisplayPlant display(truth, scene, 5);
-    Stamped<DentSample> newest;
+    Measurement<DentSample> newest;
     double sum = 0.0, oldest = 0.0, youngest = 1.0;
     int n = 0, packets = 0;
     for (int i = 0; i < 3000; ++i) {

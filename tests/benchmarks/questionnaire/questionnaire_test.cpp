@@ -241,9 +241,9 @@ TEST(QuestionnaireOpinion, IsMeanRangeAndCounts) {
 // A figure stands beside its item; items without a measurement are left out.
 TEST(QuestionnaireProxies, AreFiguresAndNoAnswers) {
   const std::vector<ItemReference> items = items_of(small_form(), kModels);
-  Judged j;
+  FigureVerdict j;
   j.figure = {"b.x", kUnset, 0.5, "mm", Role::ours, kUnset, kUnset, ""};
-  j.felt = Felt::yes;
+  j.felt = Perception::yes;
   const Table table = proxy_table(items, {j});
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0][0], "1");

@@ -137,8 +137,8 @@ TEST(Choice, OverTheDevicesOfARigOnlyThoseThatCan) {
   }
 }
 
-const Committed& kept() {
-  static const Committed kAll = Committed::parse(
+const CommittedResults& kept() {
+  static const CommittedResults kAll = CommittedResults::parse(
       "# Figures.\nid,unit,value,least,most,low,high,commit\n"
       "x.median,N,2,1.5,2.5,,,1a2b3c4\n"
       "x.single,N,2,,,,,1a2b3c4\n"

@@ -103,11 +103,11 @@ TEST(Verdict, APatternStandsForAnyCharacters) {
 
 TEST(Verdict, AnErrorIsFeltAboveTheRangeAndNotBelow) {
   const Threshold t = of("x,any,absolute,0.4,0.3,0.5,-,-,-,-,mm,a,b,c\n").front();
-  EXPECT_EQ(felt(0.3, t), Felt::no);
-  EXPECT_EQ(felt(-0.4, t), Felt::between);
-  EXPECT_EQ(felt(0.5, t), Felt::between);
-  EXPECT_EQ(felt(-0.51, t), Felt::yes);
-  EXPECT_EQ(felt(kUnset, t), Felt::not_comparable);
+  EXPECT_EQ(felt(0.3, t), Perception::no);
+  EXPECT_EQ(felt(-0.4, t), Perception::between);
+  EXPECT_EQ(felt(0.5, t), Perception::between);
+  EXPECT_EQ(felt(-0.51, t), Perception::yes);
+  EXPECT_EQ(felt(kUnset, t), Perception::not_comparable);
 }
 
 // 7 % of 5 N is 0.35 N, 10 % of 12 N is 1.2 N, and 5 % of 1 N is less than the floor.
@@ -124,16 +124,16 @@ TEST(Verdict, EarlyAndLateHaveTheirOwnThresholds) {
       of("lag,+,absolute,50,45,50,-,-,-,-,ms,late,b,c\nlag,-,absolute,15,15,45,-,-,-,-,ms,early,b,c\n");
   const auto one = [&](double lag) { return judged({result_of("lag", lag, "ms")}, two).front(); };
   EXPECT_EQ(one(30).threshold.compares, "late");
-  EXPECT_EQ(one(30).felt, Felt::no);
+  EXPECT_EQ(one(30).felt, Perception::no);
   EXPECT_EQ(one(-30).threshold.compares, "early");
-  EXPECT_EQ(one(-30).felt, Felt::between);
+  EXPECT_EQ(one(-30).felt, Perception::between);
   EXPECT_DOUBLE_EQ(one(-30).over, 2.0);
 }
 
 TEST(Verdict, OfTheStrictestComparisonOnlyNotFeltFollows) {
   const Threshold t = of("x,any,strictest,0.4,0.3,0.5,-,-,-,-,mm,a,b,c\n").front();
-  EXPECT_EQ(felt(0.2, t), Felt::no);
-  EXPECT_EQ(felt(5.0, t), Felt::not_comparable);
+  EXPECT_EQ(felt(0.2, t), Perception::no);
+  EXPECT_EQ(felt(5.0, t), Perception::not_comparable);
 }
 
 TEST(Verdict, WhatHasNoThresholdIsNotThereAndWhatCannotBeComparedSaysSo) {
@@ -141,16 +141,17 @@ TEST(Verdict, WhatHasNoThresholdIsNotThereAndWhatCannotBeComparedSaysSo) {
   EXPECT_TRUE(judged({result_of("a.y", 1, "N")}, all).empty());
   EXPECT_TRUE(judged({result_of("a.x", 1, "mm")}, all).empty()) << "another unit is another quantity";
   EXPECT_TRUE(judged({result_of("a.x", kUnset, "N")}, all).empty());
-  const std::vector<Judged> one = judged({result_of("a.x", 1, "N")}, all);
+  const std::vector<FigureVerdict> one = judged({result_of("a.x", 1, "N")}, all);
   ASSERT_EQ(one.size(), 1U);
-  EXPECT_EQ(one[0].felt, Felt::not_comparable);
+  EXPECT_EQ(one[0].felt, Perception::not_comparable);
   EXPECT_TRUE(verdict_plot(one).y_names.empty());
   EXPECT_EQ(verdict_line(one), "1 not comparable");
 }
 
 TEST(Verdict, ThePaperIsJudgedAsTheTwinIs) {
   const std::vector<Threshold> t = of("x.*,any,absolute,0.4,0.3,0.5,-,-,-,-,mm,tip beside tip,b,c\n");
-  const std::vector<Judged> all = judged({result_of("x.1", 0.2, "mm", 0.8), result_of("x.2", 0.6, "mm")}, t);
+  const std::vector<FigureVerdict> all =
+      judged({result_of("x.1", 0.2, "mm", 0.8), result_of("x.2", 0.6, "mm")}, t);
   const Table table = verdict_table(all);
   EXPECT_THAT(table.rows[0],
               ElementsAre("x.1", "0.2", "mm", "0.4 (0.3 .. 0.5)", "0.5", "not felt", "0.8", "felt"));
@@ -182,7 +183,7 @@ TEST(Verdict, TheShippedThresholdsAreComplete) {
     EXPECT_TRUE(std::isnan(t.value) || t.source.size() > 10U) << t.figure;
   }
   const auto one = [&](const std::string& id, double twin, const char* unit) {
-    const std::vector<Judged> j = judged({result_of(id, twin, unit)}, all);
+    const std::vector<FigureVerdict> j = judged({result_of(id, twin, unit)}, all);
     return j.empty() ? std::string("none") : std::string(felt_name(j.front().felt));
   };
   EXPECT_EQ(one("tracking.rmse.norm.0", 0.16, "mm"), "not felt");

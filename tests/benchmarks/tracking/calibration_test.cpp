@@ -36,7 +36,7 @@ using models::TrackerLog;
 
 constexpr double kPeriod = 1e-3;  // s
 
-struct Made {
+struct LogErrors {
   Vec3 bias{0.1e-3, -0.05e-3, 0.2e-3};
   double noise = 0.0;                                                          // m
   std::function<double(std::size_t)> age = [](std::size_t) { return 0.020; };  // s, of packet k
@@ -46,7 +46,7 @@ struct Made {
 };
 
 // A log of one packet every 10 ms along a motion.
-TrackerLog log_of(const Motion& motion, const Made& made) {
+TrackerLog log_of(const Motion& motion, const LogErrors& made) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   TrackerLog log;
@@ -197,15 +197,15 @@ const std::string kModels = tests::source_dir() + "/models";
 Vec3 some_way(sim::Stream& random, double length) { return length * random.normal3().normalized(); }
 
 // A rig whose numbers differ from the twin's. The twin draws the sensor's zero, 0.5 N rms.
-struct Spoilt {
+struct DisturbedRig {
   models::Setup setup;
   Pose<'W', 'C'> X_WC;
   Quat R_HF;
   double mass = kUnset;
 };
-Spoilt spoilt(std::uint64_t seed) {
+DisturbedRig spoilt(std::uint64_t seed) {
   sim::Stream random(seed, "calibration");
-  Spoilt truth{models::load(kModels + "/scenes/clamped_tool.toml", ""), {}, {}, kUnset};
+  DisturbedRig truth{models::load(kModels + "/scenes/clamped_tool.toml", ""), {}, {}, kUnset};
   sim::TwinSpec& twin = truth.setup.twin;
   const auto turned = [&](const PoseSpec& believed) {
     return Quat(models::turn_by(some_way(random, kTurn)) * rotation_xyz(believed.rotation));
@@ -226,19 +226,19 @@ Spoilt spoilt(std::uint64_t seed) {
 
 constexpr std::array kNumbers{"place of the tracker",     "turn of the tracker", "turn of the force sensor",
                               "zero of the force sensor", "tip of the tool",     "mass"};
-struct Calibrated {
+struct CalibrationResult {
   std::array<std::array<bool, 3>, kNumbers.size()> held{};  // by its interval, each axis
   PoseSpec W_C;                                             // calibrated
   sim::FramesTruth frames;                                  // ground truth
 };
-Calibrated calibrated(std::uint64_t seed) {
-  const Spoilt truth = spoilt(seed);
+CalibrationResult calibrated(std::uint64_t seed) {
+  const DisturbedRig truth = spoilt(seed);
   trial::TrialOptions options{.seed = seed};
   trial::CarriedTool tool(truth.setup, options);
   const trial::MachineCalibration made = trial::calibrate_machine(tool);
   const models::HandEyeFit& eye = *made.hand_eye;
   const models::WeightFit& weight = *made.weight;
-  Calibrated result;
+  CalibrationResult result;
   const auto compare = [&](std::size_t number, const Vec3& error, const Vec3& half) {
     for (Eigen::Index a = 0; a < 3; ++a)
       result.held[number][static_cast<std::size_t>(a)] = std::abs(error(a)) <= half(a);
@@ -275,11 +275,11 @@ Travels travels(const models::Setup& setup, std::uint64_t seed) {
 
 // Results of the tracking test with a calibration's numbers: with no other error, and beside a twin that
 // never had one.
-struct Carried {
+struct TrackingResult {
   double at_rest = kUnset;  // m, mean error if the calibration is the only cause
   Travels found, right;
 };
-Carried carried(const Calibrated& with, std::uint64_t seed) {
+TrackingResult carried(const CalibrationResult& with, std::uint64_t seed) {
   const models::Setup right =
       models::load(kModels + "/scenes/tracking.toml", "", {"travel.ways=\"one_way\""});
   models::Setup setup = right;
@@ -291,14 +291,14 @@ Carried carried(const Calibrated& with, std::uint64_t seed) {
 }
 
 // Counts the seeds whose interval contains a number, along one axis.
-std::size_t held(const std::vector<Calibrated>& all, std::size_t number, std::size_t axis) {
-  return static_cast<std::size_t>(
-      std::count_if(all.begin(), all.end(), [&](const Calibrated& one) { return one.held[number][axis]; }));
+std::size_t held(const std::vector<CalibrationResult>& all, std::size_t number, std::size_t axis) {
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(), [&](const CalibrationResult& one) { return one.held[number][axis]; }));
 }
 
 // A 99 % interval holds in at least 95 % of the seeds. Few seeds count over the three axes together, many
 // along each axis.
-void expect_held(const std::vector<Calibrated>& all, bool each_axis) {
+void expect_held(const std::vector<CalibrationResult>& all, bool each_axis) {
   for (std::size_t number = 0; number < kNumbers.size(); ++number) {
     std::size_t sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -312,8 +312,8 @@ void expect_held(const std::vector<Calibrated>& all, bool each_axis) {
 }
 
 void expect_calibrated(std::size_t seeds, std::size_t travelling) {
-  std::vector<Calibrated> all(seeds);
-  std::vector<Carried> after(travelling);
+  std::vector<CalibrationResult> all(seeds);
+  std::vector<TrackingResult> after(travelling);
   in_parallel(seeds, [&](std::size_t i) {
     all[i] = calibrated(1 + i);
     if (i < travelling) after[i] = carried(all[i], 1 + i);
@@ -322,7 +322,7 @@ void expect_calibrated(std::size_t seeds, std::size_t travelling) {
   const Table1 paper = table1_of(Reference::load(kModels, "table1.csv"));
   std::vector<double> at_rest;
   Travels found, right;
-  for (const Carried& one : after) {
+  for (const TrackingResult& one : after) {
     at_rest.push_back(one.at_rest);
     found.add(one.found);
     right.add(one.right);

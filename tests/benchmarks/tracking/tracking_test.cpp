@@ -121,16 +121,16 @@ TEST(PredictedRun, PredictionLeavesWhatTheStampsGetWrong) {
 
 // The theory of Table 1 against counting: an independent tracker, server and network, packet by packet.
 
-struct Counted {
+struct TrackingScore {
   double age = 0.0, rmse = 0.0, mae = 0.0;
 };
 
 // Packets with many random phases measure a tool that oscillates: x(t) = 10 mm sin(2 pi t).
-Counted count(const ChainSpec& chain, double bias, std::uint64_t seed) {
+TrackingScore count(const ChainSpec& chain, double bias, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return (static_cast<double>(random() >> 11U) + 0.5) * 0x1p-53; };
   const auto place = [](double t) { return 0.010 * std::sin(2.0 * M_PI * t); };
-  Counted sum;
+  TrackingScore sum;
   double n = 0.0;
   for (int phase = 0; phase < 400; ++phase) {
     const double first = uniform() / chain.rate;
@@ -166,7 +166,7 @@ TEST(TrackingTheory, AgesAreThoseThatAreCounted) {
        {ChainSpec{120, 100, 0.013, 0.0, 1e-3}, ChainSpec{120, 100, 0.0035, 0.0023, 1e-3},
         ChainSpec{120, 100, 0.005, 0.008, 1e-3}, ChainSpec{60, 100, 0.010, 0.001, 1e-3},
         ChainSpec{120, 50, 0.010, 0.001, 2e-3}}) {
-    const Counted counted = count(chain, 0.0, 1);
+    const TrackingScore counted = count(chain, 0.0, 1);
     const std::vector<double> ages = likely_ages(chain, 64);
     const double mean = std::accumulate(ages.begin(), ages.end(), 0.0) / 64.0;
     EXPECT_NEAR(mean, mean_age(chain), 1e-6);

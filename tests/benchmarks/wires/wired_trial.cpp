@@ -14,7 +14,7 @@
 
 namespace enc::bench::wires {
 
-Laboratory::Laboratory(models::Setup setup, Which which, std::uint64_t seed)
+Laboratory::Laboratory(models::Setup setup, WireChoice which, std::uint64_t seed)
     : setup_(std::move(setup)), which_(which), wires_(seed) {
   for (const auto& [name, declare] :
        {std::pair{"gcs", +[](Settings& table) { gcs::GcsSettings{}.declare(table); }},
@@ -33,9 +33,9 @@ trial::TrialOptions Laboratory::behind(trial::TrialOptions options) {
   return options;
 }
 
-Pressed pressed(trial::Trial& trial) {
+PressResult pressed(trial::Trial& trial) {
   constexpr Time kBegun{Duration(10'000'000)};  // the first record exists
-  Pressed of;
+  PressResult of;
   while (trial.tick()) {
     const Mode mode = trial.outputs().mode;
     of.peak = std::max(of.peak, trial.truth().contact_force.norm());

@@ -45,14 +45,14 @@ inline constexpr double kStands = 1e-4;  // m/s: a slower machine is at standsti
   return longest;
 }
 
-using enc::wires::Which;
+using enc::wires::WireChoice;
 using enc::wires::Wires;
 
 // The wires around a trial; construct it before the trial.
 class Laboratory {
  public:
   // `setup` with every value of the drivers' tables, defaults included.
-  explicit Laboratory(models::Setup setup, Which which = {true, true, true}, std::uint64_t seed = 1);
+  explicit Laboratory(models::Setup setup, WireChoice which = {true, true, true}, std::uint64_t seed = 1);
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   // Returns the options with their devices behind the wires.
   [[nodiscard]] trial::TrialOptions behind(trial::TrialOptions options);
@@ -60,14 +60,14 @@ class Laboratory {
 
  private:
   models::Setup setup_;
-  Which which_;
+  WireChoice which_;
   Wires wires_;
   trial::DeviceLog log_;
 };
 
 class WiredTrial {
  public:
-  WiredTrial(models::Setup setup, trial::TrialOptions options, Which which = {true, true, true})
+  WiredTrial(models::Setup setup, trial::TrialOptions options, WireChoice which = {true, true, true})
       : laboratory_(std::move(setup), which, options.seed),
         trial_(laboratory_.setup(), laboratory_.behind(std::move(options))) {}
 
@@ -81,7 +81,7 @@ class WiredTrial {
 };
 
 // Result of a press of the ball: a complete trial, with wires or without.
-struct Pressed {
+struct PressResult {
   int contacts = 0;
   bool held = false;           // held after the first samples
   double peak = 0.0;           // N, ground truth
@@ -89,6 +89,6 @@ struct Pressed {
   std::vector<double> height;  // m, of the true tip, on each tick
 };
 inline constexpr double kOnePress = 20.0;  // s: the first press of tennis_ball is over
-[[nodiscard]] Pressed pressed(trial::Trial& trial);
+[[nodiscard]] PressResult pressed(trial::Trial& trial);
 
 }  // namespace enc::bench::wires

@@ -37,13 +37,13 @@ trial::TrialOptions one_press() {
 
 TEST(WiredTrial, EachDeviceBehindItsWireGivesTheSamePress) {
   WiredTrial none(fakes(), one_press(), {false, false, false});
-  const Pressed pure = pressed(none.trial());
+  const PressResult pure = pressed(none.trial());
   EXPECT_EQ(pure.contacts, 1);
-  for (const Which wires :
-       {Which{true, false, false}, {false, true, false}, {false, false, true}, {true, true, true}}) {
+  for (const WireChoice wires :
+       {WireChoice{true, false, false}, {false, true, false}, {false, false, true}, {true, true, true}}) {
     SCOPED_TRACE(testing::Message() << wires.machine << wires.force << wires.tracker);
     WiredTrial wired(fakes({"rig.driver.gcs.cycle_ms=1", "rig.driver.gcs.poll_ms=1"}), one_press(), wires);
-    const Pressed of = pressed(wired.trial());
+    const PressResult of = pressed(wired.trial());
     EXPECT_EQ(of.contacts, 1);
     EXPECT_FALSE(of.held);
     EXPECT_NEAR(of.peak, pure.peak, 0.2);
@@ -57,7 +57,7 @@ TEST(WiredTrial, SlowerCyclesOfSetPoints) {
        {std::tuple{"2", 1, false}, {"5", 1, false}, {"10", 1, false}, {"50", 0, true}}) {
     SCOPED_TRACE(cycle);
     WiredTrial wired(fakes({std::string("rig.driver.gcs.cycle_ms=") + cycle}), one_press());
-    const Pressed of = pressed(wired.trial());
+    const PressResult of = pressed(wired.trial());
     EXPECT_EQ(of.contacts, contacts);
     EXPECT_EQ(of.held, held);
     EXPECT_TRUE(held || std::abs(of.peak - 12.31) < 0.2) << of.peak;
@@ -177,8 +177,8 @@ TEST(WiredTrial, AChangeOfTheToolIsSeenWithinAPeriodOfTheTracker) {
   }
 }
 
-struct Cycled {
-  Pressed press;
+struct WiredFigures {
+  PressResult press;
   double rmse_40 = kUnset;  // m, Table 1, x at 40 mm/s
   double felt = kUnset;     // %, Fig 3 at 10 N/mm
 };
@@ -198,8 +198,8 @@ auto through(const models::Setup& setup, int cycle, const Measure& measure) {
   return measure(laboratory.behind({}), laboratory.setup());
 }
 
-Cycled with_cycle(int cycle) {
-  Cycled of;
+WiredFigures with_cycle(int cycle) {
+  WiredFigures of;
   of.press = through(on_fakes("tennis_ball", cycle, {}), cycle,
                      [&](trial::TrialOptions options, const models::Setup& with) {
                        options.seed = 1;
@@ -227,9 +227,9 @@ Cycled with_cycle(int cycle) {
 }
 
 TEST(SetPointCycles, OfOneMillisecondAreAsNoWires) {
-  std::vector<Cycled> all(3);
+  std::vector<WiredFigures> all(3);
   in_parallel(all.size(), [&](std::size_t i) { all[i] = with_cycle(std::vector{0, 1, 10}[i]); });
-  const Cycled &pure = all[0], &fast = all[1], &usual = all[2];
+  const WiredFigures &pure = all[0], &fast = all[1], &usual = all[2];
   EXPECT_EQ(fast.press.contacts, 1);
   EXPECT_EQ(usual.press.contacts, 1);
   EXPECT_NEAR(fast.press.peak, pure.press.peak, 0.2);  // N

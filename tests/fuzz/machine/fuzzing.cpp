@@ -366,7 +366,7 @@ Verdict judge(const Target& target, const std::string& input) {
     verdict.accepted = target.run(input);
   } catch (const Error& e) {
     verdict.wrong = wrong_with(e.what());
-  } catch (const Broken& e) {
+  } catch (const InvariantError& e) {
     verdict.wrong = fmt::format("accepted, but {}", e.what());
   } catch (const std::exception& e) {
     verdict.wrong = fmt::format("an exception that is no Error: {}", e.what());

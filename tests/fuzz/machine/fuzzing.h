@@ -37,11 +37,11 @@ struct Target {
   std::size_t inputs = 2000;  // in the short form
 };
 
-struct Broken : std::logic_error {
+struct InvariantError : std::logic_error {
   using std::logic_error::logic_error;
 };
 inline void expect(bool good, const std::string& what) {
-  if (!good) throw Broken(what);
+  if (!good) throw InvariantError(what);
 }
 
 // Makes a target at its first use: `static const Offer kOffer("scene", &scene);` offers one.

@@ -154,8 +154,8 @@ Target http() {
 }
 
 Target box() {
-  struct Still final : ForceSensor {
-    Stamped<Wrench> read(Time now) noexcept override {
+  struct StillSensor final : ForceSensor {
+    Measurement<Wrench> read(Time now) noexcept override {
       return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
     }
   };
@@ -165,7 +165,7 @@ Target box() {
   target.tokens = {std::string("\x12\x34", 2), std::string("\x00\x42", 2),
                    std::string("\xff\xff\xff\xff", 4)};
   target.run = [](const std::string& input) {
-    Still still;
+    StillSensor still;
     netft::Box box(still, netft::gamma());
     bool known = false;
     std::uint32_t last = 0;
@@ -227,8 +227,9 @@ void mend(std::string& input) {
 Target datagram() {
   Target target;
   const auto content = igtl::transform(Pose<'C', 'T'>::shift(0.1, 0.2, 0.9));
-  target.seeds = {text_of(igtl::Written("TRANSFORM", "stylusToTracker", 1'500'000'000, 7, content).bytes()),
-                  text_of(igtl::Written("STATUS", "Server", 1'500'000'000, 8, igtl::status(1)).bytes())};
+  target.seeds = {
+      text_of(igtl::OutgoingMessage("TRANSFORM", "stylusToTracker", 1'500'000'000, 7, content).bytes()),
+      text_of(igtl::OutgoingMessage("STATUS", "Server", 1'500'000'000, 8, igtl::status(1)).bytes())};
   target.tokens = {"TRANSFORM",
                    "STATUS",
                    std::string("\x7f\xc0\x00\x00", 4),
@@ -239,7 +240,7 @@ Target datagram() {
   target.run = [](const std::string& input) {
     static const std::vector<std::string> kTools{"stylus"};
     igtl::Reception reception({}, kTools, false);
-    Stamped<TrackedTool> newest;
+    Measurement<TrackedTool> newest;
     const bool news = reception.take(std::as_bytes(std::span(input)), Time(Duration(1'000'000)), newest);
     expect(!news || newest.value.X_CT.valid(), "what was taken is no pose");
     expect(news == (newest.health == Health::ok), "news that is none");
@@ -270,20 +271,21 @@ Target stream() {
     const auto one = igtl::element(name, X_CT);
     two.insert(two.end(), one.begin(), one.end());
   }
-  const std::string transform =
-      text_of(igtl::Written("TRANSFORM", "stylusToTracker", 1'500'000'000, igtl::transform(X_CT)).bytes());
-  const std::string tdata = text_of(igtl::Written("TDATA", "Tracker", 1'510'000'000, two).bytes());
+  const std::string transform = text_of(
+      igtl::OutgoingMessage("TRANSFORM", "stylusToTracker", 1'500'000'000, igtl::transform(X_CT)).bytes());
+  const std::string tdata = text_of(igtl::OutgoingMessage("TDATA", "Tracker", 1'510'000'000, two).bytes());
   const std::string exact =
-      text_of(igtl::Written("TDATA", "Tracker", 1'520'000'000, 9, igtl::element("stylus", X_CT),
-                            igtl::kPoseKey, igtl::pose_text(X_CT))
+      text_of(igtl::OutgoingMessage("TDATA", "Tracker", 1'520'000'000, 9, igtl::element("stylus", X_CT),
+                                    igtl::kPoseKey, igtl::pose_text(X_CT))
                   .bytes());
   std::array<std::byte, 28> place{};  // 0, 0, 1000 mm, not turned
   net::put(std::span<std::byte>(place), 8, std::bit_cast<std::uint32_t>(1000.0F));
   net::put(std::span<std::byte>(place), 24, std::bit_cast<std::uint32_t>(1.0F));
   const std::string position =
-      text_of(igtl::Written("POSITION", "stylusToTracker", 1'530'000'000, place).bytes());
-  const std::string three = text_of(
-      igtl::Written("POSITION", "stylusToTracker", 1'540'000'000, std::span(place).first(24)).bytes());
+      text_of(igtl::OutgoingMessage("POSITION", "stylusToTracker", 1'530'000'000, place).bytes());
+  const std::string three =
+      text_of(igtl::OutgoingMessage("POSITION", "stylusToTracker", 1'540'000'000, std::span(place).first(24))
+                  .bytes());
   target.seeds = {"\x40" + transform + tdata + exact, "\x07" + position + three,
                   "\xff" + exact + exact + tdata};
   target.tokens = {"TRANSFORM",
@@ -302,7 +304,7 @@ Target stream() {
     settings.transport = "tcp";
     igtl::Reception reception(settings, kTools, false);
     igtl::Stream stream;
-    Stamped<TrackedTool> newest;
+    Measurement<TrackedTool> newest;
     std::span<const std::byte> bytes = std::as_bytes(std::span(input));
     const std::size_t piece = bytes.empty() ? 1 : std::to_integer<std::size_t>(bytes.front()) + 1;
     for (bytes = bytes.subspan(std::min<std::size_t>(1, bytes.size())); !bytes.empty() && !stream.lost();) {

@@ -50,7 +50,7 @@ bool sane(const Setup& setup) {
   try {
     again = models::resolved(models::parse_resolved(text, "resolved"));
   } catch (const Error& e) {
-    throw Broken(fmt::format("what is written of it is refused: {}", e.what()));
+    throw InvariantError(fmt::format("what is written of it is refused: {}", e.what()));
   }
   expect(again == text, "what is written of it is read as another");
   return true;
@@ -176,7 +176,7 @@ Target written(const File& file, std::string (*text_of)(const File&),
     try {
       again = text_of(parsed(text, "again.toml"));
     } catch (const Error& e) {
-      throw Broken(fmt::format("what is written of it is refused: {}", e.what()));
+      throw InvariantError(fmt::format("what is written of it is refused: {}", e.what()));
     }
     expect(again == text, "what is written of it is read as another");
     return true;
@@ -247,7 +247,7 @@ void seal_again(std::string& bytes) {
 }
 
 // Uses the record's numbers, too; a record without a scene is only read.
-void read_all(const std::string& path, Partial partial) {
+void read_all(const std::string& path, PartialRead partial) {
   RecordReader reader(path, partial);
   for (int pass = 0; pass < 2; ++pass) {
     RecordedTick tick;
@@ -287,9 +287,9 @@ Target record() {
     const std::string path = folder().write("fuzz.encrec", input);
     static_cast<void>(is_record(path));
     try {
-      read_all(path, Partial::no);
+      read_all(path, PartialRead::no);
     } catch (const Error&) {
-      read_all(path, Partial::yes);
+      read_all(path, PartialRead::yes);
       throw;
     }
     return true;

@@ -56,7 +56,7 @@ bool sane(models::FileMesh read, const std::string& name) {
     for (const double x : vertex) expect(std::isfinite(x), "a vertex is not finite");
   const MeshTree tree(mesh);
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.01, 0.02, 0.03), Vec3(-1e6, 1e6, 1e6), vec(mesh.vertices[0])}) {
-    const Nearest near = tree.nearest(Point<'O'>(p));
+    const SurfacePoint near = tree.nearest(Point<'O'>(p));
     expect(std::isfinite(near.distance) && near.point.finite() && near.normal.finite() && near.feature >= 0,
            "nothing of it is nearest to a place");
   }

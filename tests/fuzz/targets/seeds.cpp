@@ -51,7 +51,7 @@ void use(const models::Setup& setup, RecordReader& record) {
   const Scene scene = trial::prepare_setup(setup);
   for (const Object& object : scene.objects)
     for (const Point<'O'>& p : {Point<'O'>(0, 0, 0), Point<'O'>(0.01, 0.02, 0.03), Point<'O'>(0, 0, -1e6)}) {
-      const Nearest near = object.surface.nearest(p);
+      const SurfacePoint near = object.surface.nearest(p);
       expect(std::isfinite(near.distance) && near.point.finite() && near.normal.finite(),
              "nothing of an object is nearest to a place");
     }

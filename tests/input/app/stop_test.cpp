@@ -25,9 +25,9 @@ using testing::Not;
 void after_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
 // The program in a process of its own, with its output in a file.
-class Started {
+class ProgramProcess {
  public:
-  explicit Started(std::vector<std::string> args) : out_(folder_.path() / "out") {
+  explicit ProgramProcess(std::vector<std::string> args) : out_(folder_.path() / "out") {
     args.insert(args.begin(), program_file());
     child_ = fork();
     if (child_ != 0) return;
@@ -72,7 +72,7 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
     const test::TemporaryFolder folder;
     const std::string record = (folder.path() / "r.encrec").string();
-    const Started run({"run", shipped_scene("tennis_ball"), "--pace", "wall", "--record", record});
+    const ProgramProcess run({"run", shipped_scene("tennis_ball"), "--pace", "wall", "--record", record});
     const std::string aside = record + ".part";  // exists until the record is sealed
     while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(20);
     after_ms(300);
@@ -99,7 +99,7 @@ TEST(Stop, AStartUpThatTakesLongEndsAtOnce) {
             "tip_mm = [0, 0, -120]\n[manipulator]\n[force]\n[tracker]\n";
   }
   for (const auto& [signal, code] : {std::pair{SIGTERM, 143}, {SIGINT, 130}, {SIGQUIT, 131}, {SIGHUP, 129}}) {
-    const Started run({"run", scene, "--record", record});
+    const ProgramProcess run({"run", scene, "--record", record});
     run.ready();
     const auto sent = std::chrono::steady_clock::now();
     run.send(signal);
@@ -117,7 +117,7 @@ TEST(Stop, EachSignalThatWouldKillEndsTheRunCleanly) {
     SCOPED_TRACE(signal);
     const test::TemporaryFolder folder;
     const std::string record = folder.file("r.encrec");
-    const Started run({"run", shipped_scene("plane"), "--pace", "wall", "--record", record});
+    const ProgramProcess run({"run", shipped_scene("plane"), "--pace", "wall", "--record", record});
     const std::string aside = record + ".part";
     while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(5);
     after_ms(50);
@@ -134,7 +134,7 @@ TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   ASSERT_EQ(run_program({"run", shipped_scene("tennis_ball"), "--for-s", "60", "--record", record}).code, 0);
   for (const char* option : {"--csv", "--mcap"}) {
     const std::string out = folder.file("out"), aside = out + ".part";
-    const Started table({"export", record, option, out});
+    const ProgramProcess table({"export", record, option, out});
     while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) == 0) after_ms(1);
     table.send(SIGINT);
     EXPECT_EQ(table.wait(), 130) << option;
@@ -144,13 +144,14 @@ TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
 
 // Also while the clock waits for hours, and with real, armed devices.
 TEST(Stop, AlsoWhileTheClockWaits) {
-  const Started slow({"run", shipped_scene("tennis_ball"), "--pace", "1e-6"});
+  const ProgramProcess slow({"run", shipped_scene("tennis_ball"), "--pace", "1e-6"});
   slow.ready();
   slow.send(SIGTERM);
   EXPECT_EQ(slow.wait(), 143);
-  const Started armed({"run", shipped_scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
-                       "rig.force.driver=\"sample\"", "--set", "rig.calibration.date=\"2026-11-27\"", "--set",
-                       "rig.calibration.valid_days=36500", "--armed", "--yes", "--not-real-time"});
+  const ProgramProcess armed({"run", shipped_scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"",
+                              "--set", "rig.force.driver=\"sample\"", "--set",
+                              "rig.calibration.date=\"2026-11-27\"", "--set",
+                              "rig.calibration.valid_days=36500", "--armed", "--yes", "--not-real-time"});
   armed.ready();
   armed.send(SIGINT);
   EXPECT_EQ(armed.wait(), 130);
@@ -173,7 +174,7 @@ TEST(Stop, AlsoWhereNobodyReadsTheReport) {
 
 TEST(Stop, WhatIsIgnoredStaysIgnored) {
   std::signal(SIGHUP, SIG_IGN);  // like nohup; the child inherits it
-  const Started run({"run", shipped_scene("plane"), "--pace", "wall", "--for-s", "1"});
+  const ProgramProcess run({"run", shipped_scene("plane"), "--pace", "wall", "--for-s", "1"});
   std::signal(SIGHUP, SIG_DFL);
   run.ready();
   run.send(SIGHUP);
@@ -191,7 +192,7 @@ TEST(Stop, AStoppedProcessMakesNothingUp) {
                                         "--not-real-time"};
   std::vector<std::string> args{"run", shipped_scene("rig_A"), "--for-s", "2.5", "--json"};
   args.insert(args.end(), sample.begin(), sample.end());
-  const Started armed(args);
+  const ProgramProcess armed(args);
   armed.ready();
   armed.send(SIGSTOP);
   after_ms(1000);
@@ -207,7 +208,7 @@ TEST(Stop, AStoppedProcessMakesNothingUp) {
   EXPECT_THAT(text, HasSubstr("clock late"));
 
   const Result free = run_program({"run", shipped_scene("plane"), "--for-s", "1"});
-  const Started paced({"run", shipped_scene("plane"), "--for-s", "1", "--pace", "wall"});
+  const ProgramProcess paced({"run", shipped_scene("plane"), "--for-s", "1", "--pace", "wall"});
   paced.ready();
   paced.send(SIGSTOP);
   after_ms(700);

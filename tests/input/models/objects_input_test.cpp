@@ -346,15 +346,15 @@ std::string gltf(const std::string& from = "{", const std::string& to = "{") {
 constexpr const char* kUri =
     "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
 
-struct Bad {
+struct InvalidInput {
   const char* name;
   const char* file;
   std::string content;
   const char* words;  // a part of the line
 };
-void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.name; }
+void PrintTo(const InvalidInput& bad, std::ostream* out) { *out << bad.name; }
 
-class BadMesh : public ::testing::TestWithParam<Bad> {
+class BadMesh : public ::testing::TestWithParam<InvalidInput> {
  protected:
   BadMesh() { std::ofstream(folder_ / "points.csv") << "x_m,y_m,z_m\n0,0,0\n"; }
   void expect_refused(const std::string& path, const std::string& words) const {
@@ -389,7 +389,7 @@ constexpr const char* kOpen = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 std::string obj(const std::string& more) { return kOpen + more; }
 const std::string kClosed = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-std::vector<Bad> bad_glb() {
+std::vector<InvalidInput> bad_glb() {
   const std::string whole = bytes(".glb");
   const std::size_t json = whole.find("BIN") - 24;  // its chunk ends 4 bytes before
   return {
@@ -412,7 +412,7 @@ std::vector<Bad> bad_glb() {
       {"IndexOutOfRange", "a.glb", with_index(4), "index 0 of accessors[1] is 4"}};
 }
 
-std::vector<Bad> bad_gltf() {
+std::vector<InvalidInput> bad_gltf() {
   std::string deep(100000, '[');
   return {
       {"BadJson", "a.gltf", "{\"asset\": {\n  \"version\" 2}", "a.gltf:2:"},
@@ -467,7 +467,7 @@ std::vector<Bad> bad_gltf() {
       {"ManyNodes", "a.gltf", many_nodes(30'000), "doubled: another face"}};
 }
 
-std::vector<Bad> bad_others() {
+std::vector<InvalidInput> bad_others() {
   const std::string stl = bytes(".stl");
   return {
       {"Empty", "a.obj", "", "it is empty"},

@@ -34,12 +34,12 @@ using test::LawLoop;
 constexpr double kLimit = 6e-3, kFloor = 124.95;  // m, N/m
 constexpr double kNear = 0.02;                    // N
 
-struct Fitted {
+struct LoopFitCase {
   LoopData loop;
   LoopFit fit;
 };
-Fitted fitted(const LawLoop& made, std::uint64_t seed) {
-  Fitted all;
+LoopFitCase fitted(const LawLoop& made, std::uint64_t seed) {
+  LoopFitCase all;
   all.loop = models::parse_loop(test::law_loop_csv(made, seed), "law.csv", kLimit);
   all.fit = models::fit_loop(all.loop, {kLimit, kFloor, kUnset});
   return all;
@@ -50,8 +50,8 @@ void expect_law(const LoopFit& fit, double near = kNear) {
   EXPECT_NEAR(fit.release.curve.back().value, test::law_force(6.0, false), near);
   EXPECT_NEAR(fit.press.curve.front().value, test::law_force(1.0, true), near);
   EXPECT_NEAR(fit.release.curve.front().value, test::law_force(1.0, false), near);
-  for (const models::BranchKnown* branch : {&fit.press, &fit.release})
-    for (const models::Known& k : branch->curve) {
+  for (const models::BranchEstimate* branch : {&fit.press, &fit.release})
+    for (const models::LoopEstimate& k : branch->curve) {
       EXPECT_GT(k.half, 0.0);
       EXPECT_LT(k.half, 0.1);
     }
@@ -68,7 +68,7 @@ TEST(LoopProperty, NeitherSpeedsNorHoldsMoveTheCurves) {
       made.repeats = ratio < 1.0 ? 2 : 5;
       for (int seed = 1; seed <= tests::thorough(1, 5); ++seed) {
         SCOPED_TRACE(testing::Message() << ratio << " times as fast out, " << hold << " s, seed " << seed);
-        const Fitted all = fitted(made, static_cast<std::uint64_t>(seed));
+        const LoopFitCase all = fitted(made, static_cast<std::uint64_t>(seed));
         expect_law(all.fit);
         EXPECT_TRUE(all.loop.notes.empty()) << all.loop.notes.front();
       }
@@ -125,7 +125,7 @@ TEST(LoopProperty, ZeroAndBeginArePutRight) {
           made.zero_drift_N = drift;
           made.begin_mm = begin;
           made.marks_all = marks_all;
-          const Fitted all = fitted(made, 1);
+          const LoopFitCase all = fitted(made, 1);
           expect_law(all.fit);
           EXPECT_EQ(all.loop.notes.size(),
                     (zero != 0.0 || drift != 0.0 ? 1U : 0U) + (begin != 0.0 ? 1U : 0U));

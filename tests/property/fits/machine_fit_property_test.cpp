@@ -69,7 +69,7 @@ struct Mounting {
 };
 
 // Over all numbers of all cases 99 % must hold: twice as many misses fail.
-struct Pooled {
+struct PooledCoverage {
   double held = 0.0, all = 0.0;
   template <std::size_t n>
   void add(const std::array<int, n>& counts, int of) {
@@ -81,7 +81,7 @@ struct Pooled {
 constexpr double kLeastPooled = 0.98;
 
 TEST(WeightFit, FindsWeightZeroAndTurnWithinItsIntervals) {
-  Pooled pooled;
+  PooledCoverage pooled;
   for (const Mounting& mounting : {Mounting{"nearly as believed", 2.0 * kDegree}, {"any way round", M_PI}})
     for (const double walk : {0.0, 0.002, 0.008}) {
       std::array<int, 7> held{};
@@ -159,13 +159,13 @@ TEST(WeightFit, RefusesASensorWithAWrongAxis) {
     }
 }
 
-struct Seen {
+struct RigTruth {
   Pose<'W', 'C'> X_WC;
   Pose<'H', 'T'> X_HT{rotation_xyz(kDegree * Vec3(3, -4, 100)), Vec3(0.002, -0.001, 0.12)};
   double place = 5e-6, turn = 2e-5;  // m, rad: rms of a stand's mean
 };
 
-std::vector<EyeStand> watched(const Seen& seen, sim::Stream& random, std::size_t count = 24) {
+std::vector<EyeStand> watched(const RigTruth& seen, sim::Stream& random, std::size_t count = 24) {
   std::vector<EyeStand> all;
   for (const Pose<'W', 'H'>& X_WH : stood(random, count)) {
     const Pose<'C', 'T'> X_CT = seen.X_WC.inverse() * X_WH * seen.X_HT;
@@ -177,14 +177,14 @@ std::vector<EyeStand> watched(const Seen& seen, sim::Stream& random, std::size_t
 }
 
 TEST(HandEyeFit, FindsTheTrackerWithinItsIntervals) {
-  Pooled pooled;
+  PooledCoverage pooled;
   for (const std::size_t count : {std::size_t{12}, std::size_t{24}})
     for (const double turn : {0.0, 2e-5, 2e-3}) {
       std::array<int, 12> held{};
       double widest = 0.0;
       for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         sim::Stream random(seed, "hand-eye");
-        Seen seen{{models::turn_by(anywhere(random, M_PI / std::sqrt(3.0))), anywhere(random, 1.5)}};
+        RigTruth seen{{models::turn_by(anywhere(random, M_PI / std::sqrt(3.0))), anywhere(random, 1.5)}};
         seen.turn = turn;
         const models::HandEyeFit fit = models::fit_hand_eye(watched(seen, random, count));
         const Vec3 turned = models::turn_of(seen.X_WC.q() * fit.X_WC.q().conjugate());
@@ -212,7 +212,7 @@ TEST(HandEyeFit, FindsTheTrackerWithinItsIntervals) {
 
 TEST(HandEyeFit, IsExactWithoutErrors) {
   sim::Stream random(1, "exact");
-  Seen seen{{rotation_xyz(kDegree * Vec3(170, 30, -60)), Vec3(0.1, -0.9, 0.6)}};
+  RigTruth seen{{rotation_xyz(kDegree * Vec3(170, 30, -60)), Vec3(0.1, -0.9, 0.6)}};
   seen.place = seen.turn = 0.0;
   const models::HandEyeFit fit = models::fit_hand_eye(watched(seen, random));
   EXPECT_LT((fit.X_WC.p() - seen.X_WC.p()).norm(), 1e-9);
@@ -222,7 +222,7 @@ TEST(HandEyeFit, IsExactWithoutErrors) {
 
 TEST(HandEyeFit, RefusesTurnsAboutOneAxisAndToolsThatSlip) {
   sim::Stream random(1, "one axis");
-  const Seen seen{{rotation_xyz(kDegree * Vec3(0, 30, 0)), Vec3(0.1, -0.9, 0.6)}};
+  const RigTruth seen{{rotation_xyz(kDegree * Vec3(0, 30, 0)), Vec3(0.1, -0.9, 0.6)}};
   const auto refused = [](const std::vector<EyeStand>& stands) -> std::string {
     return test::error_of([&] { (void)models::fit_hand_eye(stands); });
   };
@@ -243,7 +243,7 @@ TEST(HandEyeFit, RefusesTurnsAboutOneAxisAndToolsThatSlip) {
 
 // Both places compensate the scale error: the residual is a fifth of a millimetre for each percent.
 TEST(HandEyeFit, RefusesATrackerWhoseLengthsAreNotTheMachines) {
-  const Seen seen{{rotation_xyz(kDegree * Vec3(0, 30, 0)), Vec3(0.1, -0.9, 0.6)}};
+  const RigTruth seen{{rotation_xyz(kDegree * Vec3(0, 30, 0)), Vec3(0.1, -0.9, 0.6)}};
   const auto scaled = [&](std::uint64_t seed, double scale) -> std::string {
     sim::Stream random(seed, "scale");
     std::vector<EyeStand> stands = watched(seen, random);

@@ -34,11 +34,11 @@ struct Random {
   std::size_t of(std::size_t n) { return static_cast<std::size_t>(engine() % n); }
 };
 
-struct Drawn {
+struct RandomScene {
   std::string what;
   Scene scene;
 };
-Drawn draw_scene(std::uint64_t seed, Random& random);
+RandomScene draw_scene(std::uint64_t seed, Random& random);
 
 Mesh wedge(double half_angle) {
   const double half = 0.08 * std::tan(half_angle);
@@ -101,8 +101,8 @@ RigSpec drawn_rig(Random& random) {
 
 const std::vector<std::string> kArmScenes{"wall", "button", "keypad", "room", "hit_ball", "drum"};
 
-Drawn draw_scene(std::uint64_t seed, Random& random) {
-  Drawn drawn;
+RandomScene draw_scene(std::uint64_t seed, Random& random) {
+  RandomScene drawn;
   if (seed % 4 == 3) {
     static std::map<std::string, models::Setup> setups;
     const std::string name = kArmScenes[random.of(kArmScenes.size())];
@@ -197,7 +197,7 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
   loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
-  const bool damped = scene.render()->damping && !(tool_known && out.gap > 10e-3);
+  const bool damped = scene.admittance()->damping && !(tool_known && out.gap > 10e-3);
   if (loose_ > scene.contact.leave_time + (damped ? 5.0 : 0.0) + 3.0 * dt)
     return fmt::format("contact goes on: force {} N, gap {} mm", force, out.gap * 1e3);
   return {};
@@ -284,7 +284,7 @@ class World {
     honest_ = random.once_in(3);  // the devices report the truth, only the hand touches the tip
     jams_ = !scene.impedance() && random.once_in(4);
     if (!honest_ && random.once_in(3)) zero_jump_ = random.in(0.05, 0.4);
-    SpoilOne count{random.engine, -1};
+    FieldSpoiler count{random.engine, -1};
     fields(count, in);
     numbers_ = count.seen;
     pace_ = random.in(0.0, 1.0);
@@ -322,7 +322,7 @@ class World {
     if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
     if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
     if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
-      SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
+      FieldSpoiler one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
       fields(one, in);
       in.withheld = scene_.impedance() && !lags_ && !stuck_;
       well = false;
@@ -458,7 +458,7 @@ class World {
 
 std::string fuzz(std::uint64_t seed, double length, Tally& tally) {
   Random random{std::mt19937_64(seed)};
-  const Drawn drawn = draw_scene(seed, random);
+  const RandomScene drawn = draw_scene(seed, random);
   const Scene& scene = drawn.scene;
   World world(scene, random);
   State state;

@@ -90,18 +90,18 @@ void add_arm(const Hand& hand, std::vector<Cone>& parts) {
 }
 
 // The hand's axes in C as columns, and its origin.
-struct Placed {
+struct HandAxes {
   Mat3 axes;
   Vec3 origin;
   [[nodiscard]] Vec3 of(const Vec3& own) const { return origin + axes * own; }
 };
 
-Placed placed(const Hand& hand) {
+HandAxes placed(const Hand& hand) {
   const Vec3 along = hand.along.normalized();
   const Vec3 to_camera = Vec3(0, 0, -1) + along * along.z();
   const Vec3 up = to_camera.norm() > 1e-3 ? Vec3(to_camera.normalized()) : Vec3(0, -1, 0);
   const Vec3 back = std::cos(hand.roll) * up + std::sin(hand.roll) * along.cross(up);
-  Placed to;
+  HandAxes to;
   to.axes.col(0) = hand.size * along;
   to.axes.col(1) = (hand.left ? -hand.size : hand.size) * back.cross(along);
   to.axes.col(2) = hand.size * back;
@@ -145,7 +145,7 @@ std::vector<Cone> parts_of(const Hand& hand) {
   add_palm(parts);
   add_thumb(hand, parts);
   add_arm(hand, parts);
-  const Placed to = placed(hand);
+  const HandAxes to = placed(hand);
   for (Cone& cone : parts) {
     cone.from = to.of(cone.from);
     cone.to = to.of(cone.to);
@@ -158,7 +158,7 @@ std::vector<Cone> parts_of(const Hand& hand) {
 double cap_radius(const Hand& hand) { return hand.size * kCap; }
 
 std::vector<Vec3> fingertips_of(const Hand& hand) {
-  const Placed to = placed(hand);
+  const HandAxes to = placed(hand);
   std::vector<Vec3> tips;
   if (hand.fingers == Fingers::fist) return tips;
   for (std::size_t finger = 0; finger < (hand.fingers == Fingers::open ? 4U : 1U); ++finger)

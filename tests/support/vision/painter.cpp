@@ -317,8 +317,8 @@ double Painter::lit(double x, double y) const {
          (a[kColumns] * (1.0 - right) + a[kColumns + 1] * right) * down;
 }
 
-Painter::Near Painter::near(const Eye& eye, const Region& tile) const {
-  Near near;
+Painter::ConeList Painter::near(const Eye& eye, const Region& tile) const {
+  ConeList near;
   for (const Cone& cone : cones_) {
     double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
     for (const auto& [at, radius] : {std::pair{cone.from, cone.from_radius}, {cone.to, cone.to_radius}}) {
@@ -334,8 +334,8 @@ Painter::Near Painter::near(const Eye& eye, const Region& tile) const {
   return near;
 }
 
-Painter::Seen Painter::first(const Near& near, const Vec3& from, const Vec3& ray) const {
-  Seen seen;
+Painter::RayHit Painter::first(const ConeList& near, const Vec3& from, const Vec3& ray) const {
+  RayHit seen;
   seen.hit.along = 1e9;
   for (const Cone* cone : near) {
     Hit hit;
@@ -344,7 +344,7 @@ Painter::Seen Painter::first(const Near& near, const Vec3& from, const Vec3& ray
   return seen;
 }
 
-Colour Painter::colour_of(const Seen& seen, const Vec3& from, const Vec3& ray) const {
+Colour Painter::colour_of(const RayHit& seen, const Vec3& from, const Vec3& ray) const {
   const Vec3 at = from + seen.hit.along * ray;
   const Vec3& n = seen.hit.normal;
   const double lamp = std::max(0.0, (n.dot(room_.lamp) + 0.2) / 1.2);
@@ -374,7 +374,7 @@ Colour Painter::wall_at(const Eye& eye, int x, int y, double sub_x, double sub_y
 }
 
 void Painter::paint_tile(const Eye& eye, const Region& tile, std::vector<Colour>& light) const {
-  const Near near = this->near(eye, tile);
+  const ConeList near = this->near(eye, tile);
   const Vec3 from(eye.shift, 0, 0);
   std::array<const Cone*, std::size_t{kTile + 1} * (kTile + 1)> owner{};
   const auto own = [&](int x, int y) -> const Cone*& {
@@ -392,7 +392,7 @@ void Painter::paint_tile(const Eye& eye, const Region& tile, std::vector<Colour>
       for (int i = 0; i < sub * sub; ++i) {
         const double sx = x + (i % sub + 0.5) / sub - 0.5, sy = y + (i / sub + 0.5) / sub - 0.5;
         const Vec3 way = ray(eye, sx, sy);
-        const Seen seen = one && a == nullptr ? Seen{} : first(near, from, way);
+        const RayHit seen = one && a == nullptr ? RayHit{} : first(near, from, way);
         const Colour part = seen.cone != nullptr ? colour_of(seen, from, way) : wall_at(eye, x, y, sx, sy);
         for (std::size_t c = 0; c < 3; ++c) colour[c] += part[c] / (sub * sub);
       }
@@ -443,7 +443,7 @@ Painter::Counts Painter::count_cap(std::size_t side, const Vec3& tip, double rad
   const int y = static_cast<int>(eye.centre_y + eye.focal_y * tip.y() / tip.z());
   const int far = static_cast<int>(1.1 * eye.focal_x * radius / tip.z()) + 2;
   const Region box{x - far, y - far, x + far + 1, y + far + 1};
-  const Near near = this->near(eye, box);
+  const ConeList near = this->near(eye, box);
   Counts counts;
   for (int row = box.y0; row < box.y1; ++row)
     for (int column = box.x0; column < box.x1; ++column) {
@@ -451,7 +451,7 @@ Painter::Counts Painter::count_cap(std::size_t side, const Vec3& tip, double rad
       Hit hit;
       if (!meets(cap, from, way, hit)) continue;
       ++counts.all;
-      const Seen seen = first(near, from, way);
+      const RayHit seen = first(near, from, way);
       if (!image.contains(column, row) || seen.cone == nullptr || !seen.cone->tip) continue;
       if ((seen.hit.along * way + from - tip).norm() > 2.0 * radius) continue;  // the tip of another hand
       ++counts.front;
@@ -467,7 +467,7 @@ Painter::Counts Painter::count_cap(std::size_t side, const Vec3& tip, double rad
   return counts;
 }
 
-Shown Painter::shown(const Hand& hand, const Vec3& tip) const {
+TipVisibility Painter::shown(const Hand& hand, const Vec3& tip) const {
   const Counts left = count_cap(0, tip, cap_radius(hand)), right = count_cap(1, tip, cap_radius(hand));
   const auto share = [](int of, int all) { return all == 0 ? 0.0 : static_cast<double>(of) / all; };
   return {std::min(share(left.front, left.all), share(right.front, right.all)),
@@ -508,8 +508,8 @@ std::vector<Sequence> sequences() {
   return mixed;
 }
 
-std::vector<TipShown> tips_in(const Painter& painter, const std::vector<Hand>& hands) {
-  std::vector<TipShown> tips;
+std::vector<VisibleTip> tips_in(const Painter& painter, const std::vector<Hand>& hands) {
+  std::vector<VisibleTip> tips;
   for (const Hand& hand : hands)
     if (hand.fingers == Fingers::pointing) {
       const Vec3 tip = fingertips_of(hand).front();

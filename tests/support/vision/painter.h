@@ -42,7 +42,7 @@ struct Picture {
 };
 
 // Visibility of a fingertip in the left and the right image.
-struct Shown {
+struct TipVisibility {
   double share = 0.0;     // share of the cap's pixels where it is in front; the smaller of both images
   double coloured = 0.0;  // share of the left image's shown pixels with a hue of skin
   double apart = 0.0;     // share of them that differs from the wall by more than the noise
@@ -55,22 +55,22 @@ class Painter {
 
   void paint(const std::vector<Hand>& hands, std::size_t tone, std::uint64_t frame, Picture& picture);
   // Visibility of the cap at `tip` of the hand in the last picture.
-  [[nodiscard]] Shown shown(const Hand& hand, const Vec3& tip) const;
+  [[nodiscard]] TipVisibility shown(const Hand& hand, const Vec3& tip) const;
 
  private:
   struct Eye {
     double focal_x, focal_y, centre_x, centre_y, shift;
     std::vector<Colour> wall;  // per pixel a pair: the empty room without the lamp, and the lamp's light
   };
-  struct Seen {
+  struct RayHit {
     const Cone* cone = nullptr;
     Hit hit;
   };
   [[nodiscard]] Vec3 ray(const Eye& eye, double x, double y) const;
-  using Near = std::vector<const Cone*>;
-  [[nodiscard]] Near near(const Eye& eye, const Region& tile) const;
-  [[nodiscard]] Seen first(const Near& near, const Vec3& from, const Vec3& ray) const;
-  [[nodiscard]] Colour colour_of(const Seen& seen, const Vec3& from, const Vec3& ray) const;
+  using ConeList = std::vector<const Cone*>;
+  [[nodiscard]] ConeList near(const Eye& eye, const Region& tile) const;
+  [[nodiscard]] RayHit first(const ConeList& near, const Vec3& from, const Vec3& ray) const;
+  [[nodiscard]] Colour colour_of(const RayHit& seen, const Vec3& from, const Vec3& ray) const;
   [[nodiscard]] Colour wall_at(const Eye& eye, int x, int y, double sub_x, double sub_y) const;
   void paint_tile(const Eye& eye, const Region& tile, std::vector<Colour>& light) const;
   struct Counts {
@@ -110,10 +110,10 @@ struct Sequence {
 [[nodiscard]] std::vector<Sequence> sequences();
 
 // A visible fingertip in a frame, of any hand that points.
-struct TipShown {
+struct VisibleTip {
   Vec3 tip;
-  Shown shown;
+  TipVisibility shown;
 };
-[[nodiscard]] std::vector<TipShown> tips_in(const Painter& painter, const std::vector<Hand>& hands);
+[[nodiscard]] std::vector<VisibleTip> tips_in(const Painter& painter, const std::vector<Hand>& hands);
 
 }  // namespace enc::painted

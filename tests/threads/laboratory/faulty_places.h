@@ -67,7 +67,7 @@ struct FaultyGcs : FaultyPlace {
 
 // Force and torque are equal along all axes.
 struct CountingSensor final : ForceSensor {
-  Stamped<Wrench> read(Time now) noexcept override {
+  Measurement<Wrench> read(Time now) noexcept override {
     const double x = kStep * static_cast<double>(++number);
     return {{Vec<'F'>(x, x, x), Vec<'F'>(x, x, x)}, now, Health::ok};
   }
@@ -90,7 +90,7 @@ struct FaultyNetft : FaultyPlace {
 
 // Sends a pose each millisecond, with equal x and y.
 struct CountingTracker final : PoseTracker {
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     if (now - last < Duration(1'000'000)) return false;
     last = now;
     const double x = kStep * static_cast<double>(++number);

@@ -87,7 +87,7 @@ struct MachineWatch : Watch {
   explicit MachineWatch(Manipulator& device, bool tells = true) : machine(device), told(tells) {}
   void tick(Time now) {
     before(machine);
-    const Stamped<TipSample> sample = machine.read(now);
+    const Measurement<TipSample> sample = machine.read(now);
     const Vec3 p = sample.value.X_RH.p(), v = sample.value.velocity.e();
     after(now, sample.t, sample.health, p.x() == p.y() && v.x() == v.y(), 0);
     farthest = std::max(farthest, std::abs(p.x()));
@@ -121,7 +121,7 @@ struct TrackerWatch : Watch {
   explicit TrackerWatch(PoseTracker& device) : tracker(device) {}
   void tick(Time now) {
     before(tracker);
-    Stamped<TrackedTool> newest;
+    Measurement<TrackedTool> newest;
     if (!tracker.poll(now, newest)) return;
     const Vec3 p = newest.value.X_CT.p();
     after(now, newest.t, newest.health, p.x() == p.y() && newest.value.tool == 0,
@@ -359,20 +359,20 @@ TEST(ThreadedMachine, EndsAsSoonAsItHasBegun) {
 
 struct NetftKit {
   using Place = FaultyNetft;
-  using Watched = SensorWatch;
+  using WatchType = SensorWatch;
 };
 struct IgtlKit {
   using Place = FaultyIgtl;
-  using Watched = TrackerWatch;
+  using WatchType = TrackerWatch;
 };
 
 template <class Kit>
 struct ThreadedDatagrams : testing::Test {
   using Place = typename Kit::Place;
-  using Watched = typename Kit::Watched;
+  using WatchType = typename Kit::WatchType;
 
   // Injects one fault after the other, each for some ticks, for half a second.
-  static void suffer(Place& there, FaultyFakes& fakes, const LoopThread<Watched>& loop,
+  static void suffer(Place& there, FaultyFakes& fakes, const LoopThread<WatchType>& loop,
                      const std::vector<Trouble>& all) {
     for (std::size_t i = 0; i < 25; ++i) {
       const Trouble& trouble = all[i % all.size()];
@@ -390,7 +390,7 @@ struct ThreadedDatagrams : testing::Test {
     Place there(kPatient);
     FaultyFakes fakes({there.server.get()});
     const auto driver = there.driver();
-    Watched watch(*driver);
+    WatchType watch(*driver);
     LoopThread loop(watch);
     suffer(there, fakes, loop, all);
     const std::int64_t before = watch.news();
@@ -428,7 +428,7 @@ TYPED_TEST(ThreadedDatagrams, SilenceIsTheEndOfTheLink) {
     typename TestFixture::Place there(kImpatient);
     FaultyFakes fakes({there.server.get()});
     const auto driver = there.driver();
-    typename TestFixture::Watched watch(*driver);
+    typename TestFixture::WatchType watch(*driver);
     LoopThread loop(watch);
     loop.pass(20);
     fakes.suffer(*there.server, trouble);
@@ -447,7 +447,7 @@ TYPED_TEST(ThreadedDatagrams, EndInEveryState) {
     typename TestFixture::Place there(kPatient);
     FaultyFakes fakes({there.server.get()});
     auto driver = there.driver();
-    typename TestFixture::Watched watch(*driver);
+    typename TestFixture::WatchType watch(*driver);
     if (at == At::once) continue;
     LoopThread loop(watch);
     loop.pass(15);

@@ -45,10 +45,10 @@ struct Switches {
 };
 
 // Exposes at 50 Hz of the polled time; the first frames show no hand.
-class Live final : public StereoCamera {
+class LiveCamera final : public StereoCamera {
  public:
-  explicit Live(Switches& switches) : switches_(switches) {}
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  explicit LiveCamera(Switches& switches) : switches_(switches) {}
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     bool due = false;
     while (exposures_.due(now)) due = true;
     if (!due || !switches_.running) return false;
@@ -65,14 +65,14 @@ class Live final : public StereoCamera {
 
  private:
   Switches& switches_;
-  Every exposures_{50.0};
+  DueTimes exposures_{50.0};
   int frames_ = 0;
 };
 
 std::unique_ptr<PoseTracker> vision(Switches& switches) {
   StereoRig rig = tiny();
   rig.rate = 50.0;
-  return std::make_unique<VisionTracker>(std::make_unique<Live>(switches), rig,
+  return std::make_unique<VisionTracker>(std::make_unique<LiveCamera>(switches), rig,
                                          FingerTracker(tiny(), drawn::segmentation(), {}, {}),
                                          Release::when_done);
 }
@@ -81,7 +81,7 @@ std::unique_ptr<PoseTracker> vision(Switches& switches) {
 struct Loop {
   Switches switches;
   ThreadedTracker tracker{vision(switches)};
-  Stamped<TrackedTool> newest;
+  Measurement<TrackedTool> newest;
   FrameTimes times;
   Wall::time_point start = Wall::now();
   double longest_poll = 0.0;  // s

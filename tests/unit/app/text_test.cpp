@@ -23,7 +23,7 @@ namespace {
 
 using certificate::Class, certificate::Row;
 using testing::AllOf, testing::ContainsRegex, testing::HasSubstr, testing::Not;
-using trial::Certified;
+using trial::ObjectCertificate;
 
 // The report prints a percentile if there are enough values for it, and always prints the largest value.
 
@@ -62,7 +62,7 @@ std::pair<std::string, nlohmann::json> reports_of(double ticks) {
   trial::Trial trial(setup, options);
   const trial::TrialResult result = trial.run();
   const std::vector<trial::ArmStrength> strengths;
-  const std::vector<trial::Certified> certificates;
+  const std::vector<trial::ObjectCertificate> certificates;
   const RunOptions asked;
   const RunReport report{setup, trial.scene(), result, measured, strengths, certificates, asked};
   return {run_text(report), nlohmann::json::parse(run_json(report))};
@@ -98,8 +98,8 @@ TEST(SpeedText, ASlowRunHasTwoDigits) {
 // The report's lines about holds: it lists the first three and counts the rest.
 
 // The force sensor is at fault this many times, for 5 ms each.
-struct Held {
-  explicit Held(int times) {
+struct FaultyRun {
+  explicit FaultyRun(int times) {
     options.seconds = 0.05 + 0.01 * times;
     options.disturb = [times, tick = 0](Inputs& in) mutable {
       ++tick;
@@ -121,7 +121,7 @@ struct Held {
   trial::TrialOptions options;
   trial::RunMeasures measured{setup, options};
   std::vector<trial::ArmStrength> strengths;
-  std::vector<trial::Certified> certificates;
+  std::vector<trial::ObjectCertificate> certificates;
   RunOptions asked;
   trial::TrialResult result;
   std::string text;
@@ -133,7 +133,7 @@ TEST(HoldLines, TheFirstThreeAreSaidAndTheOthersCounted) {
                                     {4, "\nhold        and 1 time more; 0.020 s in all\n"},
                                     {40, "\nhold        and 37 times more; 0.200 s in all\n"}}) {
     SCOPED_TRACE(times);
-    const Held held(times);
+    const FaultyRun held(times);
     EXPECT_EQ(held.result.times_held, times);
     EXPECT_EQ(held.result.holds.size(), std::min<std::size_t>(16, static_cast<std::size_t>(times)));
     EXPECT_EQ(held.lines("hold        at "), std::min(3, times));
@@ -145,28 +145,28 @@ TEST(HoldLines, TheFirstThreeAreSaidAndTheOthersCounted) {
 // `check` shows the bounds of the object that is nearest to its bound. Equal margins always give the same
 // object.
 
-Certified one(const std::string& object, Class verdict, double margin,
-              const std::string& row = "exact_with_hand") {
-  Certified made{object, 600.0, {}};
+ObjectCertificate one(const std::string& object, Class verdict, double margin,
+                      const std::string& row = "exact_with_hand") {
+  ObjectCertificate made{object, 600.0, {}};
   made.certificate.verdict = verdict;
   made.certificate.rows.push_back({row, "|z| < 1", 600.0 * margin, margin, true, "test"});
   return made;
 }
 
-std::string shown(const std::vector<Certified>& all) { return nearest_its_bound(all).object; }
+std::string shown(const std::vector<ObjectCertificate>& all) { return nearest_its_bound(all).object; }
 
 TEST(StabilityText, TheRowsAreOfTheOneThatIsNearestToItsBound) {
-  const Certified tip = one("", Class::alone, 2.0), a = one("a", Class::alone, 2.0),
-                  b = one("b", Class::alone, 1.5);
+  const ObjectCertificate tip = one("", Class::alone, 2.0), a = one("a", Class::alone, 2.0),
+                          b = one("b", Class::alone, 1.5);
   EXPECT_EQ(shown({tip, a, b}), "b");
   EXPECT_EQ(shown({tip, a, one("c", Class::alone, 2.0)}), "a") << "of equal ones the first";
   EXPECT_EQ(shown({tip, a}), "a") << "and an object before the free tip";
   EXPECT_EQ(shown({tip, one("c", Class::alone, 3.0)}), "");
   EXPECT_EQ(shown({tip, b, one("u", Class::unknown, NAN)}), "u") << "what is not known before what is";
-  const Certified over = one("o", Class::unstable, 0.9), far = one("f", Class::unstable, 0.2);
+  const ObjectCertificate over = one("o", Class::unstable, 0.9), far = one("f", Class::unstable, 0.2);
   EXPECT_EQ(shown({tip, one("u", Class::unknown, NAN), over, far}), "f")
       << "what is beyond first, the farthest";
-  Certified copy = a;
+  ObjectCertificate copy = a;
   copy.object = "z";
   copy.like = "a";
   EXPECT_EQ(shown({copy, a}), "a") << "whose own they are";
@@ -175,7 +175,7 @@ TEST(StabilityText, TheRowsAreOfTheOneThatIsNearestToItsBound) {
 
 TEST(StabilityText, WhereASearchEndedOneSideIsKnown) {
   const models::Setup setup;
-  Certified soft = one("soft", Class::alone, 2.0, "large_signal");
+  ObjectCertificate soft = one("soft", Class::alone, 2.0, "large_signal");
   Row& row = soft.certificate.rows.front();
   row.bound = INFINITY;
   row.low = 88.5;
@@ -190,7 +190,7 @@ TEST(StabilityText, WhereASearchEndedOneSideIsKnown) {
 
 TEST(StabilityText, WhatIsNotKnownIsNotSaidToBeBeyond) {
   models::Setup setup;
-  Certified unknown = one("a", Class::unknown, NAN);
+  ObjectCertificate unknown = one("a", Class::unknown, NAN);
   unknown.certificate.missing = "damping";
   EXPECT_THAT(
       stability_text(setup, {unknown}),

@@ -25,8 +25,8 @@ const std::string kModels = tests::source_dir() + "/models";
 // Calls `found` with every value's full name.
 class Walk final : public Visitor {
  public:
-  using Found = std::function<void(const std::string& name, const Target& target)>;
-  explicit Walk(Found found) : found_(std::move(found)) {}
+  using TargetCallback = std::function<void(const std::string& name, const Target& target)>;
+  explicit Walk(TargetCallback found) : found_(std::move(found)) {}
 
   void value(const Key& key, const Target& target) override {
     found_(paths_.back() + "." + std::string(key.name), target);
@@ -43,7 +43,7 @@ class Walk final : public Visitor {
   void drivers(std::string_view, std::vector<DriverTable>&) override {}  // texts: the program's test looks
 
  private:
-  Found found_;
+  TargetCallback found_;
   std::vector<std::string> paths_{""};
 };
 
@@ -65,12 +65,12 @@ int spoil_left_out(Setup& setup) {
   return spoiled;
 }
 
-struct Told {
+struct SceneDigest {
   std::uint64_t hash;
   Vec3 tip;  // true
-  bool operator==(const Told&) const = default;
+  bool operator==(const SceneDigest&) const = default;
 };
-Told told_by(const Setup& setup) {
+SceneDigest told_by(const Setup& setup) {
   trial::TrialOptions options{.seconds = 5.0};
   trial::Trial trial(setup, options);
   const std::uint64_t hash = trial.run().hash;

@@ -30,7 +30,7 @@ using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 class Files : public testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
-  static std::string refusal(const std::string& path, Existing existing) {
+  static std::string refusal(const std::string& path, OverwritePolicy existing) {
     try {
       OutFile(path, existing).write("new");
       return {};
@@ -43,29 +43,29 @@ class Files : public testing::Test {
 
 TEST_F(Files, StandBesideTheirPlaceUntilTheyAreWhole) {
   {
-    OutFile file(path("a"), Existing::keep);
+    OutFile file(path("a"), OverwritePolicy::keep);
     file.write("half");
     EXPECT_FALSE(fs::exists(path("a")));
     EXPECT_EQ(bytes_of(file.aside()), "half");
   }
   EXPECT_TRUE(fs::is_empty(folder_.path()));
-  write_file(path("a"), "whole", Existing::keep);
+  write_file(path("a"), "whole", OverwritePolicy::keep);
   EXPECT_EQ(bytes_of(path("a")), "whole");
   EXPECT_FALSE(fs::exists(path("a.part")));
 }
 
 TEST_F(Files, WhatIsThereStaysUnlessItShallBeReplaced) {
-  write_file(path("a"), "old", Existing::keep);
-  EXPECT_THAT(refusal(path("a"), Existing::keep), HasSubstr("is there already; expected a new file"));
+  write_file(path("a"), "old", OverwritePolicy::keep);
+  EXPECT_THAT(refusal(path("a"), OverwritePolicy::keep), HasSubstr("is there already; expected a new file"));
   EXPECT_EQ(bytes_of(path("a")), "old");
-  write_file(path("a"), "new", Existing::replace);
+  write_file(path("a"), "new", OverwritePolicy::replace);
   EXPECT_EQ(bytes_of(path("a")), "new");
 }
 
 // Otherwise anybody with write access to the folder could choose the file to overwrite.
 TEST_F(Files, ALinkIsNeverWrittenThrough) {
-  write_file(path("theirs"), "theirs", Existing::keep);
-  for (const Existing existing : {Existing::keep, Existing::replace})
+  write_file(path("theirs"), "theirs", OverwritePolicy::keep);
+  for (const OverwritePolicy existing : {OverwritePolicy::keep, OverwritePolicy::replace})
     for (const char* target : {"theirs", "free"})
       for (const char* name : {"a", "a.part"}) {
         fs::create_symlink(path(target), path(name));
@@ -79,19 +79,19 @@ TEST_F(Files, ALinkIsNeverWrittenThrough) {
 
 // The option --force removes what an earlier run left, but not a file that has a second name (a hard link).
 TEST_F(Files, WhatAnotherNameHasTooIsNotWrittenOver) {
-  write_file(path("theirs"), "theirs", Existing::keep);
+  write_file(path("theirs"), "theirs", OverwritePolicy::keep);
   fs::create_hard_link(path("theirs"), path("a.part"));
-  write_file(path("a"), "mine", Existing::replace);
+  write_file(path("a"), "mine", OverwritePolicy::replace);
   EXPECT_EQ(bytes_of(path("theirs")), "theirs");
   EXPECT_EQ(bytes_of(path("a")), "mine");
   ASSERT_EQ(mkfifo(path("b.part").c_str(), 0600), 0);
-  EXPECT_THAT(refusal(path("b"), Existing::replace), HasSubstr("b.part: is no file of yours"));
+  EXPECT_THAT(refusal(path("b"), OverwritePolicy::replace), HasSubstr("b.part: is no file of yours"));
 }
 
 // A link that replaces the file during the write is moved away, not followed.
 TEST_F(Files, NorIsALinkThatAppearsMeanwhile) {
-  write_file(path("theirs"), "theirs", Existing::keep);
-  OutFile file(path("a"), Existing::replace);
+  write_file(path("theirs"), "theirs", OverwritePolicy::keep);
+  OutFile file(path("a"), OverwritePolicy::replace);
   file.write("mine");
   fs::create_symlink(path("theirs"), path("a"));
   file.keep();
@@ -102,9 +102,9 @@ TEST_F(Files, NorIsALinkThatAppearsMeanwhile) {
 
 // The same holds for a file that appears during the write; neither file is lost.
 TEST_F(Files, WhatAppearsMeanwhileStays) {
-  OutFile file(path("a"), Existing::keep);
+  OutFile file(path("a"), OverwritePolicy::keep);
   file.write("mine");
-  write_file(path("b"), "yours", Existing::keep);
+  write_file(path("b"), "yours", OverwritePolicy::keep);
   fs::rename(path("b"), path("a"));
   EXPECT_THROW(file.keep(), Error);
   EXPECT_EQ(bytes_of(path("a")), "yours");
@@ -112,20 +112,20 @@ TEST_F(Files, WhatAppearsMeanwhileStays) {
 }
 
 TEST_F(Files, AnInputIsNeverAnOutput) {
-  write_file(path("a"), "read", Existing::keep);
+  write_file(path("a"), "read", OverwritePolicy::keep);
   std::string why;
   EXPECT_EQ(read_file(path("a"), 100, why), "read");
   fs::create_symlink(path("a"), path("link"));
   fs::create_hard_link(path("a"), path("hard"));
   for (const char* name : {"a", "link", "hard"})
-    EXPECT_THAT(refusal(path(name), Existing::replace), HasSubstr("is read by this command")) << name;
+    EXPECT_THAT(refusal(path(name), OverwritePolicy::replace), HasSubstr("is read by this command")) << name;
   EXPECT_EQ(bytes_of(path("a")), "read");
 }
 
 TEST_F(Files, TwoDoNotWriteOne) {
-  OutFile first(path("a"), Existing::replace);
+  OutFile first(path("a"), OverwritePolicy::replace);
   first.write("first");
-  EXPECT_THAT(refusal(path("a"), Existing::replace), HasSubstr("another run is writing it"));
+  EXPECT_THAT(refusal(path("a"), OverwritePolicy::replace), HasSubstr("another run is writing it"));
   first.keep();
   EXPECT_EQ(bytes_of(path("a")), "first");
   const OutFolder alone(path("out"));
@@ -134,22 +134,23 @@ TEST_F(Files, TwoDoNotWriteOne) {
 
 TEST_F(Files, WhatARunLeftIsNotWrittenOver) {
   {
-    OutFile file(path("a"), Existing::keep);
+    OutFile file(path("a"), OverwritePolicy::keep);
     file.spare();
     file.write("half");
   }
-  EXPECT_THAT(refusal(path("a"), Existing::keep), HasSubstr("a.part: is left of a run that did not end"));
+  EXPECT_THAT(refusal(path("a"), OverwritePolicy::keep),
+              HasSubstr("a.part: is left of a run that did not end"));
   EXPECT_EQ(bytes_of(path("a.part")), "half");
-  write_file(path("a"), "x", Existing::replace);
+  write_file(path("a"), "x", OverwritePolicy::replace);
   EXPECT_EQ(bytes_of(path("a")), "x");
 }
 
 TEST_F(Files, DevicesStayDevices) {
-  write_file("/dev/null", "gone", Existing::keep);
+  write_file("/dev/null", "gone", OverwritePolicy::keep);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_THROW(write_file("/dev/full", "x", Existing::keep), Error);
-  EXPECT_THROW(write_file(folder_.path().string(), "x", Existing::replace), Error);
-  EXPECT_THROW(write_file(path("none/a"), "x", Existing::replace), Error);
+  EXPECT_THROW(write_file("/dev/full", "x", OverwritePolicy::keep), Error);
+  EXPECT_THROW(write_file(folder_.path().string(), "x", OverwritePolicy::replace), Error);
+  EXPECT_THROW(write_file(path("none/a"), "x", OverwritePolicy::replace), Error);
 }
 
 TEST_F(Files, WhatNeverEndsIsNotRead) {
@@ -157,7 +158,7 @@ TEST_F(Files, WhatNeverEndsIsNotRead) {
   EXPECT_EQ(read_file("/dev/zero", std::size_t{1} << 20U, why), "");
   EXPECT_EQ(why, "it is a device");
   why.clear();
-  write_file(path("long"), std::string((std::size_t{1} << 20U) + 1, 'x'), Existing::keep);
+  write_file(path("long"), std::string((std::size_t{1} << 20U) + 1, 'x'), OverwritePolicy::keep);
   EXPECT_EQ(read_file(path("long"), std::size_t{1} << 20U, why), "");
   EXPECT_EQ(why, "it is longer than 1 MiB");
 }

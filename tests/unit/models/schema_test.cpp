@@ -61,14 +61,14 @@ models::Setup full() {
 }
 
 // Number of members of an aggregate: the longest list that can initialise it.
-struct Anything {
+struct AnyValue {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor)
 };
 template <class T, class... Args>
 constexpr std::size_t members() {
-  if constexpr (requires { T{Args{}..., Anything{}}; }) {
-    return members<T, Args..., Anything>();
+  if constexpr (requires { T{Args{}..., AnyValue{}}; }) {
+    return members<T, Args..., AnyValue>();
   } else {
     return sizeof...(Args);
   }

@@ -35,7 +35,8 @@ struct Room {
     scene.objects[0].shape = ShapeKind::plane;
     rig.arm.machine = machine;
     prepared.task = ImpedanceTask();
-    Object wall{Surface(Plane{}), Pose<'W', 'O'>::identity(), {}, kUnset, kUnset, Tangential::stick, kUnset};
+    Object wall{Surface(Plane{}), Pose<'W', 'O'>::identity(), {},    kUnset,
+                kUnset,           TangentialMode::stick,      kUnset};
     wall.stiffness = 500.0;
     prepared.objects.push_back(wall);
     if (finger) add_finger(finger_mass);

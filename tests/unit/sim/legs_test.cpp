@@ -282,12 +282,12 @@ TEST(Legs, BadInput) {
 
 // The test rig as a whole: machine, ball, sensor, programme.
 
-struct Pushed {
+struct PushResult {
   trial::TrialResult result;
   std::vector<trial::PushFigures> pushes;
   double spread = 0.0, force_error = 0.0;
 };
-Pushed run(const std::string& scene, const std::vector<std::string>& set = {}, std::uint64_t seed = 1) {
+PushResult run(const std::string& scene, const std::vector<std::string>& set = {}, std::uint64_t seed = 1) {
   trial::ProbeMeasure measure;
   trial::TrialOptions options{.seed = seed};
   options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
@@ -349,7 +349,7 @@ TEST(Rig, AStaticPushIsReadAsItIs) {
 
 TEST(Rig, FivePushesOfEachSet) {
   for (const char* name : {"nominal", "low_loss", "high_loss", "vented", "kpa_20"}) {
-    const Pushed made = run("rig_A", {std::string("truth.ball.set=") + name});
+    const PushResult made = run("rig_A", {std::string("truth.ball.set=") + name});
     ASSERT_EQ(made.pushes.size(), 5U) << name;
     for (const trial::PushFigures& push : made.pushes) {
       EXPECT_NEAR(push.peak_force, 12.0, 0.2) << name;
@@ -360,7 +360,7 @@ TEST(Rig, FivePushesOfEachSet) {
     EXPECT_NE(made.result.last_mode, Mode::hold) << name;
     EXPECT_TRUE(made.result.holds.empty()) << name;
   }
-  const Pushed regulation = run("rig_A", {"truth.ball.set=regulation"});
+  const PushResult regulation = run("rig_A", {"truth.ball.set=regulation"});
   ASSERT_EQ(regulation.pushes.size(), 5U);
   for (const trial::PushFigures& push : regulation.pushes) {
     EXPECT_GT(push.peak_force, 45.0);

@@ -220,8 +220,8 @@ GripperTruth exact_gripper() {
   return truth;
 }
 
-struct Driven {
-  explicit Driven(const sim::GripperTruth& truth, std::uint64_t seed = 1) : plant(truth, seed) {}
+struct GripperRun {
+  explicit GripperRun(const sim::GripperTruth& truth, std::uint64_t seed = 1) : plant(truth, seed) {}
   const GripSample& run(int ticks) {
     for (int i = 0; i < ticks; ++i) plant.advance(Time(Duration(1'000'000LL * n++)), 1e-3);
     return plant.sample().value;
@@ -232,7 +232,7 @@ struct Driven {
 
 // 16 mm in 0.21 s: 76.19 um a tick; from 16 mm to 6 mm of tool: 131.25 ticks.
 TEST(GripperPlant, ClosesAtItsSpeedUntilItMeetsTheTool) {
-  Driven g(exact_gripper());
+  GripperRun g(exact_gripper());
   EXPECT_EQ(g.run(5).phase, GripPhase::open);
   EXPECT_DOUBLE_EQ(g.run(0).opening, 0.016);
   g.plant.command({true, 80.0});
@@ -250,7 +250,7 @@ TEST(GripperPlant, ClosesAtItsSpeedUntilItMeetsTheTool) {
 }
 
 TEST(GripperPlant, OpensFromWhereItIs) {
-  Driven g(exact_gripper());
+  GripperRun g(exact_gripper());
   g.plant.command({true, 80.0});
   g.run(60);
   g.plant.command({false, kUnset});
@@ -263,7 +263,7 @@ TEST(GripperPlant, OpensFromWhereItIs) {
 TEST(GripperPlant, ClosesOnNothing) {
   sim::GripperTruth truth = exact_gripper();
   truth.width = 0.0;
-  Driven g(truth);
+  GripperRun g(truth);
   g.plant.command({true, 80.0});
   EXPECT_EQ(g.run(209).phase, GripPhase::closing);
   EXPECT_EQ(g.run(2).phase, GripPhase::closed);
@@ -273,7 +273,7 @@ TEST(GripperPlant, ClosesOnNothing) {
 }
 
 TEST(GripperPlant, ComesToStandWithItsRepeatability) {
-  Driven g(sim::GripperTruth{}, 3);
+  GripperRun g(sim::GripperTruth{}, 3);
   double sum = 0.0;
   constexpr int kTimes = 400;
   for (int i = 0; i < kTimes; ++i) {
@@ -304,7 +304,7 @@ TEST(ClampedTool, TheTrackerSeesItMoveWithTheMachine) {
     Twin twin({"truth.tracker.noise_mm=[0,0,0]", "truth.tracker.marker_noise_mm=0",
                "truth.tracker.bias_mm=[0,0,0]", std::string("truth.hexapod.form=") + form},
               1, "clamped_tool");
-    Stamped<TrackedTool> seen;
+    Measurement<TrackedTool> seen;
     const Vec3 way(0.010, -0.005, 0.008);
     const Vec3 there = twin.rig.manipulator->reach().machine.zero().p() + way;
     for (int i = 0; i < 2000; ++i) {

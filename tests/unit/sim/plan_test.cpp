@@ -229,7 +229,7 @@ TEST(ReachesPlan, PlacesAreOnTheObjectsAndTheNormalPointsOut) {
     objects.insert(press.object);
     const Object& object = reaching.scene.objects.at(static_cast<std::size_t>(press.object));
     const Point<'W'> outside = press.at.point + 1e-3 * press.at.normal;
-    const Nearest at = object.surface.nearest(object.X_WO.inverse() * outside);
+    const SurfacePoint at = object.surface.nearest(object.X_WO.inverse() * outside);
     EXPECT_NEAR(at.distance, 1e-3, 1e-12);
     EXPECT_LT((object.X_WO * at.point - press.at.point).norm(), 1e-12);
     if (press.object == 0) {

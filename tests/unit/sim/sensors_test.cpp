@@ -106,7 +106,7 @@ TEST(TrackerPlant, RecognisesTheToolByItsMarkersAndItsPoseIsAsGoodAsTheyAllow) {
     Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
     for (std::int64_t i = 1; i <= 20'000; ++i) {
       plant.advance(Time(i * Duration(1'000'000)), 1, X_WT);
-      Stamped<TrackedTool> sample;
+      Measurement<TrackedTool> sample;
       if (!plant.poll(sample)) continue;
       ASSERT_EQ(sample.value.tool, 1);
       const Point<'T'> centre(middle(kTools[1]));
@@ -133,7 +133,7 @@ TEST(TrackerPlant, WithoutNoiseOfMarkersTheToolIsKnown) {
   for (std::int64_t i = 1; i <= 1000; ++i)
     for (TrackerPlant* plant : {&with, &without})
       plant->advance(Time(i * Duration(1'000'000)), 0, Pose<'W', 'T'>::shift(0, 0, 0.1));
-  Stamped<TrackedTool> a, b;
+  Measurement<TrackedTool> a, b;
   ASSERT_TRUE(with.poll(a));
   ASSERT_TRUE(without.poll(b));
   EXPECT_EQ(a.value.X_CT.p(), b.value.X_CT.p());

@@ -124,8 +124,8 @@ TEST(World, ADisplayChangesNoForceAndNoTrackerSample) {
   Twin with;
   Twin bare(1, without);
   ASSERT_FALSE(bare.rig.display);
-  Stamped<TrackedTool> a;
-  Stamped<TrackedTool> b;
+  Measurement<TrackedTool> a;
+  Measurement<TrackedTool> b;
   for (int i = 0; i < 1000; ++i) {
     with.rig.clock->next();
     bare.rig.clock->next();

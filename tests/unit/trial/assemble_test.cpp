@@ -87,7 +87,7 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
   struct Jaws final : Gripper {
     void command(const Grip&) noexcept override {}
     void stop() noexcept override {}
-    Stamped<GripSample> read(Time) noexcept override { return {}; }
+    Measurement<GripSample> read(Time) noexcept override { return {}; }
   };
   Rig rig;
   rig.gripper = std::make_unique<Jaws>();
@@ -180,7 +180,7 @@ class Claims final : public Manipulator {
  public:
   explicit Claims(Reach reach) : reach_(std::move(reach)) {}
   [[nodiscard]] Reach reach() const override { return reach_; }
-  Stamped<TipSample> read(Time) noexcept override { return {}; }
+  Measurement<TipSample> read(Time) noexcept override { return {}; }
   void command(const Pose<'R', 'H'>&) noexcept override {}
   void stop() noexcept override {}
 
@@ -191,7 +191,7 @@ class ArmClaims final : public HapticArm {
  public:
   explicit ArmClaims(ArmAbility ability) : ability_(std::move(ability)) {}
   [[nodiscard]] ArmAbility ability() const override { return ability_; }
-  Stamped<ArmSample> read(Time) noexcept override { return {}; }
+  Measurement<ArmSample> read(Time) noexcept override { return {}; }
   void command(const Vec<'R'>&) noexcept override {}
   void stop() noexcept override {}
 
@@ -301,14 +301,14 @@ TEST_F(Assemble, WithoutDriversEverythingIsSimulated) {
 
 // The certificate of each object of a scene: the shipped ones, and objects beyond the bounds of stiffness.
 
-std::vector<Certified> of(const std::string& name, const std::vector<std::string>& set = {}) {
+std::vector<ObjectCertificate> of(const std::string& name, const std::vector<std::string>& set = {}) {
   const models::Setup setup = shipped(name, set);
   return certificates_of(setup, prepare_setup(setup));
 }
 
 TEST(Certificates, OfTheShippedScenes) {
   for (const char* name : {"wall", "button", "keypad", "drum", "tiles", "plane", "tennis_ball", "session"})
-    for (const Certified& one : of(name)) {
+    for (const ObjectCertificate& one : of(name)) {
       EXPECT_FALSE(one.beyond()) << name << ": " << name_of(one) << " " << class_text(one);
       EXPECT_FALSE(one.unknown()) << name << ": " << name_of(one) << " " << class_text(one);
     }
@@ -319,7 +319,7 @@ TEST(Certificates, OfTheShippedScenes) {
 
 // The wall is stable alone, and no device of 0.02 N s/m renders it passively [Colgate and Schenkel].
 TEST(Certificates, TheWallOfThePaperIsNotPassive) {
-  const Certified wall = of("wall").back();
+  const ObjectCertificate wall = of("wall").back();
   EXPECT_EQ(wall.certificate.verdict, Class::alone);
   EXPECT_EQ(wall.asked, 600.0);
   EXPECT_LT(certificate::row_of(wall.certificate, "colgate_schenkel").margin, 0.5);
@@ -334,7 +334,7 @@ TEST(Certificates, WhatIsTooStiffOrTooSoftIsBeyond) {
   };
   EXPECT_FALSE(wall(0.98 * most).beyond());
   EXPECT_TRUE(wall(1.02 * most).beyond());
-  const std::vector<Certified> soft =
+  const std::vector<ObjectCertificate> soft =
       of("stiffness", {"behaviour.spring.stiffness_N_per_mm=0.15", "truth.pusher.stiffness_N_per_mm=0.7",
                        "truth.pusher.damping_Ns_per_m=4"});
   ASSERT_EQ(soft.size(), 1U);
@@ -391,22 +391,22 @@ models::Setup tiled(std::size_t count) {
   return setup;
 }
 
-std::ptrdiff_t whole_ones(const std::vector<Certified>& all) {
-  return std::count_if(all.begin(), all.end(), [](const Certified& one) { return one.like.empty(); });
+std::ptrdiff_t whole_ones(const std::vector<ObjectCertificate>& all) {
+  return std::count_if(all.begin(), all.end(), [](const ObjectCertificate& one) { return one.like.empty(); });
 }
 
 // A whole certificate takes a millisecond.
 TEST(Certificates, ManyObjectsThatAreAlikeShareTheWorst) {
   const models::Setup many = tiled(200);
-  const std::vector<Certified> found = certificates_of(many, prepare_setup(many));
+  const std::vector<ObjectCertificate> found = certificates_of(many, prepare_setup(many));
   ASSERT_EQ(found.size(), 201U);
   EXPECT_LE(whole_ones(found), 4) << "the free tip, and one of each class";
-  const Certified& last = found.back();
+  const ObjectCertificate& last = found.back();
   const double shared = certificate::row_of(last.certificate, "exact_with_hand").bound;
   for (const std::size_t i : {0U, 57U, 111U, 199U}) {
     models::Setup single = many;
     single.scene.objects = {many.scene.objects[i]};
-    const Certified own = certificates_of(single, prepare_setup(single)).back();
+    const ObjectCertificate own = certificates_of(single, prepare_setup(single)).back();
     EXPECT_TRUE(own.like.empty());
     EXPECT_EQ(own.certificate.verdict, found[i + 1].certificate.verdict);
     if (own.certificate.verdict == last.certificate.verdict) {
@@ -420,8 +420,8 @@ TEST(Certificates, AreOfTheWorstOfAFewPlaces) {
   const models::Setup setup = shipped("wall", {"rig.arm.speed_mm_s=600"});
   models::Setup anywhere = setup;
   anywhere.scene.user.reset();
-  const Certified pressed = certificates_of(setup, prepare_setup(setup)).back();
-  const Certified worst = certificates_of(anywhere, prepare_setup(anywhere)).back();
+  const ObjectCertificate pressed = certificates_of(setup, prepare_setup(setup)).back();
+  const ObjectCertificate worst = certificates_of(anywhere, prepare_setup(anywhere)).back();
   EXPECT_TRUE(pressed.pressed);
   EXPECT_FALSE(worst.pressed);
   EXPECT_NEAR((worst.place.e() - pressed.place.e()).norm(), 0.05, 1e-9);
@@ -431,10 +431,10 @@ TEST(Certificates, AreOfTheWorstOfAFewPlaces) {
 
 // The free tip has no hand on it: a stiffness that only a hand would hold is beyond the bound.
 TEST(Certificates, AFreeTipHasNoHandOnIt) {
-  const Certified tip = of("wall", {"rig.arm.loop.delay_ms=20"}).front();
+  const ObjectCertificate tip = of("wall", {"rig.arm.loop.delay_ms=20"}).front();
   ASSERT_TRUE(tip.free_tip());
   EXPECT_TRUE(tip.beyond()) << class_text(tip);
-  Certified held = tip;
+  ObjectCertificate held = tip;
   held.certificate.verdict = Class::held;
   EXPECT_TRUE(held.beyond());
   held.certificate.verdict = Class::unheld;

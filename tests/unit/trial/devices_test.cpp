@@ -42,15 +42,15 @@ struct Box {
     table.value({.name = "gains", .meaning = "of each axis"}, gains);
   }
 };
-struct Given {
+struct DeviceRecord {
   Box box;
   std::int64_t makers = 0, commands = 0, stops = 0;
   double speed = 0.0, grip = 0.0;
   Duration period{};
   bool absent = false;  // the device does not answer
 };
-Given& given() {
-  static Given g;
+DeviceRecord& given() {
+  static DeviceRecord g;
   return g;
 }
 template <class Role>
@@ -72,7 +72,7 @@ class FakeMachine final : public Fake<Manipulator> {
  public:
   explicit FakeMachine(const Offer& offer) : Fake(offer), reach_(offer.reach) {}
   [[nodiscard]] Reach reach() const override { return reach_; }
-  Stamped<TipSample> read(Time now) noexcept override {
+  Measurement<TipSample> read(Time now) noexcept override {
     return {{reach_.machine.zero(), Vec<'R'>::zero(), Vec<'R'>::zero()}, now, Health::ok};
   }
   void command(const Pose<'R', 'H'>&) noexcept override { ++given().commands; }
@@ -84,7 +84,7 @@ class FakeMachine final : public Fake<Manipulator> {
 class FakeGripper final : public Fake<Gripper> {
  public:
   using Fake::Fake;
-  Stamped<GripSample> read(Time now) noexcept override {
+  Measurement<GripSample> read(Time now) noexcept override {
     return {{GripPhase::closed, 0.006, 100.0, true}, now, Health::ok};
   }
   void command(const Grip&) noexcept override { ++given().commands; }
@@ -103,7 +103,7 @@ const ModuleInfo& fake_module(const std::string&) {
 class DriverContract : public testing::Test {
  protected:
   DriverContract() {
-    given() = Given{};
+    given() = DeviceRecord{};
     text_ = test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml");
     for (const std::string role : {"[manipulator]\n", "[gripper]\n"})
       text_ = replaced(text_, role + "driver = \"sim\"", role + "driver = \"box\"");
@@ -239,7 +239,7 @@ TEST_F(DriverContract, SetReachesIt) {
 // A driver keeps its defaults to the bit, also values that no file can express, with or without its module (a
 // record needs no module). A key that two of its roles declare stands once.
 TEST_F(DriverContract, ADefaultStaysWhatItIs) {
-  struct Odd {
+  struct OddSettings {
     double delay = kUnset, third = 1.0 / 3.0, most = std::numeric_limits<double>::infinity();
     std::vector<double> gains{};
     void declare(Settings& table) {
@@ -252,10 +252,10 @@ TEST_F(DriverContract, ADefaultStaysWhatItIs) {
     }
   };
   models::Setup setup = load("");
-  models::read_driver_table(setup, "box", [](Settings& table) { Odd{}.declare(table); });
+  models::read_driver_table(setup, "box", [](Settings& table) { OddSettings{}.declare(table); });
   ASSERT_EQ(setup.rig.drivers.size(), 1U);
   EXPECT_EQ(setup.rig.drivers[0].values.size(), 4U);
-  Odd odd;
+  OddSettings odd;
   models::DriverTableReader reader(setup, "box");
   odd.declare(reader);
   EXPECT_TRUE(std::isnan(odd.delay));
@@ -361,24 +361,24 @@ constexpr Duration kPeriod{50'000'000}, kLatency{50'000'000};
 // A frame each 50 ms, there as soon as it is exposed; its number is the tool's.
 class Frames final : public PoseTracker {
  public:
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     if (!exposures_.due(now)) return false;
     newest = {{static_cast<std::int32_t>(exposures_.n - 1), {}}, now, Health::ok};
     return true;
   }
 
  private:
-  Every exposures_{20.0};
+  DueTimes exposures_{20.0};
 };
 
-struct Told {
+struct FrameAge {
   std::int32_t frame;
   double age;  // s
 };
-std::vector<Told> told(Duration jitter, std::uint64_t seed, int ms = 20'000) {
+std::vector<FrameAge> told(Duration jitter, std::uint64_t seed, int ms = 20'000) {
   JitteredTracker tracker(std::make_unique<Frames>(), {kLatency, jitter, seed});
-  std::vector<Told> all;
-  Stamped<TrackedTool> newest;
+  std::vector<FrameAge> all;
+  Measurement<TrackedTool> newest;
   for (int i = 0; i < ms; ++i) {
     if (!tracker.poll(at_ms(i), newest)) continue;
     EXPECT_EQ(newest.t, Time(kPeriod * newest.value.tool));  // the stamp stays true
@@ -390,7 +390,7 @@ std::vector<Told> told(Duration jitter, std::uint64_t seed, int ms = 20'000) {
 TEST(JitteredTracker, WithoutJitterEachComesWhenItIsDue) {
   const auto all = told({}, 1);
   ASSERT_EQ(all.size(), 399U);
-  for (const Told& t : all) EXPECT_DOUBLE_EQ(t.age, 0.050);
+  for (const FrameAge& t : all) EXPECT_DOUBLE_EQ(t.age, 0.050);
 }
 
 // Early at the exposure, late when the next but one is exposed; in order, each equally often.
@@ -416,7 +416,7 @@ TEST(JitteredTracker, OneFrameEarlyOrLateInOrderAndRepeatable) {
 TEST(FrameTimes, AStaleFrameIsNoFrameAndTheRateIsThatOfTheHandOvers) {
   FrameTimes times;
   times.reserve(10);
-  Stamped<TrackedTool> tool;
+  Measurement<TrackedTool> tool;
   times.see(at_ms(0), tool);
   EXPECT_EQ(times.frames, 0);
   for (int i = 0; i < 200; ++i) {

@@ -15,7 +15,7 @@ namespace {
 using test::shipped;
 
 // The commands that a device received, in order.
-struct Seen {
+struct CommandLog {
   std::int64_t commands = 0, stops = 0;
   bool stopped_last = false, linked = true;
   void command() {
@@ -30,20 +30,20 @@ struct Seen {
 
 // A device of a role with an observer.
 template <class Role>
-class Watched : public Role {
+class RecordingRole : public Role {
  public:
-  Watched(std::unique_ptr<Role> device, Seen& seen) : device_(std::move(device)), seen_(seen) {}
+  RecordingRole(std::unique_ptr<Role> device, CommandLog& seen) : device_(std::move(device)), seen_(seen) {}
   [[nodiscard]] bool linked() const noexcept override { return seen_.linked; }
 
  protected:
   std::unique_ptr<Role> device_;
-  Seen& seen_;
+  CommandLog& seen_;
 };
-class WatchedMachine final : public Watched<Manipulator> {
+class WatchedMachine final : public RecordingRole<Manipulator> {
  public:
-  using Watched::Watched;
+  using RecordingRole::RecordingRole;
   [[nodiscard]] Reach reach() const override { return device_->reach(); }
-  Stamped<TipSample> read(Time now) noexcept override { return device_->read(now); }
+  Measurement<TipSample> read(Time now) noexcept override { return device_->read(now); }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override {
     seen_.command();
     device_->command(X_RH);
@@ -53,11 +53,11 @@ class WatchedMachine final : public Watched<Manipulator> {
     device_->stop();
   }
 };
-class WatchedArm final : public Watched<HapticArm> {
+class WatchedArm final : public RecordingRole<HapticArm> {
  public:
-  using Watched::Watched;
+  using RecordingRole::RecordingRole;
   [[nodiscard]] ArmAbility ability() const override { return device_->ability(); }
-  Stamped<ArmSample> read(Time now) noexcept override { return device_->read(now); }
+  Measurement<ArmSample> read(Time now) noexcept override { return device_->read(now); }
   void command(const Vec<'R'>& force) noexcept override {
     seen_.command();
     device_->command(force);
@@ -67,10 +67,10 @@ class WatchedArm final : public Watched<HapticArm> {
     device_->stop();
   }
 };
-class Jaws final : public Watched<Gripper> {
+class Jaws final : public RecordingRole<Gripper> {
  public:
-  using Watched::Watched;
-  Stamped<GripSample> read(Time now) noexcept override { return device_->read(now); }
+  using RecordingRole::RecordingRole;
+  Measurement<GripSample> read(Time now) noexcept override { return device_->read(now); }
   void command(const Grip& grip) noexcept override {
     seen_.command();
     device_->command(grip);
@@ -80,25 +80,29 @@ class Jaws final : public Watched<Gripper> {
     device_->stop();
   }
 };
-class Tracker final : public Watched<PoseTracker> {
+class Tracker final : public RecordingRole<PoseTracker> {
  public:
-  using Watched::Watched;
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override { return device_->poll(now, newest); }
+  using RecordingRole::RecordingRole;
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
+    return device_->poll(now, newest);
+  }
 };
-class Screen final : public Watched<Display> {
+class Screen final : public RecordingRole<Display> {
  public:
-  using Watched::Watched;
+  using RecordingRole::RecordingRole;
   void show(const View& view) noexcept override { device_->show(view); }
-  bool poll(Time now, Stamped<DentSample>& newest) noexcept override { return device_->poll(now, newest); }
+  bool poll(Time now, Measurement<DentSample>& newest) noexcept override {
+    return device_->poll(now, newest);
+  }
 };
-class Sensor final : public Watched<ForceSensor> {
+class Sensor final : public RecordingRole<ForceSensor> {
  public:
-  using Watched::Watched;
-  Stamped<Wrench> read(Time now) noexcept override { return device_->read(now); }
+  using RecordingRole::RecordingRole;
+  Measurement<Wrench> read(Time now) noexcept override { return device_->read(now); }
 };
 
 struct Watchers {
-  Seen machine, arm, gripper, tracker, display, force;
+  CommandLog machine, arm, gripper, tracker, display, force;
 
   void fit(Rig& rig) {
     const auto over = [](auto& slot, auto make) {
@@ -185,8 +189,8 @@ TEST(Gate, AStoppedArmPushesNoMore) {
 // -----------------------------------------------------------------------------------
 
 // Loses a link in a press and restores it.
-struct Lost {
-  explicit Lost(Seen Watchers::*device, const std::string& name = "tennis_ball")
+struct LinkLoss {
+  explicit LinkLoss(CommandLog Watchers::*device, const std::string& name = "tennis_ball")
       : trial(shipped(name), seen.options(30.0)), linked((seen.*device).linked) {
     while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
     for (int i = 0; i < 500; ++i) trial.tick();
@@ -204,7 +208,7 @@ struct Lost {
 };
 
 TEST(Gate, AMachineWhoseLinkComesBackByItselfMovesNothing) {
-  Lost run(&Watchers::machine);
+  LinkLoss run(&Watchers::machine);
   const std::int64_t told = run.seen.machine.commands;
   const Point<'W'> stood = run.tip();
   for (int i = 0; i < 3000; ++i) {
@@ -253,15 +257,15 @@ TEST(Gate, AResumedMachineBeginsWhereItIs) {
 
 // A tracker without new data after its link returned still holds its earlier sample, which was valid.
 TEST(Gate, WhatWasSaidBeforeALossIsBelievedAfterIt) {
-  struct Silent final : PoseTracker {
+  struct SilentTracker final : PoseTracker {
     bool there = true;
-    bool poll(Time, Stamped<TrackedTool>&) noexcept override { return false; }
+    bool poll(Time, Measurement<TrackedTool>&) noexcept override { return false; }
     [[nodiscard]] bool linked() const noexcept override { return there; }
   };
   Gate gate;
   Rig rig;
-  rig.tracker = std::make_unique<Silent>();
-  auto& tracker = static_cast<Silent&>(*rig.tracker);
+  rig.tracker = std::make_unique<SilentTracker>();
+  auto& tracker = static_cast<SilentTracker&>(*rig.tracker);
   Inputs in;
   in.tool.health = Health::ok;
   const auto tick = [&] {
@@ -289,7 +293,7 @@ TEST(Gate, WithoutALostLinkNothingIsHeld) {
 }
 
 TEST(Gate, ALinkThatIsStillLostCannotBeResumed) {
-  Lost run(&Watchers::machine);
+  LinkLoss run(&Watchers::machine);
   run.linked = false;
   const std::int64_t told = run.seen.machine.commands;
   for (int i = 0; i < 100; ++i) {
@@ -303,8 +307,8 @@ TEST(Gate, ALinkThatIsStillLostCannotBeResumed) {
 
 // The machine receives the core's hold command and stands still.
 TEST(Gate, AnyOtherDeviceHoldsTheMachineToo) {
-  for (Seen Watchers::*device : {&Watchers::force, &Watchers::tracker, &Watchers::display}) {
-    Lost run(device);
+  for (CommandLog Watchers::*device : {&Watchers::force, &Watchers::tracker, &Watchers::display}) {
+    LinkLoss run(device);
     for (int i = 0; i < 300; ++i) run.trial.tick();
     const Point<'W'> stood = run.tip();
     for (int i = 0; i < 2000; ++i) {
@@ -321,7 +325,7 @@ TEST(Gate, AnyOtherDeviceHoldsTheMachineToo) {
 // An arm without force falls. If the tracker is lost, the arm is commanded to carry itself; if the arm is
 // lost, it gets no command.
 TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
-  Lost blind(&Watchers::tracker, "wall");
+  LinkLoss blind(&Watchers::tracker, "wall");
   std::int64_t told = blind.seen.arm.commands;
   for (int i = 0; i < 500; ++i) {
     blind.trial.tick();
@@ -329,7 +333,7 @@ TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
   }
   EXPECT_EQ(blind.seen.arm.commands, told + 500);
 
-  Lost deaf(&Watchers::arm, "wall");
+  LinkLoss deaf(&Watchers::arm, "wall");
   told = deaf.seen.arm.commands;
   for (int i = 0; i < 500; ++i) deaf.trial.tick();
   EXPECT_EQ(deaf.seen.arm.commands, told);

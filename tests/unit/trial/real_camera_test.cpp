@@ -22,7 +22,7 @@ class Arm final : public HapticArm {
       : ability_{offer.rig.arm.machine, offer.rig.arm.peak, offer.rig.arm.continuous},
         arm_(offer.rig.arm.machine) {}
   [[nodiscard]] ArmAbility ability() const override { return ability_; }
-  Stamped<ArmSample> read(Time now) noexcept override {
+  Measurement<ArmSample> read(Time now) noexcept override {
     return {{arm_.zero(), {}, arm_.tip(arm_.zero()), Vec<'R'>::zero()}, now, Health::ok};
   }
   void command(const Vec<'R'>&) noexcept override {}
@@ -39,7 +39,7 @@ class GreyCamera final : public StereoCamera {
     std::fill(wall_.rgb.begin(), wall_.rgb.end(), std::uint8_t{90});
   }
   [[nodiscard]] std::string describe() const override { return "grey walls"; }
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     bool due = false;
     while (exposures_.due(now)) due = true;
     if (due) newest = {{wall_.view(), wall_.view()}, now, Health::ok};
@@ -48,7 +48,7 @@ class GreyCamera final : public StereoCamera {
 
  private:
   Image wall_;
-  Every exposures_;
+  DueTimes exposures_;
 };
 
 const ModuleInfo& modules(const std::string& name) {

@@ -70,9 +70,9 @@ bool Onlooker::entered(const trial::Glance& g) {
   return entered_;
 }
 
-Seen look(const models::Setup& setup, trial::TrialOptions options,
-          std::function<void(const trial::Glance&)> also) {
-  Seen seen;
+ObservedRun look(const models::Setup& setup, trial::TrialOptions options,
+                 std::function<void(const trial::Glance&)> also) {
+  ObservedRun seen;
   options.watch = [&](const trial::Glance& g) {
     seen.onlooker.see(g);
     if (also) also(g);

@@ -47,12 +47,12 @@ struct Onlooker {
   bool entered_ = false;
 };
 
-struct Seen {
+struct ObservedRun {
   trial::TrialResult result;
   Onlooker onlooker;
 };
-Seen look(const models::Setup& setup, trial::TrialOptions options = {},
-          std::function<void(const trial::Glance&)> also = {});
+ObservedRun look(const models::Setup& setup, trial::TrialOptions options = {},
+                 std::function<void(const trial::Glance&)> also = {});
 
 // A run of one press: the force at the limit, N; the number of contacts, and the deepest deflection, m.
 double force_at_limit(const models::Setup& setup, std::int32_t& contacts, double& deepest);

@@ -31,9 +31,9 @@ using test::Loop, test::kToolRadius, test::kTop, test::quick, test::run, test::s
 using testing::HasSubstr, testing::Not;
 
 // Sleeps now and then, at random, like a loaded machine.
-class Stalled : public Clock {
+class StallingClock : public Clock {
  public:
-  Stalled(std::unique_ptr<Clock> clock, int& stalls) : clock_(std::move(clock)), stalls_(stalls) {}
+  StallingClock(std::unique_ptr<Clock> clock, int& stalls) : clock_(std::move(clock)), stalls_(stalls) {}
   Tick next() override {
     if (random_() % 40 == 0) {
       ++stalls_;
@@ -73,7 +73,9 @@ TEST(TrialHash, IsTheSameAtAnyPaceAndUnderStalls) {
 
   int stalls = 0;
   trial::TrialOptions stalled = two_seconds();
-  stalled.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<Stalled>(std::move(rig.clock), stalls); };
+  stalled.fit_out = [&](Rig& rig) {
+    rig.clock = std::make_unique<StallingClock>(std::move(rig.clock), stalls);
+  };
   const trial::TrialResult result = run(setup, stalled);
   EXPECT_GT(stalls, 10);
   EXPECT_EQ(result.hash, free.hash);
@@ -106,30 +108,30 @@ TEST(Trial, HoursTakeNoMoreMemoryThanMinutes) {
 // it.
 class TappedTracker : public PoseTracker {
  public:
-  TappedTracker(std::unique_ptr<PoseTracker> tracker, Stamped<TrackedTool>*& at)
+  TappedTracker(std::unique_ptr<PoseTracker> tracker, Measurement<TrackedTool>*& at)
       : tracker_(std::move(tracker)), at_(at) {}
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     at_ = &newest;
     return tracker_->poll(now, newest);
   }
 
  private:
   std::unique_ptr<PoseTracker> tracker_;
-  Stamped<TrackedTool>*& at_;
+  Measurement<TrackedTool>*& at_;
 };
 class TappedDisplay : public Display {
  public:
-  TappedDisplay(std::unique_ptr<Display> display, Stamped<DentSample>*& at)
+  TappedDisplay(std::unique_ptr<Display> display, Measurement<DentSample>*& at)
       : display_(std::move(display)), at_(at) {}
   void show(const View& view) noexcept override { display_->show(view); }
-  bool poll(Time now, Stamped<DentSample>& newest) noexcept override {
+  bool poll(Time now, Measurement<DentSample>& newest) noexcept override {
     at_ = &newest;
     return display_->poll(now, newest);
   }
 
  private:
   std::unique_ptr<Display> display_;
-  Stamped<DentSample>*& at_;
+  Measurement<DentSample>*& at_;
 };
 
 // Hash over truth, state and outputs of each of the next ticks.
@@ -151,8 +153,8 @@ std::vector<std::uint64_t> trace(trial::Trial& trial, int ticks) {
 }
 
 void goes_on_from(int saved_at) {
-  Stamped<TrackedTool>* tool = nullptr;
-  Stamped<DentSample>* dent = nullptr;
+  Measurement<TrackedTool>* tool = nullptr;
+  Measurement<DentSample>* dent = nullptr;
   trial::TrialOptions options{.seconds = 10.0};
   options.fit_out = [&](Rig& rig) {
     rig.tracker = std::make_unique<TappedTracker>(std::move(rig.tracker), tool);
@@ -163,8 +165,8 @@ void goes_on_from(int saved_at) {
   const std::vector<std::byte> world = trial.world().save();
   const State state = trial.state();
   ASSERT_TRUE(tool && dent);
-  const Stamped<TrackedTool> tool_then = *tool;
-  const Stamped<DentSample> dent_then = *dent;
+  const Measurement<TrackedTool> tool_then = *tool;
+  const Measurement<DentSample> dent_then = *dent;
 
   const std::vector<std::uint64_t> first = trace(trial, 400);
   for (int i = 0; i < 2; ++i) {  // twice: restoring must not use up the saved state
@@ -316,7 +318,7 @@ double seconds_since(Wall::time_point start) {
 std::unique_ptr<Clock> counting() { return std::make_unique<trial::CountingClock>(1000.0); }
 
 // Ticks within 20 ms after a stall of 0.2 s: about 20; in a burst 220.
-int ticks_after_a_stall(sim::Paced& clock) {
+int ticks_after_a_stall(sim::PacedClock& clock) {
   for (int i = 0; i < 20; ++i) clock.next();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const Wall::time_point start = Wall::now();
@@ -326,7 +328,7 @@ int ticks_after_a_stall(sim::Paced& clock) {
 }
 
 TEST(LateClock, RealDevicesLoseTheCyclesOfAStall) {
-  sim::Paced clock(counting(), 1.0, sim::Late::skip);
+  sim::PacedClock clock(counting(), 1.0, sim::LatePolicy::skip);
   const Wall::time_point start = Wall::now();
   clock.next();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -336,25 +338,25 @@ TEST(LateClock, RealDevicesLoseTheCyclesOfAStall) {
   EXPECT_EQ(tick.index, missed + 1);  // no lost tick is repeated
   EXPECT_NEAR(seconds(tick.t.time_since_epoch()), seconds_since(start), 0.1);
   EXPECT_GE(clock.lateness().longest, 0.19);
-  sim::Paced again(counting(), 1.0, sim::Late::skip);
+  sim::PacedClock again(counting(), 1.0, sim::LatePolicy::skip);
   EXPECT_LE(ticks_after_a_stall(again), 30);
 }
 
 TEST(LateClock, ASimulationGoesOnWhereItWas) {
-  sim::Paced clock(counting(), 1.0, sim::Late::wait);
+  sim::PacedClock clock(counting(), 1.0, sim::LatePolicy::wait);
   clock.next();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   EXPECT_EQ(clock.next().index, 1);
   EXPECT_EQ(clock.missed(), 0);
   EXPECT_GE(clock.lateness().total, 0.19);
-  sim::Paced again(counting(), 1.0, sim::Late::wait);
+  sim::PacedClock again(counting(), 1.0, sim::LatePolicy::wait);
   EXPECT_LE(ticks_after_a_stall(again), 30);
 }
 
 // A pace that would last for years can be stopped.
 TEST(LateClock, WaitingCanBeStopped) {
   bool stop = false;
-  sim::Paced clock(counting(), 1e-12, sim::Late::wait, [&] { return stop; });
+  sim::PacedClock clock(counting(), 1e-12, sim::LatePolicy::wait, [&] { return stop; });
   clock.next();
   stop = true;
   const Wall::time_point start = Wall::now();
@@ -363,15 +365,15 @@ TEST(LateClock, WaitingCanBeStopped) {
 }
 
 // Counts the commands to a machine, and stalls once.
-class Stalling final : public Manipulator {
+class StallingMachine final : public Manipulator {
  public:
   struct Log {
     std::vector<std::int64_t> missed;  // missed ticks at the tick of each command
     std::int64_t commands = 0;
   };
-  Stalling(std::unique_ptr<Manipulator> machine, Log& log) : machine_(std::move(machine)), log_(log) {}
+  StallingMachine(std::unique_ptr<Manipulator> machine, Log& log) : machine_(std::move(machine)), log_(log) {}
   [[nodiscard]] Reach reach() const override { return machine_->reach(); }
-  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
+  Measurement<TipSample> read(Time now) noexcept override { return machine_->read(now); }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override {
     machine_->command(X_RH);
     if (++log_.commands == 100) std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -388,10 +390,10 @@ class Stalling final : public Manipulator {
 TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
   setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
   for (const char* scene : {"rig_A", "tennis_ball"}) {
-    Stalling::Log log;
+    StallingMachine::Log log;
     trial::TrialOptions options{.seconds = 0.6, .drivers = app::load_module, .armed = true};
     options.fit_out = [&](Rig& rig) {
-      rig.manipulator = std::make_unique<Stalling>(std::move(rig.manipulator), log);
+      rig.manipulator = std::make_unique<StallingMachine>(std::move(rig.manipulator), log);
     };
     std::int64_t late_holds = 0, before = -1;
     bool contiguous = true;

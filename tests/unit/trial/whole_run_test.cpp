@@ -16,13 +16,13 @@
 namespace enc {
 namespace {
 
-using test::force_at_limit, test::kDeep, test::look, test::quick, test::run, test::scene, test::Seen,
+using test::force_at_limit, test::kDeep, test::look, test::quick, test::run, test::scene, test::ObservedRun,
     test::shipped, test::Set;
 
 // Whole runs of presses: within all limits on every tick, and the force at the limit is the object's.
 
 TEST(TrialPress, SpeedAndAccelerationStayWithinTheLimitsOnEveryTickOfTheBall) {
-  const Seen seen = look(scene("tennis_ball"));
+  const ObservedRun seen = look(scene("tennis_ball"));
   EXPECT_GT(seen.onlooker.ticks, 60'000);
   EXPECT_EQ(seen.result.contacts, 5);
   seen.onlooker.expect_within_limits();
@@ -225,19 +225,20 @@ void black_out(double at, Mode during) {
   Mode before = Mode::hold;
   bool fresh_before = false;
   Time newest{};
-  const Seen seen = look(scene("tennis_ball", quick({"truth.tracker.blackout_at_s=" + number(at),
-                                                     "truth.tracker.blackout_for_s=" + number(kFor)})),
-                         {}, [&](const trial::Glance& g) {
-                           const double t = seconds(g.tick.t.time_since_epoch());
-                           if (t < at) before = g.out.mode;
-                           // Recovery within one tick of good data.
-                           const bool fresh = g.in.tool.t > newest && age(g.tick.t, g.in.tool.t) < 0.045;
-                           if (fresh_before && t > at + kFor) {
-                             EXPECT_NE(g.out.mode, Mode::hold) << t;
-                           }
-                           fresh_before = fresh;
-                           newest = g.in.tool.t;
-                         });
+  const ObservedRun seen = look(scene("tennis_ball", quick({"truth.tracker.blackout_at_s=" + number(at),
+                                                            "truth.tracker.blackout_for_s=" + number(kFor)})),
+                                {}, [&](const trial::Glance& g) {
+                                  const double t = seconds(g.tick.t.time_since_epoch());
+                                  if (t < at) before = g.out.mode;
+                                  // Recovery within one tick of good data.
+                                  const bool fresh =
+                                      g.in.tool.t > newest && age(g.tick.t, g.in.tool.t) < 0.045;
+                                  if (fresh_before && t > at + kFor) {
+                                    EXPECT_NE(g.out.mode, Mode::hold) << t;
+                                  }
+                                  fresh_before = fresh;
+                                  newest = g.in.tool.t;
+                                });
   EXPECT_EQ(before, during);
   ASSERT_EQ(seen.result.holds.size(), 1U);
   EXPECT_EQ(seen.result.holds[0].second, kToolLost);
@@ -258,7 +259,7 @@ TEST(TrialFault, TrackerBlackOutWhileFollowing) { black_out(1.0, Mode::follow); 
 TEST(TrialFault, TrackerBlackOutInContact) { black_out(2.2, Mode::contact); }
 
 TEST(TrialFault, ATrackerThatNeverComesBackEndsInHold) {
-  const Seen seen = look(
+  const ObservedRun seen = look(
       scene("tennis_ball", quick({"truth.tracker.blackout_at_s=2.2", "truth.tracker.blackout_for_s=100"})));
   EXPECT_EQ(seen.result.last_mode, Mode::hold);
   EXPECT_EQ(seen.onlooker.holds, 1);
@@ -267,7 +268,7 @@ TEST(TrialFault, ATrackerThatNeverComesBackEndsInHold) {
 }
 
 TEST(TrialFault, LostPacketsAreNoLostTool) {
-  const Seen seen = look(scene("tennis_ball", quick({"truth.tracker.loss=0.3"})));
+  const ObservedRun seen = look(scene("tennis_ball", quick({"truth.tracker.loss=0.3"})));
   EXPECT_TRUE(seen.result.holds.empty());
   EXPECT_EQ(seen.result.contacts, 1);
 }
@@ -277,7 +278,7 @@ TEST(TrialFault, LostPacketsAreNoLostTool) {
 TEST(TrialFault, ASaturatedForceSensorHoldsUntilItReadsAgain) {
   double force_at_hold = kUnset;
   bool good_before = true;
-  const Seen seen =
+  const ObservedRun seen =
       look(scene("tennis_ball", quick({"truth.force.range_N=12", "truth.force.zero_N=0"})), {},
            [&](const trial::Glance& g) {
              if (g.out.mode == Mode::hold && std::isnan(force_at_hold))
@@ -302,7 +303,7 @@ TEST(TrialFault, AToolAtFiveMetresASecondIsStoppedByTheTip) {
   double arrives = 0.0, deepest = 0.0;
   bool over = false;
   int through = 0;
-  const Seen seen =
+  const ObservedRun seen =
       look(scene("tennis_ball", {"user.approach_mm_s=[5000]", "user.approach_from_mm=1500",
                                  "user.approach_tilt_deg=0", "user.press_s=1", "user.release_s=1"}),
            {}, [&](const trial::Glance& g) {
@@ -324,7 +325,7 @@ TEST(TrialFault, AToolAtFiveMetresASecondIsStoppedByTheTip) {
 
 // A range of 3 N is less than the weight of the sensor's load: nothing ever moves.
 TEST(TrialFault, ASensorThatCannotCarryItsLoadNeverLetsTheMachineMove) {
-  const Seen seen = look(scene("tennis_ball", quick({"truth.force.range_N=3"})));
+  const ObservedRun seen = look(scene("tennis_ball", quick({"truth.force.range_N=3"})));
   ASSERT_EQ(seen.result.holds.size(), 1U);
   EXPECT_EQ(seen.result.holds[0].second, kForceSaturated);
   EXPECT_EQ(seconds(seen.result.holds[0].first.time_since_epoch()), 0.0);
@@ -345,7 +346,7 @@ TEST(TrialFault, ARegistrationErrorOf300MicrometresNeverHidesAPress) {
       const std::string text = "truth.tracker.bias_mm=[" + bias[0] + "," + bias[1] + "," + bias[2] + "]";
       SCOPED_TRACE(text);
       int unnoticed = 0, longest = 0;
-      const Seen seen = look(scene("tennis_ball", quick({text})), {}, [&](const trial::Glance& g) {
+      const ObservedRun seen = look(scene("tennis_ball", quick({text})), {}, [&](const trial::Glance& g) {
         const bool pressing = g.truth.contact_force.norm() > 0.5;
         unnoticed = pressing && g.out.mode != Mode::contact ? unnoticed + 1 : 0;
         longest = std::max(longest, unnoticed);
@@ -432,13 +433,13 @@ TEST(ShippedLaboratory, RendersTheTennisBall) {
 }
 
 // Contacts that begin without a recent touch, and seconds of contact without an object.
-struct Unfounded {
+struct UnfoundedContact {
   int begun = 0;
   double lasting = 0.0;
 };
-Unfounded unfounded_of(trial::Trial& trial) {
+UnfoundedContact unfounded_of(trial::Trial& trial) {
   constexpr double kBefore = 0.05, kAfter = 0.15;  // s
-  Unfounded found;
+  UnfoundedContact found;
   double away = 1.0;
   std::int32_t contacts = 0;
   while (trial.tick()) {

@@ -311,9 +311,9 @@ double BallEstimate::width() const {
   return 2.0 * interval.half / size;
 }
 
-Known BallEstimate::known() const {
+EstimateQuality BallEstimate::known() const {
   const double w = width();
-  return w <= 0.2 ? Known::well : w <= 1.0 ? Known::poorly : Known::not_at_all;
+  return w <= 0.2 ? EstimateQuality::well : w <= 1.0 ? EstimateQuality::poorly : EstimateQuality::not_at_all;
 }
 
 Eigen::MatrixXd ball_jacobian(const BallLoops& loops, const StandingBall& ball,

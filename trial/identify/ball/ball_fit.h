@@ -78,7 +78,7 @@ struct BallFitOptions {
 
 // Quality of an estimate, by the full width of its interval: within a fifth of its value; within its value;
 // not determined.
-enum class Known : std::uint8_t { well, poorly, not_at_all };
+enum class EstimateQuality : std::uint8_t { well, poorly, not_at_all };
 
 struct BallEstimate {
   std::size_t number = 0;     // index in ball_numbers()
@@ -87,7 +87,7 @@ struct BallEstimate {
   std::size_t tied = 0;       // the number with the most correlated error
   double correlation = 0.0;
   [[nodiscard]] double width() const;  // full width over the value; for nearer_mm over 0.1 mm
-  [[nodiscard]] Known known() const;
+  [[nodiscard]] EstimateQuality known() const;
 };
 
 // A held number, and its influence on the estimates.

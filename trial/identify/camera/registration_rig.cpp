@@ -199,7 +199,7 @@ std::optional<Point<'C'>> PictureEyes::see(const TipStand& tip) {
   if (show_) show_(tip);
   // The time is in the middle between two exposures, so that each frame is due once.
   const Time now(from_seconds((static_cast<double>(frames_++) + 0.5) * period_));
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   if (!camera_->poll(now, frame) || frame.health != Health::ok) {
     loss_ = BallLoss::no_frame;
     return {};
@@ -221,7 +221,7 @@ PictureEyes twin_eyes(const models::Setup& setup, const DriverSource& modules, s
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     const auto& camera = *static_cast<const sim::CameraModule*>(modules("camera").camera);
     const sim::CameraTruth& truth = setup.twin.camera;
-    auto shown = std::make_shared<sim::Shown>();
+    auto shown = std::make_shared<sim::CameraScene>();
     const TipThings things = ball_at_tip(pose_of<'W', 'C'>(setup.twin.frames.W_C), truth);
     return {camera.camera({stage_of(truth, seed), Time::max()}, [shown](Time) { return *shown; }),
             vision.ball(setup.rig.camera, setup.rig.vision.ball), truth.rate,

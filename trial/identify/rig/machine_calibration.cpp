@@ -157,7 +157,7 @@ TrialOptions CarriedTool::with_law(TrialOptions options) {
 
 void CarriedTool::tick() {
   const double dt = trial_.scene().dt;
-  if (!trial_.tick()) throw CarryingEnded{};
+  if (!trial_.tick()) throw MotionInterrupt{};
   now_ = seconds(trial_.now().t.time_since_epoch());
   if (trial_.has_world() && trial_.world().diverged_at() >= 0)
     throw Error(fmt::format("the physics diverged at tick {}: {}", trial_.world().diverged_at(),
@@ -223,7 +223,7 @@ void CarriedTool::begin() {
                       kClosing),
           {}, ErrorKind::device);
     tick();
-    const Stamped<TipSample>& tip = trial_.inputs().tip;
+    const Measurement<TipSample>& tip = trial_.inputs().tip;
     const Quat turn = (trial_.scene().X_WR * tip.value.X_RH).q();
     if (tip.health == Health::ok && turn.angularDistance(Quat::Identity()) > kNearTurn)
       throw Error(
@@ -253,7 +253,7 @@ void CarriedTool::go(const Pose<'W', 'H'>& to) {
 }
 
 bool CarriedTool::resting() const {
-  const Stamped<TipSample>& tip = trial_.inputs().tip;
+  const Measurement<TipSample>& tip = trial_.inputs().tip;
   const Pose<'W', 'H'> X_WH = trial_.scene().X_WR * tip.value.X_RH;
   return held_ == 0.0 && tip.health == Health::ok && tip.value.velocity.norm() < kStillSpeed &&
          (X_WH.p() - wanted_.p()).norm() < kNear && X_WH.q().angularDistance(wanted_.q()) < kNearTurn;

@@ -27,7 +27,7 @@ struct CarriedStand {
 };
 
 // Thrown when the run was asked to end; every moving device has been stopped.
-struct CarryingEnded {};
+struct MotionInterrupt {};
 
 class CarriedTool {
  public:
@@ -39,7 +39,7 @@ class CarriedTool {
   CarriedTool& operator=(const CarriedTool&) = delete;
 
   // The first call waits until the jaws hold the tool, and begins at the machine's present pose. Throws Error
-  // (kind device): no path, no tool held, no rest, a hold, a lost link; or CarryingEnded.
+  // (kind device): no path, no tool held, no rest, a hold, a lost link; or MotionInterrupt.
   void go(const Pose<'W', 'H'>& to);
   [[nodiscard]] CarriedStand stand();  // rests, and measures at its present pose
 

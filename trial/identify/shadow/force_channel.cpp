@@ -56,7 +56,7 @@ models::Setup faultless(models::Setup twin) {
 
 // The twin's sensor at each tick, in its true axes, with its probe `nearer` further along the push.
 std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, double nearer) {
-  const Vec3 along = -(tape.scene.probe()->X_WN * Vec<'N'>(0, 0, 1)).e();
+  const Vec3 along = -(tape.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1)).e();
   const Vec3 shift = nearer * (tape.scene.X_WR.q().conjugate() * along);
   std::vector<Wrench> felt;
   felt.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
@@ -67,21 +67,21 @@ std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, do
 }
 
 // Component against the push, with the sensor's pose from the rig file.
-class Along {
+class PushComponent {
  public:
-  explicit Along(const Tape& tape) : tape_(tape) {}
+  explicit PushComponent(const Tape& tape) : tape_(tape) {}
   double operator()(std::size_t i, const Vec<'F'>& force) const {
     const Time t =
         tape_.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape_.scene.dt).count());
     const Pose<'W', 'F'> X_WF = tape_.scene.X_WR * tape_.tip.at(t).X_RH * tape_.scene.X_HF;
-    return dot(X_WF * force, tape_.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+    return dot(X_WF * force, tape_.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
   }
 
  private:
   const Tape& tape_;
 };
 
-Forces along_push(const Along& along, const std::vector<Wrench>& felt) {
+Forces along_push(const PushComponent& along, const std::vector<Wrench>& felt) {
   Forces out;
   out.reserve(felt.size());
   for (std::size_t i = 0; i < felt.size(); ++i) out.push_back(along(i, felt[i].force));
@@ -97,7 +97,7 @@ double force_at(const Forces& forces, double i) {
 }
 
 Rows rows_of(const Tape& tape) {
-  const IndentationTask& probe = *tape.scene.probe();
+  const IndentationTask& probe = *tape.scene.indentation();
   const auto ticks = static_cast<std::size_t>(tape.last - tape.first + 1);
   Rows rows{std::vector<std::ptrdiff_t>(ticks, -1), 0, in_seconds(tape.begin), tape.scene.dt};
   const double from = -std::min(kBefore, 0.5 * probe.clear);
@@ -113,15 +113,15 @@ Rows rows_of(const Tape& tape) {
   return rows;
 }
 
-struct Compared {
+struct ForceComparison {
   models::Interval alike, nearer, late;
   double rms = kUnset;
 };
 
 // Fits measured(t) = alike * twin(t - late), with the object nearer. Fits all three at once, with one zero
 // for each push.
-Compared compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
-                 const Forces& stepped, double late) {
+ForceComparison compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
+                        const Forces& stepped, double late) {
   models::BlockFit fit(static_cast<std::size_t>(kPushed), kForceBlock);
   const double reach = kSlopeTime / rows.dt;
   for (const Reading& one : measured) {
@@ -145,11 +145,11 @@ Compared compare(const Rows& rows, const std::vector<Reading>& measured, const F
 }
 
 // The readings of the record's sensor, without repeated and invalid ones.
-std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
+std::vector<Reading> recorded_forces(const Tape& tape, const PushComponent& along) {
   std::vector<Reading> out;
   Time newest = Time::min();
   tape.play([&](const RecordedTick& frame) {
-    const Stamped<Wrench>& said = frame.in.wrench;
+    const Measurement<Wrench>& said = frame.in.wrench;
     if (said.health != Health::ok || !said.value.force.finite() || said.t <= newest) return;
     newest = said.t;
     const auto tick = static_cast<std::size_t>(frame.tick.index - tape.first);
@@ -176,8 +176,8 @@ double felt_at_most(const std::vector<Reading>& readings, double dt) {
 }
 
 // The readings of the twin's sensor with this seed.
-std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std::vector<Wrench>& felt,
-                                 std::uint64_t seed) {
+std::vector<Reading> twin_forces(const Tape& tape, const PushComponent& along,
+                                 const std::vector<Wrench>& felt, std::uint64_t seed) {
   std::vector<Reading> out;
   out.reserve(felt.size());
   sim::ForcePlant sensor(tape.twin.twin.force, seed);
@@ -217,15 +217,15 @@ void nothing_there(double felt, double thought, Shadow& shadow) {
 }
 
 // What the record's probe felt.
-struct Probed {
-  Along along;
+struct ProbeData {
+  PushComponent along;
   std::vector<Reading> readings;
   double pressed;  // N, by felt_at_most
   Rows rows;
 };
 
-Probed probed_in(const Tape& tape) {
-  const Along along(tape);
+ProbeData probed_in(const Tape& tape) {
+  const PushComponent along(tape);
   std::vector<Reading> readings = recorded_forces(tape, along);
   const double pressed = felt_at_most(readings, tape.scene.dt);
   return {along, std::move(readings), pressed, rows_of(tape)};
@@ -237,11 +237,11 @@ struct Match {
   double thought = 0.0;             // N, by felt_at_most, before it was moved
   std::vector<Wrench> felt{};
   Forces twin{}, stepped{};  // along the push; stepped: kStep nearer
-  Compared found{};
+  ForceComparison found{};
   bool touches = true, settled = false;
 };
 
-Match match_twin(const Tape& tape, const Probed& real) {
+Match match_twin(const Tape& tape, const ProbeData& real) {
   const models::Setup quiet = faultless(tape.twin);
   Match at;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -253,7 +253,7 @@ Match match_twin(const Tape& tape, const Probed& real) {
     at.touches = real.rows.pushes != 0 && !alike_all(at.twin, at.stepped);
     if (!at.touches) break;
     at.found = compare(real.rows, real.readings, at.twin, at.stepped, at.late);
-    const Compared& found = at.found;
+    const ForceComparison& found = at.found;
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
     at.settled = std::abs(found.nearer.value) < kSettled;
     if (at.settled || round + 1 == kMostRounds) break;
@@ -291,18 +291,18 @@ bool gives_numbers(const Match& at, Shadow& shadow) {
 }
 
 // Judges the numbers of the match beside those of twins with sensors of their own.
-void add_match(const Tape& tape, const Probed& real, const Match& at, Shadow& shadow) {
+void add_match(const Tape& tape, const ProbeData& real, const Match& at, Shadow& shadow) {
   std::vector<double> alike, place, time, rest;
   for (std::vector<double>* one : {&alike, &place, &time, &rest}) one->reserve(kTwins);
   for (std::size_t k = 0; k < kTwins; ++k) {
-    const Compared one =
+    const ForceComparison one =
         compare(real.rows, twin_forces(tape, real.along, at.felt, twin_seed(k)), at.twin, at.stepped, 0.0);
     alike.push_back(one.alike.value);
     place.push_back(one.nearer.value);
     time.push_back(one.late.value);
     rest.push_back(one.rms);
   }
-  const Compared& found = at.found;
+  const ForceComparison& found = at.found;
   models::Interval stiffer = beside_twins(found.alike, alike);
   add(shadow, Channel::force, Quantity::stiffness, stiffer, bounds::kStiffness);
   models::Interval off = beside_twins(found.nearer, place);
@@ -323,8 +323,8 @@ void add_match(const Tape& tape, const Probed& real, const Match& at, Shadow& sh
 }  // namespace
 
 void see_probed(const Tape& tape, Shadow& shadow) {
-  if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
-  const Probed real = probed_in(tape);
+  if (tape.scene.indentation() == nullptr || !tape.scene.has_force) return;
+  const ProbeData real = probed_in(tape);
   const Match at = match_twin(tape, real);
   if (!at.touches) return nothing_there(real.pressed, at.thought, shadow);
   if (gives_numbers(at, shadow)) add_match(tape, real, at, shadow);
@@ -374,7 +374,7 @@ std::vector<Depth> depths(const Tape& tape) {
 }  // namespace
 
 void see_rendered(const Tape& tape, Shadow& shadow) {
-  if (tape.scene.render() == nullptr || !tape.scene.has_force) return;
+  if (tape.scene.admittance() == nullptr || !tape.scene.has_force) return;
   if (!tape.sent)
     return cannot_judge(shadow, Channel::rendering, "nothing was sent to the machine: this was a dry run");
   if (!tape.pressed) return cannot_judge(shadow, Channel::rendering, "nothing that is rendered was pressed");

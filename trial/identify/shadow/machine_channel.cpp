@@ -32,12 +32,12 @@ struct TwinWay {
   [[nodiscard]] Vec3 speed(double t) const { return (place(t + dt) - place(t - dt)) / (2.0 * dt); }
 };
 
-struct Said {
+struct MachineReading {
   double t;  // s, stamp
   Vec3 at;   // m, in R
 };
 
-models::BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, double late) {
+models::BlockFit::Result fit_way(const TwinWay& way, const std::vector<MachineReading>& said, double late) {
   models::BlockFit fit(4, kMachineBlock);
   const std::size_t stride = 1 + said.size() / kMostRows;
   for (std::size_t k = 0; k < said.size(); k += stride) {
@@ -55,11 +55,11 @@ models::BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& sa
 
 // m rms, of all three axes: residual beyond delay and offset. It is the larger one of the moving and the
 // standing part, so that neither hides behind the other.
-double rest_of(const TwinWay& way, const std::vector<Said>& said, double late,
+double rest_of(const TwinWay& way, const std::vector<MachineReading>& said, double late,
                const models::BlockFit::Result& found) {
   const Vec3 off(found.values[0].value, found.values[1].value, found.values[2].value);
   double squares[2] = {0.0, 0.0}, rows[2] = {0.0, 0.0};  // standing, moving
-  for (const Said& one : said) {
+  for (const MachineReading& one : said) {
     const Vec3 place = way.place(one.t - late), speed = way.speed(one.t - late);
     if (!place.allFinite() || !speed.allFinite()) continue;
     const int moves = speed.norm() > kMoves ? 1 : 0;
@@ -82,7 +82,7 @@ double wire_cycle(const RigSpec& rig) {
 // The twin's way at the record's commands, and what the machine said.
 struct Ways {
   TwinWay twin;
-  std::vector<Said> said{};
+  std::vector<MachineReading> said{};
   double travel = 0.0;  // m, greatest distance from where it began
 };
 
@@ -90,7 +90,7 @@ Ways ways_of(const Tape& tape) {
   ToldMachine twin(tape);
   Ways ways{{in_seconds(tape.begin), tape.scene.dt}};
   std::vector<Vec3>& at = ways.twin.at;
-  std::vector<Said>& said = ways.said;
+  std::vector<MachineReading>& said = ways.said;
   at.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
   Time newest = Time::min();
   tape.play([&](const RecordedTick& frame) {

@@ -24,7 +24,7 @@ TipSample between(const TipSample& a, const TipSample& b, double share) {
 
 }  // namespace
 
-bool is_well(const Stamped<TipSample>& tip) {
+bool is_well(const Measurement<TipSample>& tip) {
   return (tip.health == Health::ok || tip.health == Health::out_of_range) && tip.value.X_RH.valid();
 }
 
@@ -33,7 +33,7 @@ bool was_sent(const RecordedTick& frame) {
          frame.in.tip.health != Health::absent;
 }
 
-bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest) {
+bool is_news(const Measurement<TrackedTool>& tool, const Scene& scene, Time& newest) {
   const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
                      tool.value.tool < static_cast<std::int32_t>(scene.tools.size()) &&
                      tool.value.X_CT.valid();
@@ -42,13 +42,13 @@ bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest)
   return true;
 }
 
-void TipTrace::see(const Stamped<TipSample>& tip) {
+void TipTrace::see(const Measurement<TipSample>& tip) {
   if (is_well(tip) && (said_.empty() || tip.t > said_.back().t)) said_.push_back(tip);
 }
 
 std::size_t TipTrace::after(Time t) const {
   const auto later = std::upper_bound(said_.begin(), said_.end(), t,
-                                      [](Time at, const Stamped<TipSample>& one) { return at < one.t; });
+                                      [](Time at, const Measurement<TipSample>& one) { return at < one.t; });
   return static_cast<std::size_t>(later - said_.begin());
 }
 
@@ -169,7 +169,7 @@ TwinTrackers::TwinTrackers(const Tape& tape)
 void TwinTrackers::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
   for (std::size_t i = 0; i < kTwins; ++i) {
     plants_[i].advance(t, tool, X_WT);
-    Stamped<TrackedTool> newest;
+    Measurement<TrackedTool> newest;
     if (plants_[i].poll(newest) && is_news(newest, scene_, newest_[i]))
       packets_[i].push_back({t, newest.t, newest.value});
   }

@@ -17,7 +17,7 @@ namespace enc::trial {
 // Position of the machine at any time, interpolated between its reports by their stamps.
 class TipTrace {
  public:
-  void see(const Stamped<TipSample>& tip);  // call in the order of a record; ignores repeated reports
+  void see(const Measurement<TipSample>& tip);  // call in the order of a record; ignores repeated reports
   [[nodiscard]] bool empty() const { return said_.empty(); }
   // True if the machine reported shortly before and after this time.
   [[nodiscard]] bool knows(Time t) const;
@@ -26,7 +26,7 @@ class TipTrace {
 
  private:
   [[nodiscard]] std::size_t after(Time t) const;  // first later report
-  std::vector<Stamped<TipSample>> said_;
+  std::vector<Measurement<TipSample>> said_;
 };
 
 // One row of a record, and the machine's health in it.
@@ -49,12 +49,12 @@ struct Tape {
 };
 
 // True if the machine's report is reliable.
-[[nodiscard]] bool is_well(const Stamped<TipSample>& tip);
+[[nodiscard]] bool is_well(const Measurement<TipSample>& tip);
 // True if this tick's command was sent to the machine.
 [[nodiscard]] bool was_sent(const RecordedTick& frame);
 // True for a pose that came with this tick, of a tool of the scene. `newest`: stamp of the last one; it is
 // updated.
-[[nodiscard]] bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest);
+[[nodiscard]] bool is_news(const Measurement<TrackedTool>& tool, const Scene& scene, Time& newest);
 
 // The twin's machine under the commands of a record.
 class ToldMachine {

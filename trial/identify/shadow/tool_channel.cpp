@@ -209,7 +209,7 @@ constexpr double kAround = 0.03;      // s before and after a packet that must b
 constexpr std::size_t kFewest = 30;   // packets
 
 // Ticks with a pressed tip: force, and direction from the haptic-tip to the tool's tip.
-struct Pressed {
+struct PressData {
   std::vector<Vec3> felt;  // N, in W, on the tip; NaN: not pressed
   double begin, dt;
   std::vector<Vec3> away{};           // unit vector for each tick
@@ -233,20 +233,21 @@ double length_between(const Scene& scene, const TrackedTool& tool) {
 }
 
 // Vector from the haptic-tip to the tool's tip, at a packet's stamp. NaN: not pressed.
-Vec3 from_tip(const Tape& tape, const Pressed& pressed, const SeenPacket& packet) {
+Vec3 from_tip(const Tape& tape, const PressData& pressed, const SeenPacket& packet) {
   if (!pressed.firm_around(in_seconds(packet.stamp)) || !tape.tip.knows(packet.stamp))
     return Vec3::Constant(kUnset);
   return (tip_of(tape.scene, packet.tool) - tape.scene.X_WR * tape.tip.at(packet.stamp).X_RH.origin()).e();
 }
 
-struct Seen {
+struct ToolComparison {
   models::Interval away;    // m
   models::Interval stamps;  // s
   models::Interval gives;   // m/N: approach of the tips under load
   std::size_t packets = 0;
 };
 
-Seen seen_pressing(const Tape& tape, const Pressed& pressed, const std::vector<SeenPacket>& packets) {
+ToolComparison seen_pressing(const Tape& tape, const PressData& pressed,
+                             const std::vector<SeenPacket>& packets) {
   models::BlockFit fit(3, kPressBlock);
   for (const SeenPacket& one : packets) {
     const Vec3 apart = from_tip(tape, pressed, one);
@@ -265,7 +266,7 @@ Seen seen_pressing(const Tape& tape, const Pressed& pressed, const std::vector<S
 
 // The direction between both tips, as the mean of a contact's packets.
 void find_lines(const Tape& tape, const std::vector<SeenPacket>& recorded,
-                const std::vector<std::int32_t>& contact, Pressed& pressed) {
+                const std::vector<std::int32_t>& contact, PressData& pressed) {
   std::vector<Vec3> sums(1, Vec3::Zero());
   const auto number = [&](std::ptrdiff_t i) {
     return static_cast<std::size_t>(std::max(0, contact[static_cast<std::size_t>(i)]));
@@ -286,12 +287,12 @@ void find_lines(const Tape& tape, const std::vector<SeenPacket>& recorded,
 }
 
 // The true pose of the tool's markers in the twin, whose tips touch; no tool: unknown.
-struct Held {
+struct ToolTruth {
   std::int32_t tool = -1;
   Pose<'W', 'T'> X_WT = Pose<'W', 'T'>::identity();
 };
-Held held_by_twin(const Tape& tape, const Pressed& pressed, const Pose<'W', 'R'>& X_WR, std::size_t i,
-                  Time t) {
+ToolTruth held_by_twin(const Tape& tape, const PressData& pressed, const Pose<'W', 'R'>& X_WR, std::size_t i,
+                       Time t) {
   const TrackedTool& seen = pressed.newest[i];
   if (!pressed.firm(static_cast<std::ptrdiff_t>(i)) || seen.tool < 0 || !pressed.away[i].allFinite())
     return {};
@@ -305,8 +306,8 @@ Held held_by_twin(const Tape& tape, const Pressed& pressed, const Pose<'W', 'R'>
 }
 
 // The ticks of the record, with the directions between both tips.
-Pressed pressed_in(const Tape& tape, const std::vector<SeenPacket>& recorded) {
-  Pressed pressed{{}, in_seconds(tape.begin), tape.scene.dt};
+PressData pressed_in(const Tape& tape, const std::vector<SeenPacket>& recorded) {
+  PressData pressed{{}, in_seconds(tape.begin), tape.scene.dt};
   std::vector<std::int32_t> contact;
   Time newest = Time::min();
   TrackedTool tool;
@@ -326,17 +327,17 @@ Pressed pressed_in(const Tape& tape, const std::vector<SeenPacket>& recorded) {
 }
 
 // The trackers see the tool held by the twin.
-void hold_in_twin(const Tape& tape, const Pressed& pressed, TwinTrackers& trackers) {
+void hold_in_twin(const Tape& tape, const PressData& pressed, TwinTrackers& trackers) {
   const Pose<'W', 'R'> X_WR = sim::hexapod_base(tape.twin.twin.hexapod);
   for (std::size_t i = 0; i < pressed.felt.size(); ++i) {
     const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
-    const Held held = held_by_twin(tape, pressed, X_WR, i, t);
+    const ToolTruth held = held_by_twin(tape, pressed, X_WR, i, t);
     trackers.advance(t, held.tool, held.X_WT);
   }
 }
 
 // The trackers see the tool where the record's tracker saw it.
-void hold_as_seen(const Tape& tape, const Pressed& pressed, TwinTrackers& trackers) {
+void hold_as_seen(const Tape& tape, const PressData& pressed, TwinTrackers& trackers) {
   for (std::size_t i = 0; i < pressed.felt.size(); ++i) {
     const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
     const TrackedTool& seen = pressed.newest[i];
@@ -360,8 +361,8 @@ void add_stamps(const std::vector<SeenPacket>& recorded, const models::Interval&
 }
 
 void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
-  const Pressed pressed = pressed_in(tape, recorded);
-  const Seen found = seen_pressing(tape, pressed, recorded);
+  const PressData pressed = pressed_in(tape, recorded);
+  const ToolComparison found = seen_pressing(tape, pressed, recorded);
   const bool told = found.packets >= kFewest;
   TwinTrackers trackers(tape), ages(tape);
   hold_as_seen(tape, pressed, ages);
@@ -375,7 +376,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   std::vector<double> away, stamps, gives;
   for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {
-    const Seen twin = seen_pressing(tape, pressed, packets);
+    const ToolComparison twin = seen_pressing(tape, pressed, packets);
     away.push_back(twin.away.value);
     stamps.push_back(twin.stamps.value);
     gives.push_back(twin.gives.value);

@@ -50,7 +50,7 @@ bool possible(const Tip<'O'>& tip) {
          tip.length < kLongestTip;
 }
 
-bool possible(const StepContext& context, const Stamped<DentSample>& sample) {
+bool possible(const StepContext& context, const Measurement<DentSample>& sample) {
   const DentSample& dent = sample.value;
   if (sample.t > context.tick.t + context.tick.dt) return false;
   if (dent.object == -1) return true;
@@ -115,7 +115,7 @@ namespace {
 
 // Sideways displacement of the contact point, never more than the deflection limit.
 Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) {
-  if (object.tangential == Tangential::stick) return Vec3::Zero();
+  if (object.tangential == TangentialMode::stick) return Vec3::Zero();
   Vec3 give(force.xyz[0] / object.tangential_stiffness, force.xyz[1] / object.tangential_stiffness, 0.0);
   const double size = give.norm();
   return size > limit ? Vec3(give * (limit / size)) : give;

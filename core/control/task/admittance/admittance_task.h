@@ -29,11 +29,11 @@ struct AdmittanceState : CommandState {
   Swing swing;
   RenderedEnergy spent;
   Vec<'N'> displacement = Vec<'N'>::zero();
-  Stamped<DentSample> dent;
+  Measurement<DentSample> dent;
   bool outside_dent = false;  // the tip is outside its deformed surface
 };
 
-struct AdmittanceTask : Displacing {
+struct AdmittanceTask : DisplacementTask {
   using Memory = AdmittanceState;
   std::optional<DampingLaw> damping;  // set if the rig asks for a damper
   PassivityForm passivity = PassivityForm::none;

@@ -41,7 +41,7 @@ bool struck(const StepContext& context, const CommonState& state, ImpedanceState
   const double behind = dot(now.aim.target - context.X_WH.origin(), context.normal);
   const double speed = dot(now.aim.velocity - context.tip_velocity, context.normal);
   const bool there = state.mode == Mode::follow && now.aim.caught_up && context.tool_known;
-  const double fastest = now.aim.straying.fastest;  // of late
+  const double fastest = now.aim.deviation.fastest;  // of late
   const bool pushed = behind > Is::kFriction + Is::kLate * fastest ||
                       (behind > Is::kMoved && speed > Is::kSpeed + Is::kUneven * fastest);
   if (!there) now.contact.left = context.tick.t;

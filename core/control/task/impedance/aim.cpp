@@ -149,11 +149,11 @@ Point<'W'> on_surface(const StepContext& context, const CommonState& state, cons
 
 }  // namespace
 
-Goal foreseen_touch(const StepContext& context, const CommonState& state, ImpedanceState& memory) noexcept {
+Goal predicted_touch(const StepContext& context, const CommonState& state, ImpedanceState& memory) noexcept {
   ReachPrediction& now = memory.coming;
   const Object* object = nearest_object(context, state);
   const TrackerRig& rig = context.scene.tracker;
-  const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
+  const bool asked = rig.foresight == TouchPrediction::reach && rig.prediction != Prediction::hold;
   if (!asked || object == nullptr || !context.tool_known) {
     now.object = -1;
     return {};
@@ -276,8 +276,8 @@ bool touches_belt(const CommonState& state, const Object* object) {
 // its speed: on a small ball it is slower than the finger, and beyond the edge of a button it stands still.
 Goal goal_of(const StepContext& context, const CommonState& state, ImpedanceState& memory,
              const Object& object) {
-  const Goal touch = foreseen_touch(context, state, memory);
-  if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
+  const Goal touch = predicted_touch(context, state, memory);
+  if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.predicted};
   if (touch.point.finite()) return touch;
   const Vec<'W'> none = Vec<'W'>::zero();
   if (const Vec<'W'> rest = rest_of_flight(context, object); !rest.e().isZero())
@@ -300,9 +300,9 @@ Goal goal_of(const StepContext& context, const CommonState& state, ImpedanceStat
 }
 
 // Limits of the target's motion; they are raised where a reach may touch.
-struct Haste {
+struct TargetLimits {
   double acceleration, settle;
-  Haste(const ArmRig& rig, bool hurries)
+  TargetLimits(const ArmRig& rig, bool hurries)
       : acceleration(hurries ? rig.reach_acceleration : rig.acceleration),
         settle(hurries ? rig.reach_settle : rig.settle) {}
 };
@@ -331,22 +331,23 @@ void move_target(StepContext& context, const ArmRig& rig, CommonState& state, Ai
   if (far > AimSpec::kLeap && !runs) now.caught_up = false;
   // Motion under the raised limits brakes under the raised limits.
   now.hurried =
-      goal.foreseen || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
-  const Haste haste(rig, now.hurried);
+      goal.predicted || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
+  const TargetLimits target_limits(rig, now.hurried);
   const double stops =
-      std::min(AimSpec::kBrakingShare * braking_speed(far, haste.acceleration, dt), far / dt);
-  const double settle = runs ? AimSpec::kBeltSettle : haste.settle;
+      std::min(AimSpec::kBrakingShare * braking_speed(far, target_limits.acceleration, dt), far / dt);
+  const double settle = runs ? AimSpec::kBeltSettle : target_limits.settle;
   const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(rig.speed, stops);
   Vec3 velocity = goal.velocity.e();
   if (far > 0.0) velocity += way * (speed / far);
   if (velocity.norm() > rig.speed) velocity *= rig.speed / velocity.norm();
-  const double most = haste.acceleration * dt;
+  const double most = target_limits.acceleration * dt;
   const Vec3 change = velocity - now.velocity.e();
   if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
   const bool on_its_way = !now.caught_up;
   if (on_its_way) {
     if (object != nullptr)
-      velocity = not_through_a_hollow(context, haste.acceleration, rig.speed, state, now, *object, velocity);
+      velocity =
+          not_through_a_hollow(context, target_limits.acceleration, rig.speed, state, now, *object, velocity);
     now.caught_up = far < AimSpec::kThere && change.norm() <= 2.0 * most;
   }
   context.target_change = (velocity - now.velocity.e()) / dt;
@@ -375,10 +376,10 @@ void go_to(Goal goal, StepContext& context, const Impedance& task, CommonState& 
   now.caught_up = false;
 }
 
-// Only the ball pushes its prop while it is pressed (impede), and along the normal the target is where the
-// finger has pushed it. So there is no step when they part. The target's speed is that of the prop, smoothed,
-// and at most what the distance so far allows: one wrong reading sets nothing in motion. Sideways the target
-// comes to rest.
+// Only the ball pushes its prop while it is pressed (render_impedance), and along the normal the target is
+// where the finger has pushed it. So there is no step when they part. The target's speed is that of the prop,
+// smoothed, and at most what the distance so far allows: one wrong reading sets nothing in motion. Sideways
+// the target comes to rest.
 void go_with_prop(const StepContext& context, const ArmRig& rig, const Contact& contact, Aim& now) {
   const double dt = context.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
@@ -399,13 +400,13 @@ void go_with_prop(const StepContext& context, const ArmRig& rig, const Contact& 
 // is evidence only without a finger nearby. Accepted lag: an even motion lags by K_v / K_p.
 void check_following(StepContext& context, const Impedance& law, Aim& now) {
   if (context.in.withheld) {
-    now.straying = PathDeviation{};
+    now.deviation = PathDeviation{};
     return;
   }
   const ArmRig& rig = law.rig;
   const double lag = std::min(rig.damping / rig.stiffness, AimSpec::kLongestLag);
   const double dt = context.scene.dt;
-  double near = AimSpec::kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
+  double near = AimSpec::kFriction + now.deviation.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
     const PerJoint weight = law.arm.gravity(context.in.arm.value.joints, law.prop_mass, Payload::exact);
     near += law.arm.force(context.jacobian, weight).norm() / rig.stiffness;  // the tip hangs below its target
@@ -413,7 +414,7 @@ void check_following(StepContext& context, const Impedance& law, Aim& now) {
   const bool free =
       !context.tool_known || (context.tool_tip - context.X_WH.origin()).norm() > AimSpec::kBesideProp;
   const bool off = free && (now.target - context.X_WH.origin()).norm() > near;
-  if (!now.straying.too_long(off, AimSpec::kPatience, dt)) return;
+  if (!now.deviation.too_long(off, AimSpec::kPatience, dt)) return;
   now.stuck = true;
   context.why |= kNotFollowing;
 }

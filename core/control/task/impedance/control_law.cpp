@@ -18,9 +18,10 @@ namespace {
 // It observes the tip relative to the law's target, along the mean normal of two ticks. So the motion of a
 // target neither adds nor takes energy: an object may carry the target, or it follows its path or runs over a
 // round object. The same holds for a normal that turns under a sliding tip.
-struct Tame {
+struct PassivityLimiter {
   // Limits the force that the law asks for.
-  Tame(StepContext& context, const Impedance& law, const CommonState& state, ImpedanceState& memory) noexcept;
+  PassivityLimiter(StepContext& context, const Impedance& law, const CommonState& state,
+                   ImpedanceState& memory) noexcept;
   // Stores the push after all limits.
   void held(const StepContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept;
   Vec3 wanted;
@@ -47,7 +48,7 @@ Spring spring_of(const StepContext& context, const Impedance& law, const CommonS
 // m: outward motion of the tip relative to its target. The target of a ball moves with the tip, so there it
 // is relative to the ball.
 double moved(const StepContext& context, const CommonState& state, const ImpedanceState& memory) {
-  const PassivityControl& now = memory.tamed;
+  const PassivityControl& now = memory.passivity;
   const double dt = context.scene.dt;
   const bool on = now.energy.on;
   const Vec3 way = on ? Vec3((context.X_WH.origin() - now.tip).e()) : Vec3(dt * context.tip_velocity.e());
@@ -71,10 +72,10 @@ void lose(const StepContext& context, const ImpedanceState& memory, PassivityCon
 
 // A law whose force is not sent gives out no energy. A prop on its way to the touch renders nothing either; a
 // prop that jumps under the finger that presses it has already arrived.
-const Object* tamed_object(const StepContext& context, const CommonState& state,
-                           const ImpedanceState& memory) {
+const Object* controlled_object(const StepContext& context, const CommonState& state,
+                                const ImpedanceState& memory) {
   if (state.mode != Mode::contact || context.in.withheld || holding(context)) return nullptr;
-  const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
+  const bool met = memory.passivity.pressed && memory.passivity.object == state.object;
   if (!memory.aim.caught_up && !met) return nullptr;
   const Object* object = nearest_object(context, state);
   const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
@@ -82,12 +83,12 @@ const Object* tamed_object(const StepContext& context, const CommonState& state,
   return renders && known ? object : nullptr;
 }
 
-Tame::Tame(StepContext& context, const Impedance& law, const CommonState& state,
-           ImpedanceState& memory) noexcept
+PassivityLimiter::PassivityLimiter(StepContext& context, const Impedance& law, const CommonState& state,
+                                   ImpedanceState& memory) noexcept
     : wanted(context.wanted_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
-  PassivityControl& now = memory.tamed;
-  const Object* object = tamed_object(context, state, memory);
+  PassivityControl& now = memory.passivity;
+  const Object* object = controlled_object(context, state, memory);
   if (object == nullptr) {
     lose(context, memory, now);
     return;
@@ -115,10 +116,11 @@ Tame::Tame(StepContext& context, const Impedance& law, const CommonState& state,
   taken = std::clamp(asked, -law.rig.peak, law.rig.peak) - std::clamp(given, -law.rig.peak, law.rig.peak);
 }
 
-void Tame::held(const StepContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept {
-  if (!memory.tamed.energy.on) return;
+void PassivityLimiter::held(const StepContext& context, ImpedanceState& memory,
+                            const Vec3& pushed) const noexcept {
+  if (!memory.passivity.energy.on) return;
   const double push = pushed.dot(context.normal.e());
-  hold(memory.tamed.energy, push, push + taken);
+  hold(memory.passivity.energy, push, push + taken);
 }
 
 // While the finger is far, the arm is motionless [VisHap 2]: the law stops and friction holds the arm. One
@@ -168,7 +170,8 @@ Vec3 going_along(const StepContext& context, const Arm& arm, const Mat3& mass) {
 
 }  // namespace
 
-void impede(StepContext& context, const Impedance& law, CommonState& state, ImpedanceState& memory) noexcept {
+void render_impedance(StepContext& context, const Impedance& law, CommonState& state,
+                      ImpedanceState& memory) noexcept {
   if (!context.X_WH.valid() || holding(context)) return;
   Aim& now = memory.aim;
   const Vec3 normal = context.normal.finite() ? Vec3(context.normal.e()) : Vec3(Vec3::UnitZ());
@@ -239,10 +242,10 @@ void guard(StepContext& context, const Impedance& law, CommonState& state, Imped
   if (context.X_WH.valid()) {
     context.arm_force = against_gravity(context, law);
     context.felt = Vec<'W'>::zero();
-    const Tame tame(context, law, state, memory);  // between the law and the machine's limits
+    const PassivityLimiter limiter(context, law, state, memory);  // between the law and the machine's limits
     if (!holding(context)) {
-      const Vec3 pushed = guarded(context, law, memory.heat, tame.wanted);
-      tame.held(context, memory, pushed);
+      const Vec3 pushed = guarded(context, law, memory.heat, limiter.wanted);
+      limiter.held(context, memory, pushed);
       context.felt = Vec<'W'>(Vec3(-pushed));
       context.arm_force = context.arm_force + context.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
     }

@@ -34,11 +34,11 @@ namespace enc::stages {
 struct Goal {
   Point<'W'> point;
   Vec<'W'> velocity = Vec<'W'>::zero();
-  bool foreseen = false;  // True if the point is a predicted touch.
+  bool predicted = false;  // True if the point is a predicted touch.
 };
 // Predicted touch of an approaching finger; unset: no touch is predicted, or the finger lies on the prop.
-[[nodiscard]] Goal foreseen_touch(const StepContext& context, const CommonState& state,
-                                  ImpedanceState& now) noexcept;
+[[nodiscard]] Goal predicted_touch(const StepContext& context, const CommonState& state,
+                                   ImpedanceState& now) noexcept;
 // Point just above the predicted touch, by the last prediction; unset: no touch is predicted.
 [[nodiscard]] Point<'W'> comes_to(const StepContext& context, const ImpedanceState& now) noexcept;
 

@@ -12,7 +12,7 @@ namespace {
 
 // An arm's tip turns with its joints, but only its position is rendered, so H keeps the axes of R.
 void track_arm(StepContext& context, const Impedance& task, CommonState& state) {
-  const Stamped<ArmSample>& sample = context.in.arm;
+  const Measurement<ArmSample>& sample = context.in.arm;
   if (sample.health == Health::absent || age(context.tick.t, sample.t) > task.rig.stale) {
     context.why |= kTipLost;
     return;
@@ -57,7 +57,7 @@ void touch(StepContext& context, const Impedance&, CommonState& state, Impedance
 
 void act(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept {
   aim(context, task, state, now);
-  impede(context, task, state, now);
+  render_impedance(context, task, state, now);
 }
 
 // The arm measures no force: the finger feels the commanded force beyond gravity compensation.

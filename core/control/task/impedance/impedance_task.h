@@ -25,12 +25,12 @@ struct Aim {
   double sunk = 0.0;       // m: depth of the target behind a button's surface
   bool caught_up = false;  // the target has reached the finger's projection
   bool triggered = false;
-  double blind = 0.0;      // s since the machine's last position report
-  PathDeviation straying;  // deviation from the target that only the arm can cause
-  bool stuck = false;      // off the target for too long, until the finger leaves
-  bool hurried = false;    // the velocity uses the raised speed limit
-  Point<'W'> stood;        // resting position of the tip; unset: it moves
-  bool slipped = false;    // the tip did not stay where it rested
+  double blind = 0.0;       // s since the machine's last position report
+  PathDeviation deviation;  // deviation from the target that only the arm can cause
+  bool stuck = false;       // off the target for too long, until the finger leaves
+  bool hurried = false;     // the velocity uses the raised speed limit
+  Point<'W'> stood;         // resting position of the tip; unset: it moves
+  bool slipped = false;     // the tip did not stay where it rested
 };
 
 // Pictures of an approaching finger, newest first, and its predicted touch (core/control/track/reach.h).
@@ -54,7 +54,7 @@ struct ImpedanceState {
   Aim aim;
   ReachPrediction coming;
   Heat heat;  // thermal model of the motors
-  PassivityControl tamed;
+  PassivityControl passivity;
 };
 
 struct ImpedanceTask : Impedance {
@@ -71,8 +71,8 @@ void fields(F& f, Aim& r) {
   f("sunk", r.sunk);
   f("caught_up", r.caught_up);
   f("blind", r.blind);
-  f("target_fastest", r.straying.fastest);
-  f("arm_off", r.straying.off);
+  f("target_fastest", r.deviation.fastest);
+  f("arm_off", r.deviation.off);
   f("stuck", r.stuck);
   f("hurried", r.hurried);
   fields(f, "stood_W", r.stood);
@@ -99,7 +99,7 @@ void fields(F& f, ImpedanceState& m) {
   fields(f, m.coming);
   fields(f, "winding", m.heat.winding);
   fields(f, "housing", m.heat.housing);
-  fields(f, m.tamed);
+  fields(f, m.passivity);
 }
 
 namespace stages {
@@ -111,9 +111,10 @@ void guard(StepContext& context, const Impedance& task, CommonState& state, Impe
 void report(const StepContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
             Outputs& out) noexcept;
 
-// The stages of act(): place the prop (aim); position in, force out (impede).
+// The stages of act(): place the prop (aim); position in, force out (render_impedance).
 void aim(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void impede(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void render_impedance(StepContext& context, const Impedance& task, CommonState& state,
+                      ImpedanceState& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

@@ -25,7 +25,7 @@ struct IndentationState : CommandState {
   double deflection = 0.0;  // requested, m; negative: above the surface
 };
 
-struct IndentationTask : Displacing {
+struct IndentationTask : DisplacementTask {
   using Memory = IndentationState;
   // The programme that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this
   // machine cannot do it: out of reach, an obstacle, no force sensor, too deep.

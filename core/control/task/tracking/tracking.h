@@ -35,7 +35,7 @@ struct TrackingState : CommandState {
   std::int32_t leg = 0;  // index in TrackingTask::legs
 };
 
-struct TrackingTask : Displacing {
+struct TrackingTask : DisplacementTask {
   using Memory = TrackingState;
   // The travel that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this machine
   // cannot do the travel.

@@ -107,14 +107,14 @@ const std::vector<std::string> kPress{"run",
                                       "user.approach_mm_s=[200]",
                                       "user.approach_from_mm=125"};
 
-struct Drawn {
+struct ReportedImages {
   nlohmann::json report;
   std::map<std::string, std::string> images;  // by name
 };
 
 // Mesa reads the number once, when OpenGL starts; so each number needs a process. Only the driver llvmpipe
 // has threads.
-Drawn drawn_by(const std::string& threads) {
+ReportedImages drawn_by(const std::string& threads) {
   const test::TemporaryFolder folder;
   const std::filesystem::path frames = folder.path() / "frames";
   std::vector<std::string> words = kPress;
@@ -126,7 +126,7 @@ Drawn drawn_by(const std::string& threads) {
                                        {"GALLIUM_DRIVER", "llvmpipe"},
                                        {"ENCOUNTER_MODELS", kFolder}});
   EXPECT_EQ(r.code, 0) << r.err << r.out;
-  Drawn drawn;
+  ReportedImages drawn;
   if (r.code != 0) return drawn;
   drawn.report = nlohmann::json::parse(r.out);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(frames))
@@ -136,10 +136,10 @@ Drawn drawn_by(const std::string& threads) {
 }
 
 TEST(DrawingThreads, OneOrTwoGiveTheSameBits) {
-  const Drawn one = drawn_by("1"), two = drawn_by("2");
+  const ReportedImages one = drawn_by("1"), two = drawn_by("2");
   ASSERT_FALSE(one.report.empty() || two.report.empty());
   EXPECT_GT(two.report["threads"], one.report["threads"]) << "the number has not come to the renderer";
-  for (const Drawn* drawn : {&one, &two}) {
+  for (const ReportedImages* drawn : {&one, &two}) {
     EXPECT_EQ(drawn->images.size(), 82U) << "at 20 Hz, two of them, from 0 to 2 s";
     EXPECT_EQ(drawn->report["vision"]["rate_hz"], 20.0);
     EXPECT_GT(drawn->report["modes_s"]["follow"], 0.3) << "the finger was seen";

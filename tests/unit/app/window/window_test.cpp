@@ -172,7 +172,7 @@ TEST_F(WindowControls, TimeOfASimulatedRunIsTheUsers) {
   EXPECT_FALSE(controls_->take_wishes().paused);
   key('.');
   key('.');
-  Wishes wishes = controls_->take_wishes();
+  RunRequests wishes = controls_->take_wishes();
   EXPECT_TRUE(wishes.paused);
   EXPECT_EQ(wishes.ticks, 2);
   EXPECT_EQ(controls_->take_wishes().ticks, 0) << "asked for once";
@@ -200,7 +200,7 @@ TEST_F(WindowControls, TimeOfASimulatedRunIsTheUsers) {
 TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
   around_.real = true;
   key(' ');
-  Wishes wishes = controls_->take_wishes();
+  RunRequests wishes = controls_->take_wishes();
   EXPECT_TRUE(wishes.stops && !wishes.paused && !wishes.resumes);
   key('R');
   wishes = controls_->take_wishes();
@@ -216,7 +216,7 @@ TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
 TEST_F(WindowControls, EarlierMomentsOfARun) {
   key(',');
   key(',');
-  Wishes wishes = controls_->take_wishes();
+  RunRequests wishes = controls_->take_wishes();
   EXPECT_TRUE(wishes.paused);
   EXPECT_EQ(wishes.stills, -2);
   EXPECT_EQ(controls_->take_wishes().stills, 0) << "asked for once";
@@ -267,7 +267,7 @@ TEST_F(WindowControls, ARecordIsPlayed) {
   around_.played = true;
   around_.steerable = false;
   key('.');
-  Wishes wishes = controls_->take_wishes();
+  RunRequests wishes = controls_->take_wishes();
   EXPECT_TRUE(wishes.paused && wishes.stills == 1 && wishes.ticks == 0);
   key(' ');
   wishes = controls_->take_wishes();
@@ -326,7 +326,8 @@ TEST_F(WindowControls, ChartsHelpAndEnd) {
 
 // MuJoCo writes at most 500 characters at once, so the page is written in two halves.
 TEST_F(WindowControls, TheHelpPageFits) {
-  for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record}) {
+  for (const Controls::RunKind of :
+       {Controls::RunKind::simulated, Controls::RunKind::real, Controls::RunKind::record}) {
     const auto lines = Controls::help_lines(of);
     std::size_t first = 0, second = 0;
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -342,7 +343,8 @@ TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
       "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",     "C",       "H", "Q",
       "space",     ".",     "N", "[ ]",   "backspace",    "space, R",           ", bar", ", . bar", "T", "O",
       "1 2",       "3 4",   "P", "enter"};
-  for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record})
+  for (const Controls::RunKind of :
+       {Controls::RunKind::simulated, Controls::RunKind::real, Controls::RunKind::record})
     for (const Controls::Help& line : Controls::help_lines(of))
       EXPECT_TRUE(tested.contains(line.key)) << line.key;
 }
@@ -449,7 +451,7 @@ class WindowTimeline : public testing::Test {
  protected:
   void add(int count, Mode mode = Mode::follow) {
     for (int i = 0; i < count; ++i) {
-      Still still;
+      RunSnapshot still;
       still.now.t = Time{} + from_seconds(0.01 * added_++);
       still.out.mode = mode;
       timeline_.add(still);

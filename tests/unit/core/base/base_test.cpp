@@ -198,42 +198,42 @@ concept SubtractsTime = requires(A a, B b) {
   a - b;
 };
 template <class C>
-concept HasNow = requires {
+concept ClockWithNow = requires {
   C::now();
 };
-static_assert(!HasNow<Epoch> && !SubtractsTime<Time, std::chrono::steady_clock::time_point> &&
+static_assert(!ClockWithNow<Epoch> && !SubtractsTime<Time, std::chrono::steady_clock::time_point> &&
               SubtractsTime<Time, Time>);
 
 TEST(Every, DoesNotDriftAt120HzOverAnHour) {
-  Every every{120.0, 0, {}};
+  DueTimes every{120.0, 0, {}};
   std::int64_t due = 0;
   for (std::int64_t ms = 0; ms < 3'600'000; ++ms)
     while (every.due(Time(Duration(ms * 1'000'000)))) ++due;
   EXPECT_EQ(due, 120 * 3600);
   // Number 432,000 is due at 3600 s to the nanosecond; summing 8,333,333 ns would be 144 us early.
   EXPECT_EQ(every.next(), Time(Duration(3'600'000'000'000)));
-  EXPECT_EQ((Every{120.0, 1, {}}.next()), Time(Duration(8'333'333)));
-  EXPECT_EQ((Every{120.0, 2, {}}.next()), Time(Duration(16'666'667)));
+  EXPECT_EQ((DueTimes{120.0, 1, {}}.next()), Time(Duration(8'333'333)));
+  EXPECT_EQ((DueTimes{120.0, 2, {}}.next()), Time(Duration(16'666'667)));
 }
 
 TEST(Every, FirstIsDueAtItsPhase) {
-  Every now{60.0, 0, {}};
+  DueTimes now{60.0, 0, {}};
   EXPECT_TRUE(now.due(Time{}));
   EXPECT_FALSE(now.due(Time{}));
-  Every later{60.0, 0, Duration(5)};
+  DueTimes later{60.0, 0, Duration(5)};
   EXPECT_FALSE(later.due(Time(Duration(4))));
   EXPECT_TRUE(later.due(Time(Duration(5))));
 }
 
 TEST(Every, GivesEachMissedTimeOnce) {
-  Every every{1000.0, 0, {}};
+  DueTimes every{1000.0, 0, {}};
   int due = 0;
   while (every.due(Time(Duration(5'500'000)))) ++due;
   EXPECT_EQ(due, 6);  // 0, 1, 2, 3, 4, 5 ms
 }
 
 TEST(Every, ARateOfZeroIsNeverDue) {
-  Every never;
+  DueTimes never;
   EXPECT_FALSE(never.due(Time(Duration(1'000'000'000))));
 }
 
@@ -252,14 +252,14 @@ TEST(Seconds, AreTheNearestDoubleOfTheDecimal) {
 // The newest value of one thread for one reader thread. tests/threads tests the use from two threads.
 
 TEST(Latest, NothingIsReadBeforeSomethingIsWritten) {
-  Latest<int> latest;
+  LatestValue<int> latest;
   int value = 7;
   EXPECT_FALSE(latest.read(value));
   EXPECT_EQ(value, 7);
 }
 
 TEST(Latest, TheNewestIsReadOnceHoweverManyWereWritten) {
-  Latest<int> latest;
+  LatestValue<int> latest;
   int value = 0, next = 1;
   for (int round = 0; round < 50; ++round) {
     for (int i = 0; i <= round % 5; ++i) latest.write(next++);
@@ -284,7 +284,7 @@ std::string_view spelled() {
 
 template <class Enum>
 class EnumWords : public ::testing::Test {};
-using All = ::testing::Types<ShapeKind, Tangential, Reversal, TipShape, Interaction, PropKind, TremorForm,
+using All = ::testing::Types<ShapeKind, TangentialMode, Reversal, TipShape, Interaction, PropKind, TremorForm,
                              UserKind, TravelWays, ManipulatorKind, Prediction, SegmentationMethod,
                              SquareReading, SeenTip, Damping, Tare, ArmKind, JointKind, GravityForm,
                              sim::HexapodForm, sim::TrackerClocks, sim::Packets, sim::ArmFriction,

@@ -91,14 +91,14 @@ TEST(Loop, AllocatesNothing) {
 
 // A query of a tracker in its own thread allocates nothing, nor does that thread.
 TEST(Loop, ATrackerInAThreadAllocatesNothing) {
-  class Still final : public PoseTracker {
-    bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  class StillTracker final : public PoseTracker {
+    bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
       newest = {{}, now, Health::ok};
       return true;
     }
   };
-  trial::ThreadedTracker tracker(std::make_unique<Still>());
-  Stamped<TrackedTool> newest;
+  trial::ThreadedTracker tracker(std::make_unique<StillTracker>());
+  Measurement<TrackedTool> newest;
   std::int64_t news = 0, now = 0;
   const std::int64_t before = allocations;
   while (news < 100) news += tracker.poll(Time(Duration(++now)), newest) ? 1 : 0;

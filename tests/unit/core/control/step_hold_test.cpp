@@ -105,7 +105,7 @@ TEST(Hold, WhenTheGripperLosesItsToolOrSaysNothing) {
     hold_tool(in, loop);
   };
   to_contact(loop);
-  const auto expect = [&](const std::function<void(Stamped<GripSample>&)>& spoil, const char* name) {
+  const auto expect = [&](const std::function<void(Measurement<GripSample>&)>& spoil, const char* name) {
     expect_hold(loop, kToolNotHeld, name, [&](Inputs& in) { spoil(in.grip); });
     EXPECT_TRUE(loop.out.grip.closed) << name;  // also in hold: an open gripper would drop the tool
   };
@@ -219,7 +219,7 @@ TEST(Hold, OverdueSurface) {
   Loop loop = make(with_display());
   loop.spoil = [&](Inputs& in) { draw(in, loop); };
   to_contact(loop);
-  const Stamped<DentSample> last = loop.in.dent;
+  const Measurement<DentSample> last = loop.in.dent;
   loop.spoil = [&](Inputs& in) { in.dent = last; };
   // 20 ms old now, overdue when older than 200 ms: after 180 more ticks it is exactly 200.
   for (int i = 1; i <= 250; ++i) EXPECT_EQ((loop.tick().why & kDentOverdue) != 0, i > 180) << i;

@@ -328,7 +328,7 @@ TEST(Force, ZeroErrorAndWeightAreTaredAway) {
 }
 
 // [issue 3] "a rotated sensor and an oblique force give the exact displacement to 1e-9".
-void oblique(Tangential tangential) {
+void oblique(TangentialMode tangential) {
   BehaviourSpec behaviour = test::spring();
   behaviour.tangential = tangential;
   behaviour.tangential_stiffness = 4000.0;
@@ -349,14 +349,14 @@ void oblique(Tangential tangential) {
   loop.force = Vec<'W'>(Vec3(-3.05 * n + 1.2 * side));
   loop.tick(4000);
   // Normal: (3.05 - 0.05) / 2000 = 1.5 mm inwards. Sideways: 1.2 / 4000 = 0.3 mm with the force, or nothing.
-  const double sideways = tangential == Tangential::spring ? 0.3e-3 : 0.0;
+  const double sideways = tangential == TangentialMode::spring ? 0.3e-3 : 0.0;
   const Vec3 expected = centre + (kBallRadius - kTipRadius - kSkin - 1.5e-3) * n + sideways * side;
   EXPECT_LT((loop.tip().e() - expected).norm(), 1e-9);
   EXPECT_NEAR(loop.out.force.norm(), std::hypot(3.05, 1.2), 1e-9);
   expect_within_limits(loop);
 }
-TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForStick) { oblique(Tangential::stick); }
-TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForSpring) { oblique(Tangential::spring); }
+TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForStick) { oblique(TangentialMode::stick); }
+TEST(Force, ObliqueOnATurnedSensorGivesTheExactDisplacementForSpring) { oblique(TangentialMode::spring); }
 
 TEST(Force, InertiaOfWhatMovesIsNoContact) {
   Loop loop = make(test::ball_scene());

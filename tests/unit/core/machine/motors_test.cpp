@@ -80,7 +80,7 @@ TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
 // The motor bears a load, tick by tick, until fold-back gives less than that load, not until the motor is
 // warm.
 TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
-  const Thermal thermal;
+  const ThermalModel thermal;
   constexpr double kPeak = 4.5, kStep = 0.01;
   for (const double load : {1.2, 2.0, 3.0, 4.4}) {
     const double time = bears_for(thermal, load, folds_at(load, kPeak, 1.0));

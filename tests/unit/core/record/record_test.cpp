@@ -157,7 +157,7 @@ TEST_F(RecordTest, EveryTruncationIsRefusedAndItsWholeChunksAreReadable) {
     EXPECT_NE(said.find("byte "), std::string::npos) << n << " bytes: " << said;
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     if (n < 200) continue;  // the header may be missing
-    RecordReader part(file("cut"), Partial::yes);
+    RecordReader part(file("cut"), PartialRead::yes);
     EXPECT_FALSE(part.sealed());
     EXPECT_GE(part.ticks(), most);
     most = std::max(most, part.ticks());
@@ -224,7 +224,7 @@ TEST_F(RecordTest, SaysAtItsEndWhatWasKnownThen) {
   const std::vector<std::size_t> parts = parts_of(all);
   const std::size_t texts = parts[parts.size() - 2], seal = parts.back();
   write_bytes(file("cut"), std::string_view(all).substr(0, seal - 1));
-  RecordReader part(file("cut"), Partial::yes);
+  RecordReader part(file("cut"), PartialRead::yes);
   EXPECT_EQ(part.ticks(), 600);
   EXPECT_TRUE(part.end_texts().empty());
   // The end texts appear once, and last.
@@ -316,7 +316,7 @@ TEST_F(RecordTest, ADiskThatFillsUpLeavesReadableChunks) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(refusal(file("full")).find("no seal"), std::string::npos);
-  RecordReader part(file("full"), Partial::yes);
+  RecordReader part(file("full"), PartialRead::yes);
   RecordedTick got;
   std::int64_t read = 0;
   for (; part.next(got); ++read) ASSERT_EQ(got.tick.index, read);
@@ -392,12 +392,12 @@ TEST(LayoutHash, IsTheSameEveryTimeAndAnotherForEachTask) {
 // Anybody may have written a record: each number is within the range that its reader states, or the reader
 // refuses the file and names the byte.
 
-using Spoil = std::function<void(RecordedTick&)>;
+using Corruption = std::function<void(RecordedTick&)>;
 
 class RecordRanges : public ::testing::Test {
  protected:
   // 300 ticks, several chunks; `spoil` has the one of index 200.
-  [[nodiscard]] std::string written(const Spoil& spoil) const {
+  [[nodiscard]] std::string written(const Corruption& spoil) const {
     const std::string path = folder_.file("a.encrec");
     RecordWriter record(path, {}, layout_hash(Scene()));
     for (std::int64_t i = 0; i < 300; ++i) {
@@ -410,13 +410,13 @@ class RecordRanges : public ::testing::Test {
     return path;
   }
   // The reader's message, or an empty text.
-  [[nodiscard]] std::string refusal(const Spoil& spoil) const { return enc::refusal(written(spoil)); }
+  [[nodiscard]] std::string refusal(const Corruption& spoil) const { return enc::refusal(written(spoil)); }
   test::TemporaryFolder folder_;
 };
 
 TEST_F(RecordRanges, WhatIsBeyondThemIsRefusedAndNamed) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  const auto wrong = [&](const std::string& words, const Spoil& spoil) {
+  const auto wrong = [&](const std::string& words, const Corruption& spoil) {
     EXPECT_THAT(refusal(spoil),
                 MatchesRegex(".*a\\.encrec: byte [0-9]+: '" + words + "; record the run again"));
   };
@@ -424,9 +424,9 @@ TEST_F(RecordRanges, WhatIsBeyondThemIsRefusedAndNamed) {
         [](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); });
   wrong("view_mode' .* is 7; .*", [](RecordedTick& f) { f.out.view.mode = static_cast<Mode>(7); });
   for (const auto& spoil :
-       std::vector<Spoil>{[](RecordedTick& f) { f.in.tool.health = static_cast<Health>(6); },
-                          [](RecordedTick& f) { f.in.wrench.health = static_cast<Health>(77); },
-                          [](RecordedTick& f) { f.in.dent.health = static_cast<Health>(255); }})
+       std::vector<Corruption>{[](RecordedTick& f) { f.in.tool.health = static_cast<Health>(6); },
+                               [](RecordedTick& f) { f.in.wrench.health = static_cast<Health>(77); },
+                               [](RecordedTick& f) { f.in.dent.health = static_cast<Health>(255); }})
     wrong("health' .*; expected 0 to 5", spoil);
   wrong("dent_tip_shape' .* is 3; .*",
         [](RecordedTick& f) { f.in.dent.value.tip.shape = static_cast<TipShape>(3); });
@@ -463,7 +463,8 @@ TEST_F(RecordRanges, WhatIsWithinThemIsRead) {
 
 // The part before it is complete.
 TEST_F(RecordRanges, APartialRecordEndsBeforeTheChunkAndSaysWhy) {
-  RecordReader reader(written([](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); }), Partial::yes);
+  RecordReader reader(written([](RecordedTick& f) { f.out.mode = static_cast<Mode>(200); }),
+                      PartialRead::yes);
   EXPECT_THAT(reader.damage(), HasSubstr("'mode' of a tick is 200"));
   EXPECT_GE(reader.ticks(), 100);
   EXPECT_LE(reader.ticks(), 200);
@@ -518,7 +519,7 @@ TEST(RecordChunks, ADiskThatDoesNotKeepUpEndsTheRecordAndLeavesNoGap) {
   EXPECT_EQ(record.ticks(), tick) << "nothing more is taken";
   record.close();
   EXPECT_THROW(RecordReader(folder.file("slow")), Error) << "it is not the whole run";
-  RecordReader reader(folder.file("slow"), Partial::yes);
+  RecordReader reader(folder.file("slow"), PartialRead::yes);
   RecordedTick got;
   std::int64_t read = 0;
   for (; reader.next(got); ++read) ASSERT_EQ(got.tick.index, read);

@@ -142,24 +142,24 @@ TEST(FingerTracker, FramesThatCannotBeUsedChangeNothing) {
   const drawn::HandAt hand = hand_at(0.06, 0.01, 0.45);
   const drawn::Pair pair = drawn::pair_of(small(), &hand);
   ASSERT_EQ(tracker.see(pair.frame(), at_frame(5)).state, FingerState::seen);
-  const auto refused = [&](const StereoFrame& frame, Time t, Refused why) {
+  const auto refused = [&](const StereoFrame& frame, Time t, FrameRefusal why) {
     const Finger finger = tracker.see(frame, t);
     EXPECT_EQ(tracker.stats().refused, why);
     EXPECT_FALSE(finger.tip.finite());
     EXPECT_NE(finger.state, FingerState::seen);
   };
   StereoFrame frame = pair.frame();
-  refused(frame, at_frame(5), Refused::stamp);
-  refused(frame, at_frame(4), Refused::stamp);
-  refused(frame, Time(Duration::min()), Refused::stamp);
+  refused(frame, at_frame(5), FrameRefusal::stamp);
+  refused(frame, at_frame(4), FrameRefusal::stamp);
+  refused(frame, Time(Duration::min()), FrameRefusal::stamp);
   frame.right = {};
-  refused(frame, at_frame(6), Refused::missing);
-  refused({}, at_frame(6), Refused::missing);
+  refused(frame, at_frame(6), FrameRefusal::missing);
+  refused({}, at_frame(6), FrameRefusal::missing);
   frame = pair.frame();
   frame.left.width = 319;
-  refused(frame, at_frame(6), Refused::size);
+  refused(frame, at_frame(6), FrameRefusal::size);
   const Image dot(1, 1);
-  refused({dot.view(), dot.view()}, at_frame(6), Refused::size);
+  refused({dot.view(), dot.view()}, at_frame(6), FrameRefusal::size);
   EXPECT_EQ(tracker.see(pair.frame(), at_frame(6)).state, FingerState::seen);
 }
 
@@ -242,14 +242,14 @@ TEST(FingerTracker, ImpossibleSpecsAreRefused) {
 
 Time at_ms(std::int64_t ms) { return Time(Duration(1'000'000) * ms); }
 
-struct Fed : StereoCamera {
+struct ScriptedCamera : StereoCamera {
   std::map<Time, StereoFrame> frames;  // there as soon as they are exposed
   bool up = true;
   ImageSize px;
   Time ahead = Time::max();  // the frame of this time has a stamp an hour later
   [[nodiscard]] ImageSize size() const override { return px; }
   [[nodiscard]] std::vector<std::string> remarks() const override { return {"drawn so"}; }
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     if (frames.empty() || frames.begin()->first > now) return false;
     newest = {frames.begin()->second, frames.begin()->first, Health::ok};
     if (newest.t == ahead) newest.t += std::chrono::hours(1);
@@ -263,13 +263,13 @@ struct Fed : StereoCamera {
 struct Set {
   drawn::HandAt hand;
   drawn::Pair room = drawn::pair_of(small(), nullptr, 5), seen;
-  Fed* camera = nullptr;
+  ScriptedCamera* camera = nullptr;
   std::unique_ptr<VisionTracker> tracker;
-  Stamped<TrackedTool> newest;
+  Measurement<TrackedTool> newest;
   Set() {
     hand.tip = {0.06, 0.01, 0.45};
     seen = drawn::pair_of(small(), &hand);
-    auto fed = std::make_unique<Fed>();
+    auto fed = std::make_unique<ScriptedCamera>();
     camera = fed.get();
     camera->frames = {{at_ms(0), room.frame()}, {at_ms(50), room.frame()}};
     tracker = std::make_unique<VisionTracker>(std::move(fed), small(),
@@ -326,7 +326,7 @@ TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
 // The latency in wall time is the duration of the work.
 TEST(VisionTracker, TellsAtOnceWhereItIsAskedTo) {
   Set set;
-  std::unique_ptr<Fed> fed = std::make_unique<Fed>();
+  std::unique_ptr<ScriptedCamera> fed = std::make_unique<ScriptedCamera>();
   fed->frames = set.camera->frames;
   fed->frames[at_ms(100)] = set.seen.frame();
   VisionTracker tracker(std::move(fed), small(), FingerTracker(small(), drawn::segmentation(), {}, {}),
@@ -455,7 +455,7 @@ TEST(VisionTracker, AStampThatIsStillToComeIsNotBelieved) {
 }
 
 TEST(VisionTracker, ImagesOfAnotherSizeThanTheRigsAreRefusedAtOnce) {
-  auto fed = std::make_unique<Fed>();
+  auto fed = std::make_unique<ScriptedCamera>();
   fed->px = {640, 480};
   try {
     const VisionTracker tracker(std::move(fed), small(),
@@ -472,9 +472,9 @@ TEST(VisionTracker, ImpossibleRatesAreRefused) {
     StereoRig rig = small();
     rig.rate = rate;
     rig.latency = latency;
-    EXPECT_THROW(
-        VisionTracker(std::make_unique<Fed>(), rig, FingerTracker(small(), drawn::segmentation(), {}, {})),
-        Error);
+    EXPECT_THROW(VisionTracker(std::make_unique<ScriptedCamera>(), rig,
+                               FingerTracker(small(), drawn::segmentation(), {}, {})),
+                 Error);
   }
 }
 

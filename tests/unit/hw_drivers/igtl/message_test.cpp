@@ -45,7 +45,7 @@ TEST(IgtlMessage, ReadsWhatLibOpenIGTLinkWrote) {
   const std::vector<std::byte> bytes = from_hex(kTransformV1);
   ASSERT_EQ(bytes.size(), 106U);
   Message message;
-  ASSERT_EQ(read(bytes, message), Wrong::nothing);
+  ASSERT_EQ(read(bytes, message), MessageFault::nothing);
   EXPECT_EQ(message.type.view(), "TRANSFORM");
   EXPECT_EQ(message.device.view(), "ToolToTracker");
   EXPECT_EQ(message.stamp_ns, 1'500'000'000);  // 0x7fffffff of 2^32 is half a second to a quarter of a ns
@@ -54,7 +54,7 @@ TEST(IgtlMessage, ReadsWhatLibOpenIGTLinkWrote) {
   ASSERT_TRUE(read_transform(message.content, X_CT));
   EXPECT_LT((X_CT.p() - Vec3(0.001, 0.002, 0.003)).norm(), 1e-15);
   EXPECT_LT(X_CT.q().angularDistance(Quat::Identity()), 1e-15);
-  ASSERT_EQ(read(from_hex(kStatusV1), message), Wrong::nothing);
+  ASSERT_EQ(read(from_hex(kStatusV1), message), MessageFault::nothing);
   EXPECT_EQ(message.type.view(), "STATUS");
   EXPECT_FALSE(read_transform(message.content, X_CT));
 }
@@ -85,7 +85,7 @@ TEST(IgtlMessage, WritesTheSameContent) {
   const std::vector<std::byte> theirs = from_hex(kTransformV1);
   const auto content = transform(Pose<'C', 'T'>::shift(0.001, 0.002, 0.003));
   EXPECT_TRUE(std::equal(content.begin(), content.end(), theirs.begin() + kHeader));
-  const Written ours("TRANSFORM", "ToolToTracker", 1'500'000'000, 0x01020304, content);
+  const OutgoingMessage ours("TRANSFORM", "ToolToTracker", 1'500'000'000, 0x01020304, content);
   ASSERT_EQ(ours.bytes().size(), kHeader + kExtendedHeader + kTransform + 2);
   const std::vector<std::byte> extended = from_hex("000c00020000000001020304");
   EXPECT_TRUE(std::equal(extended.begin(), extended.end(), ours.bytes().begin() + kHeader));
@@ -95,8 +95,8 @@ TEST(IgtlMessage, WritesTheSameContent) {
 // Header and body equal those of libOpenIGTLink, except for its rounding of half a second.
 TEST(IgtlMessage, WritesVersionOneToTheByte) {
   std::vector<std::byte> theirs = from_hex(kTransformV1);
-  const Written ours("TRANSFORM", "ToolToTracker", 1'500'000'000,
-                     transform(Pose<'C', 'T'>::shift(0.001, 0.002, 0.003)));
+  const OutgoingMessage ours("TRANSFORM", "ToolToTracker", 1'500'000'000,
+                             transform(Pose<'C', 'T'>::shift(0.001, 0.002, 0.003)));
   const std::vector<std::byte> half = from_hex("80000000");
   std::copy(half.begin(), half.end(), theirs.begin() + 38);
   ASSERT_EQ(ours.bytes().size(), theirs.size());
@@ -110,8 +110,8 @@ TEST(IgtlMessage, WhatIsWrittenIsReadAgain) {
     const auto stamp = static_cast<std::int64_t>(random() % 4'000'000'000'000'000'000ULL);
     const auto number = static_cast<std::uint32_t>(random());
     Message message;
-    const Written written("TRANSFORM", "stylusToTracker", stamp, number, transform(X_CT));
-    ASSERT_EQ(read(written.bytes(), message), Wrong::nothing);
+    const OutgoingMessage written("TRANSFORM", "stylusToTracker", stamp, number, transform(X_CT));
+    ASSERT_EQ(read(written.bytes(), message), MessageFault::nothing);
     EXPECT_EQ(message.stamp_ns, stamp) << "of " << i;
     EXPECT_TRUE(message.numbered);
     EXPECT_EQ(message.number, number);
@@ -123,21 +123,23 @@ TEST(IgtlMessage, WhatIsWrittenIsReadAgain) {
 }
 
 TEST(IgtlMessage, OneBitThatIsWrongIsSeen) {
-  const Written written("TRANSFORM", "stylusToTracker", 17, 4, transform({}));
-  const Written good("TRANSFORM", "stylusToTracker", 17, 4, transform(Pose<'C', 'T'>::shift(0, 0, 1)));
+  const OutgoingMessage written("TRANSFORM", "stylusToTracker", 17, 4, transform({}));
+  const OutgoingMessage good("TRANSFORM", "stylusToTracker", 17, 4,
+                             transform(Pose<'C', 'T'>::shift(0, 0, 1)));
   const std::vector<std::byte> bytes(good.bytes().begin(), good.bytes().end());
   Message message;
-  ASSERT_EQ(read(bytes, message), Wrong::nothing);
+  ASSERT_EQ(read(bytes, message), MessageFault::nothing);
   for (std::size_t bit = 8 * kHeader; bit < 8 * bytes.size(); ++bit) {
     std::vector<std::byte> spoilt = bytes;
     spoilt[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
-    EXPECT_EQ(read(spoilt, message), Wrong::checksum) << bit;
+    EXPECT_EQ(read(spoilt, message), MessageFault::checksum) << bit;
   }
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_EQ(read(std::span(bytes).first(length), message), length < kHeader ? Wrong::cut : Wrong::size);
+    EXPECT_EQ(read(std::span(bytes).first(length), message),
+              length < kHeader ? MessageFault::cut : MessageFault::size);
   std::vector<std::byte> later = bytes;
   later[1] = std::byte{3};
-  EXPECT_EQ(read(later, message), Wrong::version);
+  EXPECT_EQ(read(later, message), MessageFault::version);
 }
 
 TEST(IgtlMessage, WhatIsNoRotationIsNoPose) {
@@ -155,7 +157,8 @@ TEST(IgtlMessage, WhatIsNoRotationIsNoPose) {
 
 // A number beyond the largest 32 bits of seconds is no plausible time; nothing overflows.
 TEST(IgtlMessage, MetadataIsLeftAlone) {
-  const Written plain("TRANSFORM", "stylusToTracker", 17, 4, transform(Pose<'C', 'T'>::shift(0, 0, 1)));
+  const OutgoingMessage plain("TRANSFORM", "stylusToTracker", 17, 4,
+                              transform(Pose<'C', 'T'>::shift(0, 0, 1)));
   std::vector<std::byte> bytes(plain.bytes().begin(), plain.bytes().end());
   const std::string metadata = "a metadata body";
   for (const char c : metadata) bytes.push_back(static_cast<std::byte>(c));
@@ -164,7 +167,7 @@ TEST(IgtlMessage, MetadataIsLeftAlone) {
   const std::uint64_t crc = crc64(std::span(bytes).subspan(kHeader));
   for (std::size_t i = 0; i < 8; ++i) bytes[50 + i] = static_cast<std::byte>(crc >> (56 - 8 * i));
   Message message;
-  ASSERT_EQ(read(bytes, message), Wrong::nothing);
+  ASSERT_EQ(read(bytes, message), MessageFault::nothing);
   EXPECT_EQ(message.content.size(), kTransform);
 }
 
@@ -193,7 +196,7 @@ TEST(IgtlContent, ElementsOfTdataAreThoseOfLibOpenIGTLink) {
   const std::vector<std::byte> bytes = from_hex(kTdata);
   ASSERT_EQ(bytes.size(), 128U);
   Message message;
-  ASSERT_EQ(read(bytes, message), Wrong::nothing);
+  ASSERT_EQ(read(bytes, message), MessageFault::nothing);
   ASSERT_EQ(elements_of(message.content), 1U);
   Element element;
   ASSERT_TRUE(read_element(message.content, 0, element));
@@ -242,10 +245,10 @@ TEST(IgtlContent, APositionTurnsByAQuaternionWithOrWithoutItsLastNumber) {
 // PLUS sends "TransformValid" and "TransformStatus" of each pose.
 TEST(IgtlContent, AServerSaysWhereATransformIsNotValid) {
   const auto says = [](const char* key, const char* value) {
-    const Written written("TRANSFORM", "stylusToTracker", 1, 1, transform({Pose<'C', 'T'>::shift(0, 0, 1)}),
-                          key, value);
+    const OutgoingMessage written("TRANSFORM", "stylusToTracker", 1, 1,
+                                  transform({Pose<'C', 'T'>::shift(0, 0, 1)}), key, value);
     Message message;
-    EXPECT_EQ(read(written.bytes(), message), Wrong::nothing);
+    EXPECT_EQ(read(written.bytes(), message), MessageFault::nothing);
     return says_valid(message.metadata);
   };
   EXPECT_TRUE(says_valid({}));
@@ -260,7 +263,7 @@ TEST(IgtlContent, AServerSaysWhereATransformIsNotValid) {
 
 using Bytes = std::vector<std::byte>;
 
-Bytes bytes_of(const Written& message) { return {message.bytes().begin(), message.bytes().end()}; }
+Bytes bytes_of(const OutgoingMessage& message) { return {message.bytes().begin(), message.bytes().end()}; }
 Bytes pose(std::int64_t stamp_ns) {
   return bytes_of({"TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(0, 0, 1))});
 }
@@ -291,7 +294,7 @@ std::vector<std::int64_t> stamps(Stream& stream, std::span<const std::byte> byte
     bytes = bytes.subspan(piece);
     for (auto next = stream.next(); !next.empty(); next = stream.next()) {
       Message message;
-      EXPECT_EQ(read(next, message), Wrong::nothing);
+      EXPECT_EQ(read(next, message), MessageFault::nothing);
       all.push_back(message.stamp_ns);
     }
   }
@@ -350,7 +353,7 @@ struct Frames {
       if (hand.is(tool, count * frame, place)) which = static_cast<int>(tool);
     return which;
   }
-  InHand hand{2};
+  HeldToolFinder hand{2};
   std::int64_t frame, count = 0;  // ns
 };
 Vec3 moving(int frame) { return {0.1 * std::sin(0.05 * frame), 0, 1}; }

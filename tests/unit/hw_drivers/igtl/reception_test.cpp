@@ -18,14 +18,15 @@ namespace {
 constexpr Duration ms(double n) { return from_seconds(1e-3 * n); }
 const std::vector<std::string> kTools{"stylus", "a_tool_with_a_long_name"};
 
-Written pose(double x, std::int64_t stamp_ns, std::uint32_t number, const char* device = "stylusToTracker") {
+OutgoingMessage pose(double x, std::int64_t stamp_ns, std::uint32_t number,
+                     const char* device = "stylusToTracker") {
   return {"TRANSFORM", device, stamp_ns, number, transform(Pose<'C', 'T'>::shift(x, 0, 1))};
 }
 
 struct Bench {
   IgtlSettings settings;
   Reception reception;
-  Stamped<TrackedTool> newest;
+  Measurement<TrackedTool> newest;
   explicit Bench(bool lockstep = true, double least_delay = 0.0)
       : reception(with(least_delay), kTools, lockstep) {}
   explicit Bench(const std::string& transport) : reception(with(0.0, transport), kTools, false) {}
@@ -34,7 +35,7 @@ struct Bench {
     settings.transport = transport;
     return settings;
   }
-  bool take(const Written& message, double now_ms = 0.0) {
+  bool take(const OutgoingMessage& message, double now_ms = 0.0) {
     return reception.take(message.bytes(), Time(ms(now_ms)), newest);
   }
 };
@@ -81,7 +82,7 @@ TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
     Time last{};
     int most = 0;
     for (const int n : way) {
-      const Written message = pose(1e-3 * n, 10'000'000LL * n, static_cast<std::uint32_t>(n));
+      const OutgoingMessage message = pose(1e-3 * n, 10'000'000LL * n, static_cast<std::uint32_t>(n));
       const bool news = once.take(message);
       EXPECT_EQ(news, n > most) << "seed " << seed;
       most = std::max(most, n);
@@ -149,7 +150,8 @@ TEST(IgtlReception, AClockThatIsSetBackByLittleIsNewFromItsSecondMessageOn) {
 TEST(IgtlReception, WithoutNumbersAClockThatIsSetBackByMoreThanASecondIsNew) {
   Bench bench(false);
   const auto plain = [](std::int64_t stamp_ns) {
-    return Written("TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(0.1, 0, 1)));
+    return OutgoingMessage("TRANSFORM", "stylusToTracker", stamp_ns,
+                           transform(Pose<'C', 'T'>::shift(0.1, 0, 1)));
   };
   EXPECT_TRUE(bench.take(plain(100'000'000'000), 100.0));
   EXPECT_FALSE(bench.take(plain(99'500'000'000), 101.0)) << "half a second: overtaken";
@@ -170,7 +172,8 @@ TEST(IgtlReception, TheFirstLetterOfADeviceMayBeLarge) {
 TEST(IgtlReception, OfAStreamTheOrderIsThatOfItsMessages) {
   Bench bench(std::string("tcp"));
   const auto plain = [](double x, std::int64_t stamp_ns) {
-    return Written("TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(x, 0, 1)));
+    return OutgoingMessage("TRANSFORM", "stylusToTracker", stamp_ns,
+                           transform(Pose<'C', 'T'>::shift(x, 0, 1)));
   };
   EXPECT_TRUE(bench.take(plain(0.1, 1'000'000'000), 100.0));
   EXPECT_FALSE(bench.take(plain(0.1, 1'000'000'000), 101.0)) << "the same pose again";
@@ -241,7 +244,7 @@ TEST(IgtlReception, PosesThatRepeatTheOneBeforeAreCounted) {
 
 TEST(IgtlReception, AWrongChecksumIsCountedApartFromWhatIsNoMessage) {
   Bench bench(std::string("tcp"));
-  const Written good = pose(0.1, 10'000'000, 1);
+  const OutgoingMessage good = pose(0.1, 10'000'000, 1);
   std::vector<std::byte> bytes(good.bytes().begin(), good.bytes().end());
   net::put(std::span(bytes), 50, std::uint64_t{0});
   EXPECT_FALSE(bench.reception.take(bytes, Time{}, bench.newest));

@@ -57,11 +57,11 @@ double squares(const std::vector<LoopPoint>& loop, const ResponseSpec& spec) {
 }
 
 // Least slope of both curves, and least gap, at 20,000 deflections between the fit's own.
-struct Least {
+struct LeastValues {
   double slope, gap;
 };
-Least least(const ResponseSpec& spec) {
-  Least l{1e9, 1e9};
+LeastValues least(const ResponseSpec& spec) {
+  LeastValues l{1e9, 1e9};
   for (int i = 0; i <= 20000; ++i) {
     const double d = spec.limit * i / 20000;
     l.slope = std::min({l.slope, slope(spec.press, d), slope(spec.release, d)});
@@ -114,7 +114,7 @@ TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
   const auto loop = test::plant_loop({}, 4e-3, kDeepest);
   for (const double floor : {0.0, 119.0, 124.95, 300.0}) {
     const ResponseFit fit = fit_response(loop, kDeepest, floor);
-    const Least l = least(fit.spec);
+    const LeastValues l = least(fit.spec);
     EXPECT_GE(l.slope, floor) << floor;
     EXPECT_GE(l.gap, 0.0) << floor;
     EXPECT_EQ(Response(fit.spec, floor).limit(), kDeepest) << floor;
@@ -147,7 +147,7 @@ TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
       y.press[k] += size * (normal(random) / power + 0.05 * (inside_press - y.press[k]));
       y.release[k] += size * (normal(random) / power + 0.05 * (inside_release - y.release[k]));
     }
-    const Least l = least(y);
+    const LeastValues l = least(y);
     if (l.slope < kLowest || l.gap < 0.0) continue;
     ++tried;
     // The fit keeps 1.2e-4 N away from its constraints, which costs 6e-5 of the sum of squares.
@@ -172,7 +172,7 @@ TEST(ResponseFit, RandomLoopsAreAlwaysRenderable) {
         loop.push_back({u * kDeepest, force, pressing});
       }
     const ResponseFit fit = fit_response(loop, kDeepest, 119.0);  // throws if Response would refuse it
-    const Least l = least(fit.spec);
+    const LeastValues l = least(fit.spec);
     ASSERT_GE(l.slope, 119.0) << "loop " << n;
     ASSERT_GE(l.gap, 0.0) << "loop " << n;
   }

@@ -484,7 +484,7 @@ TEST(StageGeometry, ThingsAreWhereTheyAreShown) {
   Stage stage(spec);
   Image left, right;
   PixelTruth truth;
-  const auto pixels = [&](const Shown& shown) {
+  const auto pixels = [&](const CameraScene& shown) {
     stage.draw(shown, 0, left, right, &truth);
     Outline o{0, 0, 0};
     for (int y = 0; y < truth.things.height; ++y)
@@ -494,7 +494,7 @@ TEST(StageGeometry, ThingsAreWhereTheyAreShown) {
       }
     return Outline{o.column / o.area, o.row / o.area, o.area};
   };
-  Shown shown;
+  CameraScene shown;
   const Vec3 at(0.05, -0.03, 0.5);
   shown.things = {{ThingShape::sphere, Point<'C'>(at), Mat3::Identity(), {0.03, 0, 0}, {0.1F, 0.6F, 0.2F}}};
   const Outline ball = pixels(shown), wanted = outline(spec.camera.left, at, 0.03);

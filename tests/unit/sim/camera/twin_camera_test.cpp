@@ -30,8 +30,8 @@ TwinCameraSpec spec() {
   return s;
 }
 
-Shown moving(Time exposed) {
-  Shown shown;
+CameraScene moving(Time exposed) {
+  CameraScene shown;
   shown.hand = true;
   shown.pose = {{0.1 * seconds(exposed.time_since_epoch()), 0, 0.4}, {0, -1, 0}, 0};
   return shown;
@@ -43,7 +43,7 @@ TEST(TwinCamera, DrawsAtItsRateAndLooksAtThatTime) {
     asked.push_back(exposed);
     return moving(exposed);
   });
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   std::vector<Time> stamps;
   for (int i = 0; i <= 200; ++i)
     if (camera.poll(Time(i * kTick), frame)) {
@@ -58,7 +58,7 @@ TEST(TwinCamera, DrawsAtItsRateAndLooksAtThatTime) {
 
   // Equal to the stage's own image, for the pose at the exposure.
   Stage stage(spec().stage);
-  const Shown then = moving(stamps.back());
+  const CameraScene then = moving(stamps.back());
   Image left, right;
   stage.draw(&then.pose, then.look, then.light, 7, left, right);
   EXPECT_TRUE(std::equal(left.rgb.begin(), left.rgb.end(), frame.value.left.rgb));
@@ -67,7 +67,7 @@ TEST(TwinCamera, DrawsAtItsRateAndLooksAtThatTime) {
 
 TEST(TwinCamera, WhatWasMissedIsNeverDrawn) {
   TwinCamera camera(spec(), moving);
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   EXPECT_TRUE(camera.poll(Time(from_seconds(0.95)), frame));
   EXPECT_EQ(frame.t, Time(from_seconds(0.95)));
   EXPECT_EQ(camera.drawn(), 1U);
@@ -78,7 +78,7 @@ TEST(TwinCamera, ASilentOneSaysItOnce) {
   TwinCameraSpec stalling = spec();
   stalling.stalls = Time(from_seconds(0.3));
   TwinCamera camera(stalling, moving);
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   int faults = 0;
   Time fault_at{};
   for (int i = 0; i <= 1000; ++i)
@@ -99,7 +99,7 @@ TEST(TwinCamera, OneThatComesBackIsLinkedAgain) {
   away.stalls = Time(from_seconds(0.3));
   away.back = Time(from_seconds(0.6));
   TwinCamera camera(away, moving);
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   std::vector<double> lost;  // ms
   std::uint64_t drawn = 0;
   for (int i = 0; i <= 1000; ++i) {
@@ -119,7 +119,7 @@ TEST(TwinCamera, LeftAndRightAreExchangedFromThenOn) {
   TwinCameraSpec swapping = spec();
   swapping.swaps = Time(from_seconds(0.05));
   TwinCamera camera(spec(), moving), other(swapping, moving);
-  Stamped<StereoFrame> right_way, frame;
+  Measurement<StereoFrame> right_way, frame;
   const auto same = [](const ImageView& a, const ImageView& b) {
     return std::equal(a.rgb, a.rgb + 3 * a.width * a.height, b.rgb);
   };
@@ -132,11 +132,11 @@ TEST(TwinCamera, LeftAndRightAreExchangedFromThenOn) {
 }
 
 TEST(TwinCamera, WhoCannotBeLookedAtIsAFault) {
-  TwinCamera camera(spec(), [](Time exposed) -> Shown {
+  TwinCamera camera(spec(), [](Time exposed) -> CameraScene {
     if (exposed > Time(from_seconds(0.1))) throw Error("gone");
     return moving(exposed);
   });
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   for (int i = 0; i <= 400; ++i) camera.poll(Time(i * kTick), frame);
   EXPECT_EQ(frame.health, Health::fault);
   EXPECT_FALSE(camera.linked());
@@ -300,7 +300,7 @@ TEST(ArmInView, IsWhereItsShapeSays) {
     std::vector<ArmPart> parts = arm_shape(arm.machine(), q, X_WR);
     parts.push_back(
         prop_shape({0.03, 0.03, 0.002}, X_WR * arm.tip(q), rotation_z_to(Vec3(0.2, 0.1, 1).normalized())));
-    sim::Shown shown;
+    sim::CameraScene shown;
     for (const ArmPart& part : parts) shown.things.push_back(trial::thing_of(part, kCamera.inverse()));
     stage.draw(shown, 0, left, right, &truth);
     const auto share_in = [&](const Pose<'C', 'W'>& X_CW, double margin, double& beyond) {

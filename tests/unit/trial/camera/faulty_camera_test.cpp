@@ -46,7 +46,7 @@ models::Setup press(const std::vector<std::string>& more) {
   return test::shipped("camera/wall", set);
 }
 
-struct Seen {
+struct FaultResponse {
   double oldest = 0.0;         // s, greatest age of a finger that the core acts on
   double first_hold = kUnset;  // s
   double force_in_hold = 0.0;  // N, force of the law
@@ -57,7 +57,7 @@ struct Seen {
 class CameraFaults : public testing::Test {
  protected:
   static constexpr double kFrom = 3.5;  // s: the middle of the press
-  Seen seen;
+  FaultResponse seen;
   std::unique_ptr<Trial> trial;
   void begin(const std::vector<std::string>& set) {
     TrialOptions options{.drivers = modules};

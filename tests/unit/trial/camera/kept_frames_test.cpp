@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct OneFrame final : StereoCamera {
   Image image{4, 3};
   bool told = true;
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     if (std::exchange(told, true)) return false;
     newest = {{image.view(), image.view()}, now, Health::ok};
     return true;
@@ -38,7 +38,7 @@ std::unique_ptr<KeepingCamera> keeping(const std::string& folder, bool with_a_fr
 TEST(KeptFrames, ARunWithoutAFrameLeavesNoFolderBehind) {
   const test::TemporaryFolder root;
   const std::string made = root.file("new"), there = root.file("there");
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   EXPECT_FALSE(keeping(made, false)->poll(Time{}, frame));
   EXPECT_FALSE(fs::exists(made));
   fs::create_directory(there);
@@ -49,7 +49,7 @@ TEST(KeptFrames, ARunWithoutAFrameLeavesNoFolderBehind) {
 TEST(KeptFrames, WhatWasSeenStays) {
   const test::TemporaryFolder root;
   const std::string folder = root.file("run");
-  Stamped<StereoFrame> frame;
+  Measurement<StereoFrame> frame;
   EXPECT_TRUE(keeping(folder, true)->poll(Time(Duration(50)), frame));
   EXPECT_TRUE(fs::exists(folder + "/left/50.png"));
   EXPECT_TRUE(fs::exists(folder + "/right/50.png"));

@@ -75,12 +75,12 @@ struct TrueEnergy {
   }
 };
 
-struct Felt {
+struct PassivityResult {
   double slope = kUnset, peak = 0.0, step = 0.0, given = 0.0;
   PassivityFigures controller;
   TrialResult result;
 };
-Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
+PassivityResult felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
   FingerMeasure fingers;
   PassivityMeasure passivity;
   TrueEnergy energy;
@@ -90,7 +90,7 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
     passivity.see(glance);
     energy.see(glance);
   };
-  Felt felt;
+  PassivityResult felt;
   felt.result = Trial(setup, options).run();
   felt.slope = fingers.fit().slope();
   for (const FingerEncounter& m : fingers.meetings()) {
@@ -103,7 +103,7 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
 }
 
 TEST(TrialPassivity, TheShippedWallGivesOutNothingAndFeelsAsItDid) {
-  const Felt off = felt_in(setup_of("wall", {})), on = felt_in(setup_of("wall", kControlled));
+  const PassivityResult off = felt_in(setup_of("wall", {})), on = felt_in(setup_of("wall", kControlled));
   EXPECT_EQ(on.result.contacts, off.result.contacts);
   EXPECT_NEAR(on.slope, off.slope, 1e-3 * off.slope);
   EXPECT_NEAR(on.peak, off.peak, 0.02);
@@ -118,7 +118,8 @@ TEST(TrialPassivity, TheShippedWallGivesOutNothingAndFeelsAsItDid) {
 // This wall is useless to a hand, as its law rings. The controller withholds the energy for the ringing.
 TEST(TrialPassivity, AWallThatRingsGivesOutLittle) {
   const Set stiff{"behaviour.phantom_wall.stiffness_N_per_mm=5", "user.depth_mm=1"};
-  const Felt off = felt_in(setup_of("wall", stiff)), on = felt_in(setup_of("wall", stiff, kControlled));
+  const PassivityResult off = felt_in(setup_of("wall", stiff)),
+                        on = felt_in(setup_of("wall", stiff, kControlled));
   EXPECT_GT(off.step, 2.5);
   EXPECT_GT(off.given, 50e-3);
   EXPECT_LT(on.given, 0.1 * off.given) << "what is within a count is not seen";
@@ -174,13 +175,13 @@ TEST(TrialPassivity, WhereNothingIsRenderedItIsRefused) {
 
 const Set kControlledHexapod{"rig.admittance.passivity=controlled"};
 
-struct Pressed {
+struct PressEnergy {
   double press = 0.0, release = 0.0, in = 0.0, out = 0.0;  // N, N, J, J
   PassivityFigures controller;
   double surplus = 0.0;  // J, by the truth
   TrialResult result;
 };
-Pressed pressed_in(const models::Setup& setup, std::uint64_t seed = 1) {
+PressEnergy pressed_in(const models::Setup& setup, std::uint64_t seed = 1) {
   PressMeasure presses(setup);
   PassivityMeasure passivity;
   TrialOptions options;
@@ -191,7 +192,7 @@ Pressed pressed_in(const models::Setup& setup, std::uint64_t seed = 1) {
     passivity.see(glance);
     ledger.see(glance);
   };
-  Pressed felt;
+  PressEnergy felt;
   Trial trial(setup, options);
   felt.result = trial.run();
   felt.surplus = worst_surplus(ledger.contacts());
@@ -204,8 +205,8 @@ Pressed pressed_in(const models::Setup& setup, std::uint64_t seed = 1) {
 }
 
 TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
-  const Pressed off = pressed_in(setup_of("tennis_ball", {})),
-                on = pressed_in(setup_of("tennis_ball", kControlledHexapod));
+  const PressEnergy off = pressed_in(setup_of("tennis_ball", {})),
+                    on = pressed_in(setup_of("tennis_ball", kControlledHexapod));
   EXPECT_EQ(on.result.contacts, off.result.contacts);
   EXPECT_NEAR(on.press, off.press, 0.02);
   EXPECT_NEAR(on.release, off.release, 0.02);
@@ -220,7 +221,7 @@ TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
 // its way gets 0.30 mJ (seeds 2 and 21) if the controller only checks the way left under the present push.
 TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
-    const Pressed on = pressed_in(setup_of("session", {}, kControlledHexapod), seed);
+    const PressEnergy on = pressed_in(setup_of("session", {}, kControlledHexapod), seed);
     EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed, seed " << seed;
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
@@ -231,7 +232,8 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
 // controller ignores that.
 TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {15U, 27U, 41U}) {
-    const Pressed on = pressed_in(setup_of("training", {"follow.inset_mm=0.1"}, kControlledHexapod), seed);
+    const PressEnergy on =
+        pressed_in(setup_of("training", {"follow.inset_mm=0.1"}, kControlledHexapod), seed);
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
@@ -240,8 +242,8 @@ TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
 // The controller hardly renders the tooth if the tip waits 0.1 mm inside; at 0.01 mm it does.
 TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   const Set near{"follow.inset_mm=0.01"};
-  const Pressed off = pressed_in(setup_of("training", near), 3),
-                on = pressed_in(setup_of("training", near, kControlledHexapod), 3);
+  const PressEnergy off = pressed_in(setup_of("training", near), 3),
+                    on = pressed_in(setup_of("training", near, kControlledHexapod), 3);
   EXPECT_LT(on.press, 2.5) << "N, of 10; " << off.press << " without it";
   EXPECT_LT(on.release, 2.5) << "N; " << off.release << " without it";
   EXPECT_GT(on.in, 0.8 * off.in) << "J";
@@ -258,7 +260,7 @@ const Set kSoft{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0",
                 "behaviour.spring.stiffness_N_per_mm=0.03", "pusher.hold_s=3", "pusher.repeats=2"};
 
 TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
-  const Pressed on = pressed_in(setup_of("stiffness", kSoft, kControlledHexapod));
+  const PressEnergy on = pressed_in(setup_of("stiffness", kSoft, kControlledHexapod));
   EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
   EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
   EXPECT_GT(on.controller.acted, 0.1) << "s";

@@ -396,7 +396,7 @@ std::vector<double> apart_when_they_meet(const char* scene) {
     phase = glance.truth.phase;
     if (met || glance.truth.aim < 0) return;
     const Object& aimed = glance.scene.objects[static_cast<std::size_t>(glance.truth.aim)];
-    const Wanted at = wanted_at(aimed, glance.truth.tool_tip);
+    const PropTarget at = wanted_at(aimed, glance.truth.tool_tip);
     if (at.distance > glance.truth.tool_radius) return;
     met = true;
     const Vec3 way = (recall<ImpedanceState>(*glance.state).aim.target - glance.truth.tip).e();
@@ -462,7 +462,7 @@ FeltWay press(Duration jitter, std::uint64_t seed) {
 TEST(Jitter, OfAFrameChangesNothingThatIsFeltByMoreThanTheForceStep) {
   for (int i = 1; i <= tests::thorough(1, 4); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
-    const FeltApart apart = felt_apart(press({}, seed), press(kFrame, seed), kFrameTicks);
+    const ForceDifference apart = felt_apart(press({}, seed), press(kFrame, seed), kFrameTicks);
     EXPECT_GT(apart.ticks, 6000U) << seed;
     EXPECT_GT(apart.tick, 0.0) << seed;
     EXPECT_LE(apart.frame, kForceStep) << seed;
@@ -530,7 +530,7 @@ TEST(FeltApart, IsOfTicksInWhichBothAreInContactAndOfWholeFramesOfThem) {
     }
     return made;
   };
-  const FeltApart apart = felt_apart(way({-5, -5, -5, -5, -5}), way({-5, -9, kUnset, -6, -4}), 2);
+  const ForceDifference apart = felt_apart(way({-5, -5, -5, -5, -5}), way({-5, -9, kUnset, -6, -4}), 2);
   EXPECT_EQ(apart.ticks, 4U);
   EXPECT_DOUBLE_EQ(apart.tick, 4.0);
   EXPECT_DOUBLE_EQ(apart.frame, 2.0);  // from the first two

@@ -245,21 +245,21 @@ TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
 // A terminal that accepts no output delays nothing.
 
 // Standard error is an unread terminal, or a pipe, in the lifetime of this object.
-class Unread {
+class UnreadStream {
  public:
-  explicit Unread(bool terminal) {
+  explicit UnreadStream(bool terminal) {
     std::fflush(stderr);
     if (terminal ? openpty(ends_, ends_ + 1, nullptr, nullptr, nullptr) : pipe(ends_)) return;
     dup2(ends_[1], STDERR_FILENO);
   }
-  ~Unread() {
+  ~UnreadStream() {
     dup2(before_, STDERR_FILENO);
     close_reader();
     close(ends_[1]);
     close(before_);
   }
-  Unread(const Unread&) = delete;
-  Unread& operator=(const Unread&) = delete;
+  UnreadStream(const UnreadStream&) = delete;
+  UnreadStream& operator=(const UnreadStream&) = delete;
   void close_reader() {
     if (ends_[0] >= 0) close(ends_[0]);
     ends_[0] = -1;
@@ -277,7 +277,7 @@ class Unread {
 
 TEST(StandardError, IsWrittenAsFarAsItTakes) {
   for (const bool terminal : {true, false}) {
-    Unread unread(terminal);
+    UnreadStream unread(terminal);
     const StandardError error;
     EXPECT_EQ(error.terminal(), terminal);
     EXPECT_EQ(error.write("hello"), 5U);
@@ -292,7 +292,7 @@ TEST(StandardError, IsWrittenAsFarAsItTakes) {
 }
 
 TEST(StandardError, WithoutAReaderSwallowsAll) {
-  Unread unread(true);
+  UnreadStream unread(true);
   const StandardError error;
   unread.close_reader();
   EXPECT_EQ(error.write("hello"), 5U);

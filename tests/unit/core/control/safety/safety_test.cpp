@@ -219,7 +219,7 @@ struct Servo {
 // follows.
 double found_out(Servo servo) {
   const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004, 1e-3};
-  Following state;
+  FollowingState state;
   double c = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const double v = i < 200 ? 0.05 : 0.0;
@@ -246,7 +246,7 @@ TEST(Following, AMachineThatStandsOrCrawlsIsFoundOut) {
 
 TEST(Following, AMachineAtAnotherScaleIsFoundOut) {
   const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004, 1e-3};
-  Following state;
+  FollowingState state;
   bool follows_still = true;
   for (int i = 0; i < 1000; ++i) {
     const double c = 1e-5 * std::min(i, 500);  // 5 mm at 10 mm/s
@@ -259,7 +259,7 @@ TEST(Following, AMachineAtAnotherScaleIsFoundOut) {
 
 // A machine that stays at its first position, whatever the command.
 std::function<void(Inputs&)> standing(bool withheld) {
-  return [withheld, stands = Stamped<TipSample>{}](Inputs& in) mutable {
+  return [withheld, stands = Measurement<TipSample>{}](Inputs& in) mutable {
     if (stands.health == Health::absent) stands = in.tip;
     stands.t = in.tip.t;
     in.tip = stands;
@@ -299,7 +299,7 @@ TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
 TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
   for (const double hz : {1e-6, 0.01, 1.0}) {
     const ServoModel believed{2.0 * M_PI * hz, 0.8, 0.004, 1e-3};
-    Following state;
+    FollowingState state;
     bool found = false;
     for (int i = 0; i < 3000 && !found; ++i) {
       const double v = i < 1000 ? 0.05 : 0.0;

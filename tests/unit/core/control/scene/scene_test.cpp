@@ -203,7 +203,7 @@ TEST(Prepare, RefusesAUserWhoPressesAnUnknownObject) {
 
 TEST(Prepare, RefusesASpringySidewaysWithoutAStiffness) {
   BehaviourSpec behaviour = test::spring();
-  behaviour.tangential = Tangential::spring;
+  behaviour.tangential = TangentialMode::spring;
   expect_refused(test::ball_scene(behaviour), "needs a tangential stiffness", "object.ball.behaviour");
 }
 

@@ -133,10 +133,11 @@ TEST(Edges, ThePlaceInsideIsTheNearestOne) {
 }
 
 // A tool that glides at 11 mm/s to and fro over the top of a cube, beyond its edges.
-class Gliding : public PoseTracker {
+class GlidingTool : public PoseTracker {
  public:
-  explicit Gliding(const Scene& scene) : X_CW_(scene.X_WC.inverse()), tip_T_(scene.tools[0].tip.centre.e()) {}
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+  explicit GlidingTool(const Scene& scene)
+      : X_CW_(scene.X_WC.inverse()), tip_T_(scene.tools[0].tip.centre.e()) {}
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
     if (!frame_.due(now)) return false;
     newest.t = now - Duration(20'000'000);
     newest.health = Health::ok;
@@ -149,7 +150,7 @@ class Gliding : public PoseTracker {
  private:
   Pose<'C', 'W'> X_CW_;
   Vec3 tip_T_;
-  Every frame_{120.0};
+  DueTimes frame_{120.0};
 };
 
 // The simulated machine adds its lag, delay and steps.
@@ -164,7 +165,7 @@ TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
   const Scene scene = trial::prepare_setup(setup);
   double outside = -1.0;
   trial::TrialOptions options{.seconds = 30.0};
-  options.fit_out = [&](Rig& rig) { rig.tracker = std::make_unique<Gliding>(scene); };
+  options.fit_out = [&](Rig& rig) { rig.tracker = std::make_unique<GlidingTool>(scene); };
   std::int64_t entered = 0;
   trial::Trial* made = nullptr;
   options.watch = [&](const trial::Glance& glance) {

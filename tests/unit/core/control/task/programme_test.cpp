@@ -17,8 +17,8 @@ using test::Loop, test::rig_scene;
 // A machine that a procedure sends from pose to pose, driven by hand.
 
 // A scene with [travel]; its jaws hold their tool from tick `grips` on.
-struct Sent {
-  explicit Sent(int grips = 0) : loop(made()) {
+struct TrackingLoop {
+  explicit TrackingLoop(int grips = 0) : loop(made()) {
     for (int i = 0; i < 3; ++i) next({});
     from = grips;
   }
@@ -56,7 +56,7 @@ struct Sent {
 const Pose<'W', 'H'> kTo(Quat(Eigen::AngleAxisd(0.1, Vec3::UnitX())), Vec3(0.010, -0.005, 0.004));
 
 TEST(Carry, GoesThereWithinTheMachinesLimitsAndTurnsAsItIsTold) {
-  Sent sent;
+  TrackingLoop sent;
   const Reach& reach = sent.loop.reach;
   Vec3 before = sent.at().p(), speed = Vec3::Zero();
   for (int i = 0; i < 1500; ++i) {
@@ -73,7 +73,7 @@ TEST(Carry, GoesThereWithinTheMachinesLimitsAndTurnsAsItIsTold) {
 }
 
 TEST(Carry, WaitsForTheJawsAndWhereNothingIsAsked) {
-  Sent sent(200);
+  TrackingLoop sent(200);
   for (int i = 0; i < 150; ++i) sent.next(kTo);
   EXPECT_LT(sent.at().p().norm(), 1e-9) << "it moved before the tool was held";
   EXPECT_LT(sent.at().q().angularDistance(Quat::Identity()), 1e-12) << "it turned before the tool was held";
@@ -90,7 +90,7 @@ Pose<'W', 'H'> a_little_turned(int i) {
 }
 
 TEST(Carry, JawsThatNoLongerHoldLetItNeitherGoNorTurn) {
-  Sent sent;
+  TrackingLoop sent;
   for (int i = 1; i <= 100; ++i) sent.next(a_little_turned(i));
   sent.phase = GripPhase::opening;  // no hold: a hand may be taking the tool out
   sent.from = 1 << 30;
@@ -104,7 +104,7 @@ TEST(Carry, JawsThatNoLongerHoldLetItNeitherGoNorTurn) {
 }
 
 TEST(Carry, ToolThatIsLostHoldsTheMachine) {
-  Sent sent;
+  TrackingLoop sent;
   for (int i = 1; i <= 100; ++i) sent.next(a_little_turned(i));
   sent.phase = GripPhase::closed;  // on nothing
   sent.from = 1 << 30;
@@ -167,7 +167,7 @@ TEST(Travel, LegsOfEachAxisAndWay) {
   spec.travel->axes = "xz";
   spec.travel->ways = TravelWays::both_ways;
   spec.travel->repeats = 2;
-  const TrackingTask travel = *made(spec).travel();
+  const TrackingTask travel = *made(spec).tracking();
   ASSERT_EQ(travel.legs.size(), 2U * 2U * 5U);
   EXPECT_EQ(travel.legs[0].axis, -1);  // x begins where the machine is
   EXPECT_EQ(travel.legs[0].length, 0.0);
@@ -206,7 +206,7 @@ TEST(Travel, EndsInItsTimeAndStandsStill) {
   spec.travel->axes = "xyz";
   spec.travel->ways = TravelWays::both_ways;
   Loop loop = with_grip(spec);
-  const double longest = loop.scene.travel()->duration();
+  const double longest = loop.scene.tracking()->duration();
   const int ticks = until(loop, TravelPhase::done, 14);
   EXPECT_LT(ticks * 1e-3, longest);
   EXPECT_GT(ticks * 1e-3, longest - 2.6);
@@ -267,29 +267,29 @@ int until(Loop& loop, ProbePhase phase) {
   }
   return ticks;
 }
-double depth(const Loop& loop) { return loop.scene.probe()->deflection(loop.tip()); }
+double depth(const Loop& loop) { return loop.scene.indentation()->deflection(loop.tip()); }
 
 TEST(IndentationTask, FirstTouchAndAxisOfTheThreeIndentations) {
   SceneSpec spec = rig_scene();
   const Scene a = made(spec);
   EXPECT_EQ(a.tip_radius, kProbeRadius);
-  EXPECT_LT((a.probe()->X_WN.p() - Vec3(0, 0, 0.009)).norm(), 1e-12);
-  EXPECT_LT((a.probe()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
-  EXPECT_NEAR(a.probe()->deflection(Point<'W'>(0.001, 0, 0.011)), 0.002, 1e-12);
+  EXPECT_LT((a.indentation()->X_WN.p() - Vec3(0, 0, 0.009)).norm(), 1e-12);
+  EXPECT_LT((a.indentation()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
+  EXPECT_NEAR(a.indentation()->deflection(Point<'W'>(0.001, 0, 0.011)), 0.002, 1e-12);
 
   spec.probe->offset = 0.010;  // towards growing polar angle: at azimuth 0 and from below that is -x
   const Scene b = made(spec);
-  EXPECT_LT(
-      (b.probe()->X_WN.p() - Vec3(-0.010, 0, kCentre - std::sqrt(0.043 * 0.043 - 0.010 * 0.010))).norm(),
-      1e-11);
-  EXPECT_LT((b.probe()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
+  EXPECT_LT((b.indentation()->X_WN.p() - Vec3(-0.010, 0, kCentre - std::sqrt(0.043 * 0.043 - 0.010 * 0.010)))
+                .norm(),
+            1e-11);
+  EXPECT_LT((b.indentation()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
 
   spec.probe->offset = 0.0;
   spec.probe->polar = 170.0 * M_PI / 180.0;
   const Scene c = made(spec);
   const Vec3 out(std::sin(10.0 * M_PI / 180.0), 0, -std::cos(10.0 * M_PI / 180.0));
-  EXPECT_LT((c.probe()->X_WN.p() - (Vec3(0, 0, kCentre) + 0.043 * out)).norm(), 1e-12);
-  EXPECT_LT((c.probe()->X_WN.q() * Vec3::UnitZ() - out).norm(), 1e-12);
+  EXPECT_LT((c.indentation()->X_WN.p() - (Vec3(0, 0, kCentre) + 0.043 * out)).norm(), 1e-12);
+  EXPECT_LT((c.indentation()->X_WN.q() * Vec3::UnitZ() - out).norm(), 1e-12);
 }
 
 TEST(IndentationTask, WalksThroughItsPhases) {
@@ -324,7 +324,7 @@ TEST(IndentationTask, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   spec.probe->rest = 0.5;
   spec.probe->dwell = 0.2;
   Loop loop(made(spec));
-  const double longest = programme_time(loop.scene, *loop.scene.probe());
+  const double longest = programme_time(loop.scene, *loop.scene.indentation());
   double deepest = -1.0;
   int ticks = 0;
   for (; recall<IndentationState>(loop.state).phase != ProbePhase::done && ticks < 60'000; ++ticks) {

@@ -294,7 +294,7 @@ TEST(Predict, StampsThatAreLateAreTakenBack) {
 // ---------------------------------------------------------------------------------------------------
 
 // A tool that moves at 40 mm/s along x above the ball, each pose 20 ms old; another one every `every` ticks.
-struct Moving {
+struct MovingTool {
   test::Loop loop{prepare(test::ball_scene(), RigSpec{})};
   int ms = 0;
   bool older = false;
@@ -318,21 +318,21 @@ struct Moving {
 };
 
 TEST(PredictInTheCore, TheToolIsWhereItIsNowAndItsPoseGoesWithItsTip) {
-  Moving moving;
+  MovingTool moving;
   moving.loop.tick(50);
   moving.ms = 50;
   for (int i = 0; i < 1000; ++i) moving.tick();
   const View& view = moving.loop.out.view;
-  EXPECT_NEAR((view.tip - Moving::truth(moving.ms - 1)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((view.tip - MovingTool::truth(moving.ms - 1)).norm(), 0.0, 1e-6);
   const Point<'W'> tip = view.X_WT * moving.loop.scene.tools.front().tip.centre;
   EXPECT_NEAR((tip - view.tip).norm(), 0.0, 1e-15);
 }
 
 TEST(PredictInTheCore, OldAndRepeatedPosesChangeNothing) {
-  Moving plain;      // each pose ten times over
-  Moving disturbed;  // and in between one that is older and elsewhere
+  MovingTool plain;      // each pose ten times over
+  MovingTool disturbed;  // and in between one that is older and elsewhere
   disturbed.older = true;
-  for (Moving* const moving : {&plain, &disturbed}) {
+  for (MovingTool* const moving : {&plain, &disturbed}) {
     moving->loop.tick(50);
     moving->ms = 50;
   }
@@ -370,7 +370,7 @@ TEST(PredictInTheCore, TheToolIsNotSeenToGoThroughTheHapticTip) {
 }
 
 TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
-  Moving moving;
+  MovingTool moving;
   moving.loop.tick(50);
   moving.ms = 50;
   for (int i = 0; i < 200; ++i) moving.tick();
@@ -448,8 +448,8 @@ const Markers kStylus{{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.017, -0.030, 
 const Markers kProbe{{0, 0, 0}, {0.061, 0, 0}, {0, 0.034, 0}, {-0.025, -0.022, 0.008}};
 const std::vector<Markers> kBoth{kStylus, kProbe};
 
-struct Drawn {
-  explicit Drawn(std::uint64_t seed) : random(seed) {}
+struct PoseGenerator {
+  explicit PoseGenerator(std::uint64_t seed) : random(seed) {}
   double normal() { return normal_(random); }
   Pose<'C', 'T'> pose() {
     const Quat q = Quat(normal(), normal(), normal(), normal()).normalized();
@@ -469,7 +469,7 @@ struct Drawn {
 
 TEST(Markers, AToolIsRecognisedWithItsPoseInWhateverOrderTheyAreSeen) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    Drawn drawn(seed);
+    PoseGenerator drawn(seed);
     const auto which = static_cast<std::size_t>(seed % 2);
     const Pose<'C', 'T'> X_CT = drawn.pose();
     const RecognisedTool found = recognise(drawn.seen(kBoth[which], X_CT, 0.0), kBoth);
@@ -484,7 +484,7 @@ TEST(Markers, AToolIsRecognisedWithItsPoseInWhateverOrderTheyAreSeen) {
 TEST(Markers, NoiseOfATrackerConfusesNone) {
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 20'000; ++seed) {
-    Drawn drawn(seed);
+    PoseGenerator drawn(seed);
     const auto which = static_cast<std::size_t>(seed % 2);
     wrong += recognise(drawn.seen(kBoth[which], drawn.pose(), 0.3e-3), kBoth).tool == static_cast<int>(which)
                  ? 0
@@ -494,7 +494,7 @@ TEST(Markers, NoiseOfATrackerConfusesNone) {
 }
 
 TEST(Markers, WhatIsNoneOfThemIsNotRecognised) {
-  Drawn drawn(1);
+  PoseGenerator drawn(1);
   Markers other = kStylus;
   other[1].x() += 2 * kMarkersApart;
   EXPECT_EQ(recognise(drawn.seen(other, drawn.pose(), 0.0), kBoth).tool, -1);
@@ -511,7 +511,7 @@ TEST(Markers, AMirrorImageIsAlikeAndFitsBadly) {
   EXPECT_TRUE(alike(kStylus, mirrored));
   EXPECT_FALSE(alike(kStylus, kProbe));
   const std::vector<Markers> hands{kStylus, mirrored};
-  Drawn drawn(3);
+  PoseGenerator drawn(3);
   for (const int which : {0, 1})
     EXPECT_EQ(recognise(drawn.seen(hands[static_cast<std::size_t>(which)], drawn.pose(), 0.0), hands).tool,
               which);
@@ -525,7 +525,7 @@ TEST(Markers, AMirrorImageAloneIsNone) {
     for (Vec3& marker : mirrored) marker.x() = -marker.x();
     ASSERT_TRUE(alike(tool, mirrored));
     for (std::uint64_t seed = 1; seed <= 2'000; ++seed) {
-      Drawn drawn(seed);
+      PoseGenerator drawn(seed);
       EXPECT_EQ(recognise(drawn.seen(mirrored, drawn.pose(), kMarkerNoise), kBoth).tool, -1) << seed;
     }
   }
@@ -541,7 +541,7 @@ TEST(Markers, AToolOfWhichAllDistancesAreALittleOffIsNone) {
     for (Vec3& marker : all) marker += by * (marker - middle);
     return all;
   };
-  Drawn drawn(2);
+  PoseGenerator drawn(2);
   ASSERT_TRUE(alike(kStylus, grown(0.05)));
   EXPECT_EQ(recognise(drawn.seen(grown(0.05), drawn.pose(), 0.0), kBoth).tool, -1);
   const RecognisedTool near = recognise(drawn.seen(grown(0.04), drawn.pose(), 0.0), kBoth);
@@ -560,7 +560,7 @@ TEST(Markers, AToolThatLooksTheSameInAnotherOrderHasTwoPoses) {
 
 // As many markers as a scene may have, all within 3 mm: there are 16! orders, and two are enough.
 TEST(Markers, ManyThatLookAlikeAreFoundAtOnce) {
-  Drawn drawn(5);
+  PoseGenerator drawn(5);
   Markers many;
   for (std::size_t i = 0; i < kMostMarkers; ++i)
     many.emplace_back(1e-3 * std::cos(0.4 * static_cast<double>(i)),

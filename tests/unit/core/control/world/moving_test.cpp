@@ -36,7 +36,7 @@ struct World {
   // A tick with a finger (a point) at p, which is nearest to object `index`. Return the force on it, N.
   double tick(std::int32_t index, const Point<'W'>& p) {
     const Object& object = objects[static_cast<std::size_t>(index)];
-    const Nearest at = object.surface.nearest(object.X_WO.inverse() * (p - shift_of(object, moved)));
+    const SurfacePoint at = object.surface.nearest(object.X_WO.inverse() * (p - shift_of(object, moved)));
     const Vec<'W'> normal = object.X_WO * at.normal;
     const double speed = last.finite() ? dot(last - p, normal) / kTick : 0.0;
     last = p;

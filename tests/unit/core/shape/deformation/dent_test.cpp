@@ -20,7 +20,7 @@ Tip<'O'> edge_tip(const Vec3& centre, double radius, double length, const Vec3& 
   return {Point<'O'>(centre), radius, TipShape::edge, Vec<'O'>(Vec3(axis.normalized())), 0.0, length};
 }
 DisplacedPoint moved(const Surface& surface, const DentSample& dent, const Vec3& p) {
-  const Nearest at = surface.nearest(Point<'O'>(p));
+  const SurfacePoint at = surface.nearest(Point<'O'>(p));
   return displaced(dent_field(surface, dent), at.point, at.normal);
 }
 

@@ -18,11 +18,11 @@ namespace {
 
 TEST(Plane, DistanceIsTheHeight) {
   const Surface plane{Plane{}};
-  const Nearest above = plane.nearest(Point<'O'>(0.1, -0.2, 0.03));
+  const SurfacePoint above = plane.nearest(Point<'O'>(0.1, -0.2, 0.03));
   EXPECT_EQ(above.distance, 0.03);
   EXPECT_EQ(above.point.xyz, (std::array<double, 3>{0.1, -0.2, 0.0}));
   EXPECT_EQ(above.normal.xyz, (std::array<double, 3>{0, 0, 1}));
-  const Nearest below = plane.nearest(Point<'O'>(0, 0, -0.004));
+  const SurfacePoint below = plane.nearest(Point<'O'>(0, 0, -0.004));
   EXPECT_EQ(below.distance, -0.004);
   EXPECT_EQ(below.normal.xyz[2], 1.0);  // outward, on both sides
 }
@@ -30,19 +30,19 @@ TEST(Plane, DistanceIsTheHeight) {
 TEST(Sphere, DistanceIsAlongTheRadius) {
   const Surface ball{Sphere{0.033}};
   // 3-4-5: (0.030, 0, 0.040) is 50 mm from the centre, 17 mm outside; the foot is at 33/50 of it.
-  const Nearest outside = ball.nearest(Point<'O'>(0.030, 0, 0.040));
+  const SurfacePoint outside = ball.nearest(Point<'O'>(0.030, 0, 0.040));
   EXPECT_NEAR(outside.distance, 0.017, 1e-16);
   EXPECT_NEAR(outside.normal.xyz[0], 0.6, 1e-15);
   EXPECT_NEAR(outside.normal.xyz[2], 0.8, 1e-15);
   EXPECT_NEAR(outside.point.xyz[0], 0.0198, 1e-16);
   EXPECT_NEAR(outside.point.xyz[2], 0.0264, 1e-16);
-  const Nearest inside = ball.nearest(Point<'O'>(0, -0.011, 0));
+  const SurfacePoint inside = ball.nearest(Point<'O'>(0, -0.011, 0));
   EXPECT_NEAR(inside.distance, -0.022, 1e-16);
   EXPECT_NEAR(inside.normal.xyz[1], -1.0, 1e-15);
 }
 
 TEST(Sphere, FromItsCentreTheNearestPointIsTheTop) {
-  const Nearest at = Surface{Sphere{0.033}}.nearest(Point<'O'>(0, 0, 0));
+  const SurfacePoint at = Surface{Sphere{0.033}}.nearest(Point<'O'>(0, 0, 0));
   EXPECT_EQ(at.distance, -0.033);
   EXPECT_EQ(at.normal.xyz, (std::array<double, 3>{0, 0, 1}));
   EXPECT_EQ(at.point.xyz, (std::array<double, 3>{0, 0, 0.033}));
@@ -52,7 +52,7 @@ const Surface kKey{Button{0.016, 0.012, 0.020}};
 
 TEST(Button, OverTheFaceDistanceIsTheHeight) {
   for (const double z : {0.050, 0.003, 0.0, -0.002, -0.019}) {
-    const Nearest at = kKey.nearest(Point<'O'>(0.007, -0.0055, z));
+    const SurfacePoint at = kKey.nearest(Point<'O'>(0.007, -0.0055, z));
     EXPECT_EQ(at.distance, z);
     EXPECT_EQ(at.point.xyz, (std::array<double, 3>{0.007, -0.0055, 0.0}))
         << "never a side, however deep: " << z;
@@ -63,26 +63,26 @@ TEST(Button, OverTheFaceDistanceIsTheHeight) {
 
 TEST(Button, BesideItDistanceIsThatToTheEdgeOrTheSide) {
   // 3-4-5: 3 mm beside the edge x = 8 mm and 4 mm above it.
-  const Nearest edge = kKey.nearest(Point<'O'>(0.011, 0.001, 0.004));
+  const SurfacePoint edge = kKey.nearest(Point<'O'>(0.011, 0.001, 0.004));
   EXPECT_NEAR(edge.distance, 0.005, 1e-16);
   EXPECT_NEAR(edge.normal.xyz[0], 0.6, 1e-14);
   EXPECT_NEAR(edge.normal.xyz[2], 0.8, 1e-14);
   EXPECT_EQ(edge.feature, kButtonSide);
-  const Nearest side = kKey.nearest(Point<'O'>(0.0, -0.009, -0.010));  // the edge is y = -6 mm
+  const SurfacePoint side = kKey.nearest(Point<'O'>(0.0, -0.009, -0.010));  // the edge is y = -6 mm
   EXPECT_NEAR(side.distance, 0.003, 1e-16);
   EXPECT_NEAR(side.normal.xyz[1], -1.0, 1e-15);
   EXPECT_EQ(side.point.xyz, (std::array<double, 3>{0.0, -0.006, -0.010}));
   // 2-3-6 of 7: at a corner, above.
-  const Nearest corner = kKey.nearest(Point<'O'>(-0.010, 0.009, 0.006));
+  const SurfacePoint corner = kKey.nearest(Point<'O'>(-0.010, 0.009, 0.006));
   EXPECT_NEAR(corner.distance, 0.007, 1e-16);
   EXPECT_NEAR(corner.normal.xyz[0], -2.0 / 7.0, 1e-14);
-  const Nearest under = kKey.nearest(Point<'O'>(0.0, 0.0, -0.025));
+  const SurfacePoint under = kKey.nearest(Point<'O'>(0.0, 0.0, -0.025));
   EXPECT_NEAR(under.distance, 0.005, 1e-16);
   EXPECT_NEAR(under.normal.xyz[2], -1.0, 1e-15);
 }
 
 TEST(Button, OnItsVeryEdgeTheFaceIsNearest) {
-  const Nearest edge = kKey.nearest(Point<'O'>(0.008, 0.006, -0.001));
+  const SurfacePoint edge = kKey.nearest(Point<'O'>(0.008, 0.006, -0.001));
   EXPECT_EQ(edge.feature, kButtonFace);
   EXPECT_EQ(edge.distance, -0.001);
   EXPECT_EQ(kKey.nearest(Point<'O'>(0.008 + 1e-9, 0.0, -0.001)).feature, kButtonSide);
@@ -112,32 +112,32 @@ TEST(MeshTree, TetrahedronByHand) {
   const double third = 1.0 / 3.0;
   const Vec3 across = Vec3(1, 1, 1).normalized();
   // Over the face across: (1,1,1) is sqrt(3) - 1/sqrt(3) away from x + y + z = 1.
-  const Nearest face = tree.nearest(Point<'O'>(1, 1, 1));
+  const SurfacePoint face = tree.nearest(Point<'O'>(1, 1, 1));
   EXPECT_NEAR(face.distance, 2.0 / std::sqrt(3.0), 1e-15);
   expect_near(face.point, Vec3(third, third, third), 1e-15);
   expect_near(face.normal, across, 1e-15);
   EXPECT_EQ(face.feature, 3);
   // Under the floor, inside, and on the face itself.
   EXPECT_DOUBLE_EQ(tree.nearest(Point<'O'>(0.2, 0.3, -0.4)).distance, 0.4);
-  const Nearest inside = tree.nearest(Point<'O'>(0.2, 0.3, 0.05));
+  const SurfacePoint inside = tree.nearest(Point<'O'>(0.2, 0.3, 0.05));
   EXPECT_DOUBLE_EQ(inside.distance, -0.05);
   EXPECT_EQ(inside.feature, 0);
   expect_near(inside.normal, Vec3(0, 0, -1), 1e-15);
   EXPECT_EQ(tree.nearest(Point<'O'>(0.25, 0.25, 0)).distance, 0.0);
   // Beside the edge on the x axis: between the normals of floor (-z) and wall (-y).
-  const Nearest edge = tree.nearest(Point<'O'>(0.5, -0.3, -0.4));
+  const SurfacePoint edge = tree.nearest(Point<'O'>(0.5, -0.3, -0.4));
   EXPECT_DOUBLE_EQ(edge.distance, 0.5);
   expect_near(edge.point, Vec3(0.5, 0, 0), 1e-15);
   expect_near(edge.normal, Vec3(0, -1, -1).normalized(), 1e-15);
   EXPECT_EQ(edge.feature, 0);  // floor 0 and wall 1: the lower number
   // Beyond the corner at the origin: three right angles.
-  const Nearest corner = tree.nearest(Point<'O'>(-1, -2, -2));
+  const SurfacePoint corner = tree.nearest(Point<'O'>(-1, -2, -2));
   EXPECT_DOUBLE_EQ(corner.distance, 3.0);
   expect_near(corner.point, Vec3(0, 0, 0), 1e-300);
   expect_near(corner.normal, -across, 1e-15);
   EXPECT_EQ(corner.feature, 0);
   // A point on the corner itself has distance 0 and still a normal.
-  const Nearest on = tree.nearest(Point<'O'>(0, 0, 0));
+  const SurfacePoint on = tree.nearest(Point<'O'>(0, 0, 0));
   EXPECT_EQ(on.distance, 0.0);
   expect_near(on.normal, -across, 1e-15);
 }
@@ -161,7 +161,7 @@ TEST(MeshTree, TheSignIsRightWhereASingleFaceIsWrong) {
   const MeshTree tree(blade);
   ASSERT_LT(tree.nearest(Point<'O'>(-0.5, 0, 0)).distance, 0.0);
   for (const double y : {-0.9, -0.1, 0.0, 0.1, 0.9}) {
-    const Nearest at = tree.nearest(Point<'O'>(0.1, y * 0.01, 0));
+    const SurfacePoint at = tree.nearest(Point<'O'>(0.1, y * 0.01, 0));
     EXPECT_GT(at.distance, 0.0) << y;
     expect_near(at.point, Vec3(0, 0, 0), 1e-15);
     expect_near(at.normal, Vec3(1, 0, 0), 1e-12);
@@ -172,7 +172,7 @@ TEST(MeshTree, TiesGoToTheLowestTriangleWhateverTheHint) {
   const Mesh cube = models::cube(2, 0.05);
   const MeshTree tree(cube);
   // The centre is equally near to the middles of six faces, and several triangles meet in each.
-  const Nearest centre = tree.nearest(Point<'O'>(0, 0, 0));
+  const SurfacePoint centre = tree.nearest(Point<'O'>(0, 0, 0));
   EXPECT_DOUBLE_EQ(centre.distance, -0.025);
   std::int32_t lowest = -1;
   for (std::size_t k = 0; k < cube.triangles.size() && lowest < 0; ++k)
@@ -184,8 +184,8 @@ TEST(MeshTree, TiesGoToTheLowestTriangleWhateverTheHint) {
   for (std::int32_t hint = -2; hint < static_cast<std::int32_t>(cube.triangles.size()) + 2; ++hint)
     for (const Point<'O'>& p : {Point<'O'>(0, 0, 0), Point<'O'>(0.01, 0.01, 0), Point<'O'>(0.03, 0.03, 0.03),
                                 Point<'O'>(0.05, 0, 0.01)}) {
-      const Nearest a = tree.nearest(p);
-      const Nearest b = tree.nearest(p, hint);
+      const SurfacePoint a = tree.nearest(p);
+      const SurfacePoint b = tree.nearest(p, hint);
       EXPECT_EQ(a.feature, b.feature);
       EXPECT_EQ(a.distance, b.distance);
       EXPECT_EQ(a.point.xyz, b.point.xyz);
@@ -197,7 +197,7 @@ TEST(MeshTree, WhatIsNoPlaceHasNoAnswer) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {kUnset, kInfinity, -kInfinity, 1e300, 2e9}) {
     for (const std::int32_t hint : {-1, 0, 3, 1000}) {
-      const Nearest at = tree.nearest(Point<'O'>(0.1, bad, 0.1), hint);
+      const SurfacePoint at = tree.nearest(Point<'O'>(0.1, bad, 0.1), hint);
       EXPECT_EQ(at.feature, -1);
       EXPECT_TRUE(std::isnan(at.distance));
     }
@@ -241,7 +241,7 @@ TEST(MeshTree, OfAMeshThatIsTooLargeNothingIsNear) {
   Mesh huge = tetrahedron();
   for (auto& vertex : huge.vertices)
     for (double& x : vertex) x = 2e20 * x - 1e20;
-  const Nearest at = MeshTree(huge).nearest(Point<'O'>(0.1, 0.1, 0.1));
+  const SurfacePoint at = MeshTree(huge).nearest(Point<'O'>(0.1, 0.1, 0.1));
   EXPECT_EQ(at.feature, -1);
   EXPECT_TRUE(std::isnan(at.distance) && !at.point.finite() && !at.normal.finite());
 }
@@ -263,7 +263,7 @@ TEST(MeshTree, EqualsTryingEveryTriangle) {
         };
         least = std::min(least, nearest_on_triangle(p.e(), {at(0), at(1), at(2)}, t).square);
       }
-      const Nearest at = tree.nearest(p);
+      const SurfacePoint at = tree.nearest(p);
       EXPECT_NEAR(std::abs(at.distance), std::sqrt(least), 1e-12 * std::sqrt(least) + 1e-17);
       // A ball with flat faces lies inside the round one by no more than the sagitta of its largest triangle,
       // in the middle of an icosahedron's face: ((1.0515 / 0.7947 / sqrt 3) / n)^2 / 2.
@@ -276,14 +276,14 @@ TEST(MeshTree, ManyTrianglesInOnePlace) {
   // A needle of zero width: degenerate, but it must not cause a stop or NaN.
   Mesh flat{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}, {}};
   for (int i = 0; i < 100; ++i) flat.triangles.push_back({0, 1, 2});
-  const Nearest at = MeshTree(flat).nearest(Point<'O'>(0.25, 0.5, 0));
+  const SurfacePoint at = MeshTree(flat).nearest(Point<'O'>(0.25, 0.5, 0));
   EXPECT_DOUBLE_EQ(std::abs(at.distance), 0.5);
   EXPECT_EQ(at.feature, 0);
 }
 
 TEST(MeshSurface, IsASurfaceLikeOthers) {
   const Surface surface(MeshSurface{std::make_shared<const MeshTree>(models::geodesic_ball(20))});
-  const Nearest at = surface.nearest(Point<'O'>(0, 0, 0.04), 7);
+  const SurfacePoint at = surface.nearest(Point<'O'>(0, 0, 0.04), 7);
   EXPECT_NEAR(at.distance, 0.007, 3e-5);
   EXPECT_NEAR(surface.bound().radius, models::kBallRadius, 1e-12);
   EXPECT_EQ(surface.nearest(Point<'O'>(0, 0, 0.04)).feature, at.feature);

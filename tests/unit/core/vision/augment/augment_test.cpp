@@ -35,11 +35,11 @@ const Object kWall{Surface(Plane{}), Pose<'W', 'O'>::identity(), {}};
 
 constexpr std::size_t kStanding = 3;  // parts of a PHANToM's shape: its base
 
-struct Painted {
+struct PaintedView {
   Image image{kWidth, kHeight};
   Mask device{kWidth, kHeight};  // its moving part
   // The room, the arm at its true pose, and a square of skin, in that order.
-  Painted(const AugmentedSpec& truth, const PerJoint& q, const Region& skin = {}) {
+  PaintedView(const AugmentedSpec& truth, const PerJoint& q, const Region& skin = {}) {
     const RectifiedPair pair = Rectifier(truth.camera).pair();
     Mask all(kWidth, kHeight);
     const auto parts = arm_shape(*truth.arm, q, truth.X_WR);
@@ -60,7 +60,7 @@ bool is(const Image& image, int x, int y, const std::array<std::uint8_t, 3>& ink
 }
 
 // Share of the device's pixels that show the room in `removed`.
-double gone(const Painted& painted, const Image& removed) {
+double gone(const PaintedView& painted, const Image& removed) {
   int all = 0, away = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
@@ -80,7 +80,7 @@ AugmentedMoment at(const PerJoint& joints) {
 const PerJoint kAtRest{0, 0, 0}, kMoved{0.5, 0.2, 0.3};
 
 void learn(AugmentedView& view, const AugmentedSpec& truth) {
-  for (int i = 0; i < 3; ++i) view.see(Painted(truth, kAtRest).image.view(), at(kAtRest));
+  for (int i = 0; i < 3; ++i) view.see(PaintedView(truth, kAtRest).image.view(), at(kAtRest));
 }
 
 TEST(AugmentedView, TheArmIsGoneAndTheHandBeforeItStays) {
@@ -88,8 +88,8 @@ TEST(AugmentedView, TheArmIsGoneAndTheHandBeforeItStays) {
   AugmentedView view(s, {});
   learn(view, s);
   const Region hand{110, 80, 150, 120};  // over the upper arm
-  const Painted painted(s, kMoved, hand);
-  EXPECT_TRUE(Painted(s, kMoved).device.at(130, 88));
+  const PaintedView painted(s, kMoved, hand);
+  EXPECT_TRUE(PaintedView(s, kMoved).device.at(130, 88));
   view.see(painted.image.view(), at(kMoved));
   EXPECT_EQ(gone(painted, view.removed()), 1.0);
   for (int y = hand.y0 + 2; y < hand.y1 - 2; ++y)
@@ -106,7 +106,7 @@ TEST(AugmentedView, TheBackgroundIsCompletedWhereTheArmStood) {
                                 s.X_WC.inverse() * (s.X_WR * Point<'R'>(0.09, 0, 0)));  // on the upper arm
   const int x = static_cast<int>(elbow.column), y = static_cast<int>(elbow.row);
   EXPECT_FALSE(view.known().at(x, y));
-  for (int i = 0; i < 3; ++i) view.see(Painted(s, kMoved).image.view(), at(kMoved));
+  for (int i = 0; i < 3; ++i) view.see(PaintedView(s, kMoved).image.view(), at(kMoved));
   EXPECT_TRUE(view.known().at(x, y));
 }
 
@@ -120,14 +120,14 @@ TEST(AugmentedView, AWrongBeliefMovesWhatIsReplaced) {
   for (const AugmentedSpec& believed : {off, bent}) {
     AugmentedView view(believed, {});
     learn(view, truth);
-    const Painted painted(truth, kMoved);
+    const PaintedView painted(truth, kMoved);
     view.see(painted.image.view(), at(kMoved));
     EXPECT_LT(gone(painted, view.removed()), 0.9);
   }
   AugmentedView view(truth, {});
   learn(view, truth);
-  view.see(Painted(truth, kMoved).image.view(), at(kAtRest));  // the believed joints place it, too
-  EXPECT_LT(gone(Painted(truth, kMoved), view.removed()), 0.7);
+  view.see(PaintedView(truth, kMoved).image.view(), at(kAtRest));  // the believed joints place it, too
+  EXPECT_LT(gone(PaintedView(truth, kMoved), view.removed()), 0.7);
 }
 
 TEST(AugmentedView, AWallIsDrawnWhereItStandsAndTheHandCoversIt) {
@@ -136,7 +136,7 @@ TEST(AugmentedView, AWallIsDrawnWhereItStandsAndTheHandCoversIt) {
   AugmentedView view(s, wall);
   learn(view, s);
   const Region hand{150, 100, 190, 140};
-  view.see(Painted(s, kMoved, hand).image.view(), at(kMoved));
+  view.see(PaintedView(s, kMoved, hand).image.view(), at(kMoved));
   // 0.12 m at 0.6 m are 60 px: its corners are 30 px beside the middle.
   const auto drawn = [&](int x, int y) {
     return !std::equal(view.augmented().view().at(x, y), view.augmented().view().at(x, y) + 3,
@@ -150,12 +150,12 @@ TEST(AugmentedView, AWallIsDrawnWhereItStandsAndTheHandCoversIt) {
   // A finger known to be far below the wall is visible through it.
   AugmentedMoment moment = at(kMoved);
   moment.finger = Point<'C'>(0, 0, 0.7);
-  view.see(Painted(s, kMoved, hand).image.view(), moment);
+  view.see(PaintedView(s, kMoved, hand).image.view(), moment);
   EXPECT_TRUE(drawn(170, 120));
   // A pushed object is drawn at its present place.
   moment = at(kMoved);
   moment.moved = {Vec<'W'>(0.04, 0, 0)};
-  view.see(Painted(s, kMoved).image.view(), moment);
+  view.see(PaintedView(s, kMoved).image.view(), moment);
   EXPECT_FALSE(drawn(131, 91));
   EXPECT_TRUE(drawn(205, 91));
 }

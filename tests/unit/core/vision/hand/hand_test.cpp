@@ -215,8 +215,8 @@ Score play(const Sequence& sequence, int frames, SegmentationMethod method = Seg
     painter.paint(hands, sequence.tone, static_cast<std::uint64_t>(frame), picture);
     const Finger finger = tracker.see(picture.frame(), Time(Duration(50'000'000) * (frame + 10)));
     bool shown = false, right = false;
-    for (const painted::TipShown& tip : painted::tips_in(painter, hands)) {
-      const painted::Shown& s = tip.shown;
+    for (const painted::VisibleTip& tip : painted::tips_in(painter, hands)) {
+      const painted::TipVisibility& s = tip.shown;
       shown = shown || (s.share > kShown && s.coloured > kShown && s.apart > kShown);
       right = right || (finger.shown.finite() && (finger.shown.e() - tip.tip).norm() <= kFar);
     }
@@ -306,9 +306,9 @@ TEST(PaintedHands, AFingerThatFoldsIsSeenNowhereElse) {
 }
 
 // The frames of one hand before the office, in sequence.
-class OneHand {
+class HandSequence {
  public:
-  OneHand()
+  HandSequence()
       : painter_(painted::head(), {}), tracker_(tracker_before(painter_, {}, SegmentationMethod::published)) {
     hand_.tip = {0.0, -0.05, 0.5};
   }
@@ -349,7 +349,7 @@ TEST(PaintedHands, WhichFingerOfAnOpenHandPointsCannotBeKnown) {
 
 // A hand does not go 0.75 m in 0.2 s.
 TEST(PaintedHands, AFindThatIsTooFarTooSoonIsAnotherFinger) {
-  OneHand scene;
+  HandSequence scene;
   scene.hand().tip.z() = 0.35;
   EXPECT_EQ(scene.see(true), FingerState::seen);
   for (int i = 0; i < 3; ++i) scene.see(false);

@@ -194,7 +194,7 @@ class HuelessTest : public testing::Test {
   // Hues of 10 to 33 degrees are skin.
   Mask found(const Region& region = {0, 0, kSide, kSide}, const std::uint16_t (&white)[3] = kWhite) {
     Mask skin(kSide, kSide);
-    Hueless hueless(kSide);
+    HuelessChange hueless(kSide);
     for (int i = 0; i < 2; ++i)  // nothing remains of earlier frames
       hueless.find(image_.view(), background_, hueless_, region, white, cut_of({43, 100}, HueRule{}), skin);
     return skin;

@@ -47,7 +47,7 @@ Errors errors_at(double disparity, double noise, int seed) {
     for (int x = 270; x < kWidth - 8; x += 4) {
       const Disparity found = matcher.at(left, right, x, y);
       ++all.asked;
-      if (found.matched != Matched::yes) continue;
+      if (found.matched != MatchOutcome::yes) continue;
       const double off = static_cast<double>(found.pixels) - disparity;
       ++all.matched;
       all.mean += off;
@@ -86,7 +86,7 @@ TEST(Match, DepthScattersAsItsSquare) {
       for (int y = 12; y < kHeight - 8; y += 12)
         for (int x = 270; x < kWidth - 8; x += 12) {
           const Disparity found = matcher.at(left, right, x, y);
-          if (found.matched != Matched::yes) continue;
+          if (found.matched != MatchOutcome::yes) continue;
           const Triplet at{x * 1.0, y * 1.0, static_cast<double>(found.pixels)};
           const double depth = triangulate(kPair, at).e().z();
           md += at.disparity, dd += at.disparity * at.disparity, mz += depth, zz += depth * depth, ++n;
@@ -106,18 +106,18 @@ TEST(Match, SaysWhyThereIsNone) {
   Grey left(kWidth, kHeight), right(kWidth, kHeight);
   Matcher matcher({}, kPair);
   const auto why = [&](int x, int y) { return matcher.at(left, right, x, y).matched; };
-  EXPECT_NE(why(300, 30), Matched::yes);  // black
+  EXPECT_NE(why(300, 30), MatchOutcome::yes);  // black
   std::fill(left.level.begin(), left.level.end(), std::uint8_t{255});
   right = left;
-  EXPECT_NE(why(300, 30), Matched::yes);  // saturated
+  EXPECT_NE(why(300, 30), MatchOutcome::yes);  // saturated
   draw_dots(100.0, 0.0, 1, left, right);
-  EXPECT_EQ(why(300, 30), Matched::yes);
-  EXPECT_EQ(why(3, 30), Matched::outside);
-  EXPECT_EQ(why(300, 2), Matched::outside);
-  EXPECT_EQ(why(300, kHeight - 2), Matched::outside);
-  EXPECT_EQ(why(40, 30), Matched::outside);  // all of its places are outside the right image
-  draw_dots(0.0, 0.0, 1, left, right);       // at infinity
-  EXPECT_NE(why(300, 30), Matched::yes);
+  EXPECT_EQ(why(300, 30), MatchOutcome::yes);
+  EXPECT_EQ(why(3, 30), MatchOutcome::outside);
+  EXPECT_EQ(why(300, 2), MatchOutcome::outside);
+  EXPECT_EQ(why(300, kHeight - 2), MatchOutcome::outside);
+  EXPECT_EQ(why(40, 30), MatchOutcome::outside);  // all of its places are outside the right image
+  draw_dots(0.0, 0.0, 1, left, right);            // at infinity
+  EXPECT_NE(why(300, 30), MatchOutcome::yes);
 }
 
 // A finger of 4 px before something farther: most of a block shows the background.
@@ -136,7 +136,7 @@ TEST(Match, WithAMaskWhatIsBehindDoesNotCount) {
   const bool seen_without = std::abs(matcher.at(left, right, 301, 30).pixels - 110.0F) < 1.0F;
   EXPECT_FALSE(seen_without);
   const Disparity found = matcher.at(left, right, 301, 30, &mask);
-  ASSERT_EQ(found.matched, Matched::yes);
+  ASSERT_EQ(found.matched, MatchOutcome::yes);
   EXPECT_NEAR(found.pixels, 110.0F, 0.2F);
   std::fill(mask.on.begin(), mask.on.end(), std::uint8_t{255});
   EXPECT_EQ(matcher.at(left, right, 350, 30, &mask).pixels, matcher.at(left, right, 350, 30).pixels);
@@ -150,7 +150,7 @@ TEST(Match, ARepeatingPatternIsNotUnique) {
       *left.at(x, y) = *right.at(x, y) =
           static_cast<std::uint8_t>(128 + 100 * std::sin(2 * std::numbers::pi * x / 23));
   Matcher strict({}, kPair);
-  EXPECT_EQ(strict.at(left, right, 300, 30).matched, Matched::not_unique);
+  EXPECT_EQ(strict.at(left, right, 300, 30).matched, MatchOutcome::not_unique);
 }
 
 // A patch that only the left camera sees: the right image shows another patch there, which fits elsewhere
@@ -165,9 +165,9 @@ TEST(Match, WhatTheRightImageDoesNotHaveIsNotMutual) {
   Matcher asks(spec, kPair);
   spec.agreement = -1.0;
   Matcher trusts(spec, kPair);
-  EXPECT_EQ(trusts.at(left, right, 352, 30).matched, Matched::yes);  // wrongly matched at 150 px
-  EXPECT_EQ(asks.at(left, right, 352, 30).matched, Matched::not_mutual);
-  EXPECT_EQ(asks.at(left, right, 302, 30).matched, Matched::yes);
+  EXPECT_EQ(trusts.at(left, right, 352, 30).matched, MatchOutcome::yes);  // wrongly matched at 150 px
+  EXPECT_EQ(asks.at(left, right, 352, 30).matched, MatchOutcome::not_mutual);
+  EXPECT_EQ(asks.at(left, right, 302, 30).matched, MatchOutcome::yes);
 }
 
 TEST(Match, KernelsAreEqualToTheBit) {

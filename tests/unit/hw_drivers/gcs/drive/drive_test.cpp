@@ -371,7 +371,7 @@ struct Device {
   explicit Device(const ControllerSettings& with = {}) : controller(machine, with) {
     controller.cycle(Time{});
   }
-  Found inspected() {
+  ControllerInfo inspected() {
     return inspect(
         [&](std::string_view line) {
           told.append(line).append(" ");
@@ -392,7 +392,7 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 TEST(GcsInspect, FindsWhatIsThereAndTellsNothing) {
   Device device;
   EXPECT_EQ(device.controller.take("SPI T 12.5\nBAD\n"), "");
-  const Found found = device.inspected();
+  const ControllerInfo found = device.inspected();
   EXPECT_EQ(found.identity, "C-887.53 119000000");
   EXPECT_EQ(found.firmware, "2.10.0.1");
   EXPECT_EQ(found.velocity, 0.05);

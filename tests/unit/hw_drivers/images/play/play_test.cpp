@@ -68,15 +68,15 @@ class ImageCameraTest : public testing::Test {
   Notes notes_;
 };
 
-struct Seen {
+struct FrameSample {
   double t = 0.0, exposed = 0.0;
   int left = -1, right = -1;
   Health health = Health::absent;
-  bool operator==(const Seen&) const = default;
+  bool operator==(const FrameSample&) const = default;
 };
-std::vector<Seen> seen(ImageCamera& camera, double from, double to, double step) {
-  std::vector<Seen> all;
-  Stamped<StereoFrame> newest;
+std::vector<FrameSample> seen(ImageCamera& camera, double from, double to, double step) {
+  std::vector<FrameSample> all;
+  Measurement<StereoFrame> newest;
   const int steps = static_cast<int>(std::lround((to - from) / step));
   for (int i = 0; i < steps; ++i) {
     const double t = from + i * step;
@@ -90,7 +90,7 @@ std::vector<Seen> seen(ImageCamera& camera, double from, double to, double step)
 TEST_F(ImageCameraTest, FrameNIsOfNOverTheRateAfterTheFirstPoll) {
   ImageCamera camera(reel_, notes_, true);
   EXPECT_EQ(camera.describe(), "images " + reel_.path + ", 10 pairs: 8 x 4 px each at 20 Hz");
-  const std::vector<Seen> all = seen(camera, 3.0, 3.4, 0.7e-3);
+  const std::vector<FrameSample> all = seen(camera, 3.0, 3.4, 0.7e-3);
   ASSERT_EQ(all.size(), 8U);
   for (std::size_t n = 0; n < all.size(); ++n) {
     EXPECT_NEAR(all[n].exposed, 3.0 + static_cast<double>(n) / 20.0, 1e-9);
@@ -104,7 +104,7 @@ TEST_F(ImageCameraTest, FrameNIsOfNOverTheRateAfterTheFirstPoll) {
 // Polled less often than frames come: the camera gives the newest and skips the frames in between.
 TEST_F(ImageCameraTest, TheNewestThatIsDue) {
   ImageCamera camera(reel_, notes_, true);
-  const std::vector<Seen> all = seen(camera, 0.0, 0.6, 0.2);
+  const std::vector<FrameSample> all = seen(camera, 0.0, 0.6, 0.2);
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[1].left, 40);
   EXPECT_EQ(all[2].left, 80);
@@ -115,7 +115,7 @@ TEST_F(ImageCameraTest, EveryRunSeesTheSame) {
   reel_.repeat = true;
   reel_.rate = 60.0;
   ImageCamera first(reel_, notes_, true), second(reel_, notes_, true);
-  const std::vector<Seen> all = seen(first, 0.0, 3.0, 1e-3);
+  const std::vector<FrameSample> all = seen(first, 0.0, 3.0, 1e-3);
   EXPECT_EQ(all.size(), 180U);
   EXPECT_EQ(all, seen(second, 0.0, 3.0, 1e-3));
   EXPECT_EQ(all[13].left, 30);
@@ -126,7 +126,7 @@ TEST_F(ImageCameraTest, TheEndIsToldOnceAndIsALostLink) {
   reel_.start = 7;
   ImageCamera camera(reel_, notes_, true);
   EXPECT_TRUE(camera.linked());
-  const std::vector<Seen> all = seen(camera, 0.0, 2.0, 1e-3);
+  const std::vector<FrameSample> all = seen(camera, 0.0, 2.0, 1e-3);
   ASSERT_EQ(all.size(), 4U);
   EXPECT_EQ(all[0].left, 70);
   EXPECT_EQ(all[3].health, Health::stale);
@@ -139,7 +139,7 @@ TEST_F(ImageCameraTest, TheEndIsToldOnceAndIsALostLink) {
 // Polled so seldom that the last frame and the end come at once: the frame counts.
 TEST_F(ImageCameraTest, TheLastFrameIsGoodThoughTheEndIsKnown) {
   ImageCamera camera(reel_, notes_, true);
-  const std::vector<Seen> all = seen(camera, 0.0, 3.0, 0.6);
+  const std::vector<FrameSample> all = seen(camera, 0.0, 3.0, 0.6);
   ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[1].left, 90);
   EXPECT_EQ(all[1].health, Health::ok);
@@ -149,7 +149,7 @@ TEST_F(ImageCameraTest, TheLastFrameIsGoodThoughTheEndIsKnown) {
 TEST_F(ImageCameraTest, ADamagedFileInMidRunIsAFaultWithItsName) {
   std::filesystem::resize_file(folder_.file("right4.png"), 60);
   ImageCamera camera(reel_, notes_, true);
-  const std::vector<Seen> all = seen(camera, 0.0, 1.0, 1e-3);
+  const std::vector<FrameSample> all = seen(camera, 0.0, 1.0, 1e-3);
   ASSERT_EQ(all.size(), 5U);
   EXPECT_EQ(all[4].health, Health::fault);
   EXPECT_EQ(all[4].left, 30);

@@ -101,7 +101,7 @@ TEST(LoopFit, IsDeterministicAndKnowsTheCurve) {
     const double mm = p.deflection * 1e3;
     const auto i = static_cast<std::size_t>(std::lround(mm));
     if (i == 0 || std::abs(mm - static_cast<double>(i)) > 1e-6) continue;
-    const Known& k = (p.pressing ? a.press : a.release).curve[i - 1];
+    const LoopEstimate& k = (p.pressing ? a.press : a.release).curve[i - 1];
     EXPECT_NEAR(k.value, p.force, k.half) << mm << (p.pressing ? " pressing" : " releasing");
     EXPECT_GT(k.half, 0.0);
     EXPECT_LT(k.half, 0.3) << "the curve is well known,";
@@ -495,7 +495,7 @@ LoopData presses(const std::vector<double>& shifts) {
 // mean is known to 4.30 * 0.01 / sqrt(3) = 0.0248 N. (t comes from a series, some per cent off at 2.)
 TEST(LoopRepeats, IntervalOfTheMeanAsByHand) {
   const LoopFit fit = fit_loop(presses({-0.01, 0.0, 0.01}), {6e-3, 100.0, 1e5});
-  for (const BranchKnown* branch : {&fit.press, &fit.release}) {
+  for (const BranchEstimate* branch : {&fit.press, &fit.release}) {
     ASSERT_EQ(branch->repeats.size(), 6U);
     for (const double half : branch->repeats) EXPECT_NEAR(half, 0.0248, 0.003);
   }

@@ -115,14 +115,15 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
   options.free[trial::kFelt] = true;
   for (const trial::BallEstimate& e : trial::fit_ball(trial::BallLoops({pushes}), options).estimates) {
     if (e.number != trial::kRelaxingSlow && e.number != trial::kFelt) continue;
-    EXPECT_EQ(e.known(), trial::Known::not_at_all)
+    EXPECT_EQ(e.known(), trial::EstimateQuality::not_at_all)
         << trial::ball_numbers()[e.number].name << " " << e.width();
     EXPECT_LT(e.alone, 0.1 * e.interval.half) << "alone it would be known";
   }
   pushes = test::ball_pushes({}, {});
   test::add_noise(pushes, 1);
   for (const trial::BallEstimate& e : trial::fit_ball(trial::BallLoops({pushes})).estimates)
-    EXPECT_EQ(e.known(), trial::Known::well) << trial::ball_numbers()[e.number].name << " " << e.width();
+    EXPECT_EQ(e.known(), trial::EstimateQuality::well)
+        << trial::ball_numbers()[e.number].name << " " << e.width();
 }
 
 // The travel of friction is undetermined without friction.

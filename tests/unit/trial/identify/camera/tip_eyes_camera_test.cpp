@@ -11,7 +11,7 @@ namespace {
 class FakeCamera final : public StereoCamera {
  public:
   explicit FakeCamera(int frames) : frames_(frames) {}
-  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override {
     if (frames_-- <= 0) return false;
     newest = {{}, now, Health::ok};
     return true;

@@ -33,7 +33,7 @@ class CountedStops final : public Manipulator {
   CountedStops(std::unique_ptr<Manipulator> machine, int& stopped)
       : machine_(std::move(machine)), stopped_(stopped) {}
   [[nodiscard]] Reach reach() const override { return machine_->reach(); }
-  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
+  Measurement<TipSample> read(Time now) noexcept override { return machine_->read(now); }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override { machine_->command(X_RH); }
   void stop() noexcept override {
     ++stopped_;
@@ -181,7 +181,7 @@ TEST(CarriedTool, StopsWhereItIsWhenItIsToldTo) {
   };
   {
     CarriedTool tool(clamped(), options);
-    EXPECT_THROW(tool.go(kAside), CarryingEnded);
+    EXPECT_THROW(tool.go(kAside), MotionInterrupt);
     EXPECT_LT(tool.now(), 0.8);
   }
   EXPECT_GT(stopped, 0);
@@ -321,8 +321,8 @@ models::Setup vishap(const std::vector<std::string>& set = {}) {
 const Point<'W'> kPlace(0.020, 0.060, -0.030);
 
 // The core alone, under an arm that stays at home.
-struct Alone {
-  Alone() {
+struct ArmCore {
+  ArmCore() {
     models::Setup setup = vishap();
     setup.scene.arm.emplace();
     setup.scene.tracker.emplace();
@@ -346,7 +346,7 @@ struct Alone {
 };
 
 TEST(Guide, TheTargetGoesWhereItIsSentWithinItsLimits) {
-  Alone core;
+  ArmCore core;
   const ArmRig& rig = core.scene.impedance()->rig;
   Vec3 before = Vec3::Zero(), speed = Vec3::Zero();
   for (int i = 0; i < 1000; ++i) {
@@ -363,7 +363,7 @@ TEST(Guide, TheTargetGoesWhereItIsSentWithinItsLimits) {
 }
 
 TEST(Guide, WhoIsSentNowhereWaitsAsStepDoes) {
-  Alone guided, stepped;
+  ArmCore guided, stepped;
   for (int i = 0; i < 100; ++i) {
     guided.next();
     stepped.next();

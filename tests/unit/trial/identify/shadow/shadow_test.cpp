@@ -38,7 +38,7 @@ TEST(ShadowVerdict, FartherThanTheBoundAndThanChance) {
   EXPECT_FALSE(off_by(kUnset, kUnset).diverges());
 }
 
-Stamped<TipSample> tip_at(double t, double x, Health health = Health::ok) {
+Measurement<TipSample> tip_at(double t, double x, Health health = Health::ok) {
   const Vec<'R'> moving(2.0 * x, 0, 0);
   return {{Pose<'R', 'H'>::shift(x, 0, 0), moving, moving}, Time(from_seconds(t)), health};
 }
@@ -104,11 +104,11 @@ TEST(ShadowTwins, OfARigWithoutTruthSeeAsItsCalibrationSays) {
 
 // The machine's data end here, but the machine goes on; its last reading stays.
 AlterFrame lost_from(const std::function<bool(const RecordedTick&, double share)>& begins) {
-  struct Lost {
+  struct SampleLoss {
     bool is = false;
-    Stamped<TipSample> last;
+    Measurement<TipSample> last;
   };
-  return [begins, lost = Lost{}](RecordedTick& frame, double share) mutable {
+  return [begins, lost = SampleLoss{}](RecordedTick& frame, double share) mutable {
     lost.is = lost.is || begins(frame, share);
     if (!lost.is) lost.last = frame.in.tip;
     frame.in.tip = lost.last;
@@ -168,7 +168,7 @@ TEST(ShadowUnjudged, WhatARecordCannotTellIsSaid) {
 
 // Shadow mode finds each injected error with its size, and names it by its own channel alone.
 
-struct Injected {
+struct InjectedFault {
   const char* what;
   const ShadowedScene& scene;
   std::vector<std::string> altered, twin;
@@ -184,11 +184,11 @@ std::vector<std::string> ball_of(double rubber_MPa, double pressure_kPa, double 
           "truth.ball.felt_modulus_MPa=" + std::to_string(felt_MPa)};
 }
 
-const std::vector<Injected>& injections() {
+const std::vector<InjectedFault>& injections() {
   const auto with = [](const char* set) { return std::vector<std::string>{set}; };
   const auto four = with("truth.hexapod.delay_cycles=4"), seven = with("truth.hexapod.delay_cycles=7");
   const auto camera = with("truth.frames.W_C.position_mm=[0,-900,600]");
-  static const std::vector<Injected> kAll{
+  static const std::vector<InjectedFault> kAll{
       // All moduli of the ball and its pressure: its force is larger by that share at each depth.
       {"5 % of stiffness", probing(), ball_of(2.73, 10.5, 0.21), ball_of(2.6, 10, 0.2), "force stiffness",
        Quantity::stiffness, "", 0.05},
@@ -233,7 +233,7 @@ double least_seen(Quantity quantity) {
 }
 
 TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
-  for (const Injected& one : injections()) {
+  for (const InjectedFault& one : injections()) {
     const std::string row = std::string(one.what) + " in " + one.scene.name;
     const trial::Shadow shadow = shadowed(one.scene, 7, one.altered, one.twin);
     EXPECT_THAT(named(shadow), ElementsAre(one.name)) << row;
@@ -251,7 +251,7 @@ TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
   for (const char* what :
        {"5 % of stiffness", "3 ms of the tracker", "3 ms of its server", "1 mm of registration along x"}) {
     const auto row = std::find_if(injections().begin(), injections().end(),
-                                  [what](const Injected& one) { return std::string(one.what) == what; });
+                                  [what](const InjectedFault& one) { return std::string(one.what) == what; });
     ASSERT_NE(row, injections().end()) << what;
     int held = 0;
     const int seeds = tests::thorough(2, 6);
@@ -341,7 +341,7 @@ TEST(ShadowTable, AMachineThatHuntsWhereItStandsHasARest) {
 // arrival of packets.
 TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
   constexpr std::size_t kTicks = 800;
-  std::deque<Stamped<TrackedTool>> under_way;
+  std::deque<Measurement<TrackedTool>> under_way;
   const auto later = [&under_way](RecordedTick& frame, double) {
     under_way.push_back(frame.in.tool);
     frame.in.tool = {};

@@ -120,7 +120,7 @@ TEST(SampledLoop, StableStiffnessesNeedNotBeginAtNothing) {
 // ----------------------------------------------------------------------------------------
 
 // The loop as it runs in time: short Runge-Kutta steps, and a law that holds its last reading.
-struct InTime {
+struct TimeSimulation {
   const SampledLoop& loop;
   double stiffness, damper, x = 1.0, v = 0.0, error = 1.0, rate = 0.0;
   std::vector<double> readings{}, forces{};
@@ -157,7 +157,7 @@ struct InTime {
 
 // Growth of a swing per period, late in a run.
 double growth(const SampledLoop& loop, double stiffness, double damper) {
-  InTime run{loop, stiffness, damper};
+  TimeSimulation run{loop, stiffness, damper};
   const double w = std::max(ringing(loop, stiffness, damper), 20.0);
   const int swing = std::max(20, static_cast<int>(2.0 * M_PI / w / loop.period) + 1), ticks = 40 * swing;
   double early = 0.0, late_one = 0.0;

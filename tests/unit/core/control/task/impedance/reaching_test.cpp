@@ -383,7 +383,7 @@ TEST(Reaching, WhatIsTouchedStaysTheTarget) {
 using Bench = test::FingerBench;
 
 // A finger that is at z = `gap` above the wall at 0.5 s, seen at 20 Hz and 50 ms late.
-struct Comes {
+struct ApproachingFinger {
   Vec3 velocity{0.1, 0.0, -0.2};
   double gap = 0.0;
   [[nodiscard]] Point<'W'> at(double t) const {
@@ -391,18 +391,18 @@ struct Comes {
   }
 };
 
-struct Gone {
-  Point<'W'> wanted;                     // last place where the prop is sent
-  double in_haste = 0.0, without = 0.0;  // m/s^2: largest of the target
-  double foreseen_way = 0.0;             // m: from the foreseen place to the finger's projection
+struct ReachTrace {
+  Point<'W'> wanted;                    // last place where the prop is sent
+  double hurried = 0.0, without = 0.0;  // m/s^2: largest of the target
+  double predicted_way = 0.0;           // m: from the foreseen place to the finger's projection
 };
 
-Gone meet(const Comes& finger, double until, const std::vector<std::string>& more = {}) {
+ReachTrace meet(const ApproachingFinger& finger, double until, const std::vector<std::string>& more = {}) {
   std::vector<std::string> set{"rig.tracker.prediction=\"constant_velocity\"",
                                "rig.tracker.usual_age_ms=110"};
   set.insert(set.end(), more.begin(), more.end());
   Bench bench("wall", set);
-  Gone gone;
+  ReachTrace gone;
   const double dt = bench.loop.scene.dt;
   Vec3 before = Vec3::Zero();
   for (int i = 0; 0.001 * i < until; ++i) {
@@ -411,11 +411,11 @@ Gone meet(const Comes& finger, double until, const std::vector<std::string>& mor
     const Aim& now = recall<ImpedanceState>(bench.loop.state).aim;
     const double change = (now.velocity.e() - before).norm() / dt;
     before = now.velocity.e();
-    double& most = now.hurried ? gone.in_haste : gone.without;
+    double& most = now.hurried ? gone.hurried : gone.without;
     most = std::max(most, change);
   }
   gone.wanted = bench.loop.out.wanted;
-  gone.foreseen_way = (gone.wanted.e() - finger.at(until).e()).head<2>().norm();
+  gone.predicted_way = (gone.wanted.e() - finger.at(until).e()).head<2>().norm();
   return gone;
 }
 
@@ -440,7 +440,7 @@ double sent_x(const std::function<double(int)>& vague) {
       bench.loop.tick();
       continue;
     }
-    bench.loop.put(Comes{}.at(0.001 * (i - 50)));
+    bench.loop.put(ApproachingFinger{}.at(0.001 * (i - 50)));
     bench.loop.in.tool.t -= std::chrono::milliseconds(50);
     TrackedTool& seen = bench.loop.in.tool.value;
     seen.along = seen.across = noise;
@@ -475,23 +475,23 @@ TEST(ReachPrediction, HowClearOldPicturesWereIsForgottenWithThem) {
 }
 
 TEST(ReachPrediction, AFingerThatHoversIsMetUnderWhereItIs) {
-  const Comes hovers{{0.1, 0.0, -0.04}, 0.020};
-  EXPECT_LT(meet(hovers, 0.5).foreseen_way, 1.5e-3);
-  const Comes comes{{0.1, 0.0, -0.2}, 0.020};  // 100 ms and 10 mm further
-  EXPECT_GT(meet(comes, 0.5).foreseen_way, 5e-3);
+  const ApproachingFinger hovers{{0.1, 0.0, -0.04}, 0.020};
+  EXPECT_LT(meet(hovers, 0.5).predicted_way, 1.5e-3);
+  const ApproachingFinger comes{{0.1, 0.0, -0.2}, 0.020};  // 100 ms and 10 mm further
+  EXPECT_GT(meet(comes, 0.5).predicted_way, 5e-3);
 }
 
 TEST(ReachPrediction, OnlyToWhereAReachMayTouchTheTargetHurries) {
   Bench bench("wall");
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
   ASSERT_LT(rig.acceleration, rig.reach_acceleration);
-  const Gone reach = meet({}, 0.45);
-  EXPECT_GT(reach.in_haste, rig.acceleration * 1.1);
-  EXPECT_LE(reach.in_haste, rig.reach_acceleration * 1.001);
+  const ReachTrace reach = meet({}, 0.45);
+  EXPECT_GT(reach.hurried, rig.acceleration * 1.1);
+  EXPECT_LE(reach.hurried, rig.reach_acceleration * 1.001);
   EXPECT_LE(reach.without, rig.acceleration * 1.001);
-  for (const Gone& gone :
+  for (const ReachTrace& gone :
        {meet({}, 0.45, {"rig.tracker.foresight=\"carried_on\""}), meet({{0.1, 0.0, -0.04}, 0.020}, 0.5)}) {
-    EXPECT_EQ(gone.in_haste, 0.0);
+    EXPECT_EQ(gone.hurried, 0.0);
     EXPECT_LE(gone.without, rig.acceleration * 1.001);
   }
 }
@@ -501,7 +501,7 @@ double key_x(const char* foresight) {
   Bench bench("keypad", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110",
                          fmt::format("rig.tracker.foresight=\"{}\"", foresight)});
   const double y = bench.loop.scene.objects[0].X_WO.origin().xyz[1];
-  const Comes finger{{0.2, 0.0, -0.2}, 0.0};
+  const ApproachingFinger finger{{0.2, 0.0, -0.2}, 0.0};
   for (int i = 0; i < 370; ++i) {
     const Point<'W'> at = finger.at(0.001 * (i - 50)) + Vec<'W'>(0.0, y, 0.0);
     i % 50 == 0 ? bench.loop.see(at, std::chrono::milliseconds(50)) : bench.loop.tick();
@@ -519,7 +519,7 @@ TEST(ReachPrediction, AKeyIsChosenByWhereTheFingerWillTouch) {
 TEST(ReachPrediction, HasteBrakesWhatItSetInMotion) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
-  const Comes finger{{0.3, 0.0, -0.3}, 0.0};
+  const ApproachingFinger finger{{0.3, 0.0, -0.3}, 0.0};
   double braked = 0.0, slow = 0.0;
   Vec3 before = Vec3::Zero();
   for (int i = 0; i < 700; ++i) {
