@@ -20,7 +20,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "benchmarks/commands/committed.h"
+#include "benchmarks/commands/committed_results.h"
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/opinion.h"
 #include "benchmarks/report/choice.h"

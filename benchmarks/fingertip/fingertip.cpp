@@ -18,7 +18,7 @@
 #include "core/vision/finger_tracker.h"
 #include "core/vision/hand/hand_scene.h"
 #include "core/vision/stereo/rectify.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 
 namespace enc::bench::fingertip {
 namespace {

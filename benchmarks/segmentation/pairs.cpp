@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 
 namespace enc::bench::segmentation {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/kernels/majority.h"
 #include "core/vision/segmentation/tiles.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 
 namespace enc::bench::segmentation {
 namespace {

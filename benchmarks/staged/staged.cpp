@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/picture/picture.h"
 
 namespace enc::bench::staged {

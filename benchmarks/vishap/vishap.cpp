@@ -15,7 +15,7 @@
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "core/machine/arm_shape.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/world.h"
 #include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"

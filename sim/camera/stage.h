@@ -14,7 +14,7 @@
 #include "core/base/time.h"
 #include "core/devices/device.h"
 #include "core/spec/optics_rig.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/spec/sensor_spec.h"
 
 namespace enc::sim {

@@ -19,7 +19,7 @@ enum class Scenery : std::uint8_t {
 };
 constexpr auto words(Scenery) { return enum_words("office", "clutter", "skin_hued"); }
 
-// Skin colours, light to dark (sim/camera/shown.h).
+// Skin colours, light to dark (sim/camera/camera_scene.h).
 enum class Tone : std::uint8_t { fair, light, olive, brown, dark, deep };
 constexpr auto words(Tone) { return enum_words("fair", "light", "olive", "brown", "dark", "deep"); }
 

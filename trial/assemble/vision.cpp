@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/vision/vision_module.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/camera/stage.h"
 #include "trial/assemble/driver_device.h"
 #include "trial/camera/kept_frames.h"

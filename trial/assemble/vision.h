@@ -9,7 +9,7 @@
 #include "core/devices/device.h"
 #include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/camera/stage.h"
 #include "sim/world.h"
 #include "trial/assemble/assemble.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/control/safety/inside.h"
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 #include "core/control/stages/step_context.h"
 
 namespace enc::stages {

@@ -1,7 +1,7 @@
 // The part of a tick's outputs that every task reports. Internal to the core.
 #pragma once
 
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 #include "core/control/stages/step_context.h"
 
 namespace enc::stages {

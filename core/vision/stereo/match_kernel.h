@@ -15,7 +15,7 @@ inline constexpr int kSlack = 32;  // bytes behind the last position of a row th
 using Compare = void (*)(const std::uint8_t* block, std::size_t block_stride, const std::uint8_t* strip,
                          std::size_t strip_stride, int columns, int rows, int count, std::uint16_t* cost);
 // As Compare, over only those bytes of the block for which `mask`, with the same rows and columns, is not 0.
-using CompareMasked = void (*)(const std::uint8_t* block, std::size_t block_stride, const std::uint8_t* mask,
+using MaskedCompare = void (*)(const std::uint8_t* block, std::size_t block_stride, const std::uint8_t* mask,
                                std::size_t mask_stride, const std::uint8_t* strip, std::size_t strip_stride,
                                int columns, int rows, int count, std::uint16_t* cost);
 // Index of the smallest of count > 0 numbers; the first if equal. The entries up to the next multiple of 16
@@ -24,7 +24,7 @@ using LeastIndex = int (*)(std::uint16_t* cost, int count);
 
 struct Kernel {
   Compare compare = nullptr;
-  CompareMasked compare_masked = nullptr;
+  MaskedCompare compare_masked = nullptr;
   LeastIndex least = nullptr;
 };
 [[nodiscard]] Kernel plain();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/latest.h"
-#include "hw_drivers/gcs/drive/controlled.h"
+#include "hw_drivers/gcs/drive/controller_driver.h"
 #include "hw_drivers/gcs/drive/conversation.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 #include "hw_drivers/gcs/wire/text.h"

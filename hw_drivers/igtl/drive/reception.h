@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/sample.h"
-#include "hw_drivers/igtl/drive/in_hand.h"
+#include "hw_drivers/igtl/drive/held_tool.h"
 #include "hw_drivers/igtl/drive/settings.h"
 #include "hw_drivers/igtl/wire/content.h"
 #include "hw_drivers/igtl/wire/message.h"

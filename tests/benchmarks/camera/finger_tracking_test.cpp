@@ -12,7 +12,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
 #include "core/vision/finger_tracker.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 
 namespace enc::bench::staged {
 namespace {

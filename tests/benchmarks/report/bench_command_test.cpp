@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/commands/committed.h"
+#include "benchmarks/commands/committed_results.h"
 #include "benchmarks/report/choice.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"

@@ -12,7 +12,7 @@
 #include "core/devices/device.h"
 #include "core/vision/ball/ball_finder.h"
 #include "models/setup/scene_file.h"
-#include "sim/camera/shown.h"
+#include "sim/camera/camera_scene.h"
 #include "trial/assemble/assemble.h"
 #include "trial/identify/camera/guided.h"
 #include "trial/trial.h"

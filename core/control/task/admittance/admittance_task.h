@@ -6,7 +6,7 @@
 #include "core/base/sample.h"
 #include "core/control/safety/passivity/passivity.h"
 #include "core/control/stages/common_state.h"
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 #include "core/control/task/admittance/damping.h"
 #include "core/shape/response/response.h"
 #include "core/spec/rendering_rig.h"

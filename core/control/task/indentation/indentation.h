@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/base/frames.h"
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 #include "core/spec/task_spec.h"
 
 namespace enc {

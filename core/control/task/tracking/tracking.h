@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/frames.h"
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 #include "core/spec/task_spec.h"
 
 namespace enc {

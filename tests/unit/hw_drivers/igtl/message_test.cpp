@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hw_drivers/igtl/drive/in_hand.h"
+#include "hw_drivers/igtl/drive/held_tool.h"
 #include "hw_drivers/igtl/wire/content.h"
 #include "hw_drivers/net/big_endian.h"
 #include "tests/unit/hw_drivers/hex.h"

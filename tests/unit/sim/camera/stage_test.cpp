@@ -22,9 +22,9 @@
 #include "core/base/error.h"
 #include "core/vision/finger_tracker.h"
 #include "core/vision/segmentation/skin.h"
+#include "sim/camera/camera_scene.h"
 #include "sim/camera/context.h"
 #include "sim/camera/sensor.h"
-#include "sim/camera/shown.h"
 #include "tests/support/built.h"
 
 namespace enc::sim {

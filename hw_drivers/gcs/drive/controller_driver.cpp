@@ -1,4 +1,4 @@
-#include "hw_drivers/gcs/drive/controlled.h"
+#include "hw_drivers/gcs/drive/controller_driver.h"
 
 #include <array>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "core/control/stages/displacing.h"
+#include "core/control/stages/displacement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
+#include "core/control/stages/step_context.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
-
-#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 

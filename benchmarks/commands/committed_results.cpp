@@ -1,4 +1,4 @@
-#include "benchmarks/commands/committed.h"
+#include "benchmarks/commands/committed_results.h"
 
 #include <algorithm>
 #include <cmath>
