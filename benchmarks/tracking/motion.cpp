@@ -96,7 +96,7 @@ struct Watcher {
   // The error of this tick, unset before the first pose of the tool.
   Vec3 see(const Tick& tick, const Inputs& in, const Vec3& truth) {
     stages::StepContext step_context(scene, tick, in);
-    stages::track_tool(step_context, state, false);
+    stages::track_tool(step_context, state);
     return step_context.tool_tip.e() - truth;
   }
   void count(const Vec3& error, bool news) {

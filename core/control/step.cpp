@@ -1,14 +1,12 @@
 #include "core/control/step.h"
 
-#include "core/control/stages/step_context.h"
-
 namespace enc {
 namespace {
 
 // Each stage reads the results of the stages before it. A task without a stage of its own uses that of its
 // machine.
 template <class Task>
-void run_stages(stages::StepContext& context, const Task& task, State& state, Outputs& out) noexcept {
+void run_stages(typename Task::Context& context, const Task& task, State& state, Outputs& out) noexcept {
   using Memory = typename Task::Memory;
   auto* found = std::get_if<Memory>(&state.task);
   if (found == nullptr) {
@@ -25,29 +23,37 @@ void run_stages(stages::StepContext& context, const Task& task, State& state, Ou
   state.held = stages::holding(context);
 }
 
-void run_stages(stages::StepContext& context, const Scene& scene, State& state, Outputs& out) noexcept {
-  std::visit([&](const auto& task) { run_stages(context, task, state, out); }, scene.task);
+// `prepare` puts a procedure's command into the context of the scene's task.
+template <class Prepare>
+void run_task(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out,
+              const Prepare& prepare) noexcept {
+  std::visit(
+      [&](const auto& task) {
+        typename std::remove_cvref_t<decltype(task)>::Context context(scene, tick, in);
+        prepare(context);
+        run_stages(context, task, state, out);
+      },
+      scene.task);
 }
 
 }  // namespace
 
 void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept {
-  stages::StepContext context(scene, tick, in);
-  run_stages(context, scene, state, out);
+  run_task(scene, tick, in, state, out, [](auto&) {});
 }
 
 void guide(const Scene& scene, const Tick& tick, const Inputs& in, const Point<'W'>& to, State& state,
            Outputs& out) noexcept {
-  stages::StepContext context(scene, tick, in);
-  context.sent = to;
-  run_stages(context, scene, state, out);
+  run_task(scene, tick, in, state, out, [&to](auto& context) {
+    if constexpr (requires { context.guide_target; }) context.guide_target = to;
+  });
 }
 
 void carry(const Scene& scene, const Tick& tick, const Inputs& in, const Pose<'W', 'H'>& to, State& state,
            Outputs& out) noexcept {
-  stages::StepContext context(scene, tick, in);
-  context.carried = &to;
-  run_stages(context, scene, state, out);
+  run_task(scene, tick, in, state, out, [&to](auto& context) {
+    if constexpr (requires { context.carry_target; }) context.carry_target = &to;
+  });
 }
 
 }  // namespace enc

@@ -425,25 +425,25 @@ class Chains {
       W_H_ = read_arm(in);
     else
       read_machine(in);
-    stages::StepContext context(scene_, tick, in);
-    std::visit([&](const auto& task) { go_through(task, context, state); }, scene_.task);
-    compare(context.X_WH, W_H_);
-    compare(context.X_WH * scene_.X_HF, W_H_ * matrix(rig_.frames.H_F));
-    if (in.tool.health == Health::ok) {
-      compare(context.X_WT_newest, W_T_);
-      compare(context.tip_newest.e(), placed(W_T_, spec_.tools[0].tip));
-    }
-    if (scene_.has_force) compare(context.felt.e(), kForce);
+    std::visit([&](const auto& task) { track_once(task, tick, in, state); }, scene_.task);
   }
 
   template <class Task>
-  void go_through(const Task& task, stages::StepContext& context, State& state) const {
+  void track_once(const Task& task, const Tick& tick, const Inputs& in, State& state) {
+    typename Task::Context context(scene_, tick, in);
     typename Task::Memory memory;
     track(context, task, state, memory);
     if constexpr (std::is_base_of_v<CommandState, typename Task::Memory>) {
       memory.tared = rig_.force.tare_time;
       sense(context, state, memory, false);
     }
+    compare(context.X_WH, W_H_);
+    compare(context.X_WH * scene_.X_HF, W_H_ * matrix(rig_.frames.H_F));
+    if (in.tool.health == Health::ok) {
+      compare(context.X_WT_newest, W_T_);
+      compare(context.tip_newest.e(), placed(W_T_, spec_.tools[0].tip));
+    }
+    if (scene_.has_force) compare(context.force_unfiltered.e(), kForce);
   }
 
   void read_machine(Inputs& in) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/step_context.h"
 #include "core/machine/arm.h"
 
 namespace enc::stages {
@@ -28,7 +27,7 @@ void begin_anew(CommonState& state, CommandState& now) {
   now.following = FollowingState{};
 }
 
-void track_tip(StepContext& context, CommonState& state, CommandState& now) {
+void track_tip(ManipulatorContext& context, CommonState& state, CommandState& now) {
   const auto& sample = context.in.tip;
   if (sample.health == Health::absent || age(context.tick.t, sample.t) > context.scene.force.stale) {
     context.why |= kTipLost;
@@ -62,14 +61,14 @@ void track_tip(StepContext& context, CommonState& state, CommandState& now) {
 
 }  // namespace
 
-void track(StepContext& context, const DisplacementTask&, CommonState& state, CommandState& now) noexcept {
-  context.stops_tool = true;
+void track(ManipulatorContext& context, const DisplacementTask&, CommonState& state,
+           CommandState& now) noexcept {
   if (context.in.resumed) begin_anew(state, now);
   if (context.scene.has_manipulator) track_tip(context, state, now);
-  track_tool(context, state, false);
+  track_tool(context, state, {.stopped = true});
 }
 
-void grip(StepContext& context) noexcept {
+void grip(ManipulatorContext& context) noexcept {
   if (context.scene.clamped_tool < 0) return;
   const Measurement<GripSample>& sample = context.in.grip;
   const GripSample& jaws = sample.value;
@@ -84,7 +83,7 @@ void grip(StepContext& context) noexcept {
 
 // A machine that did not follow may move on at any time. The hold lasts until the tool has gone and the
 // command is back at the machine's position. Without a view of the tool it lasts to the end.
-void hold_lost(StepContext& context, CommonState& state, CommandState& now) noexcept {
+void hold_lost(ManipulatorContext& context, CommonState& state, CommandState& now) noexcept {
   if (!now.following.lost) return;
   const bool back =
       (context.X_WH.origin() - context.scene.X_WR * now.command).norm() < kBack;  // false for NaN
@@ -108,7 +107,7 @@ constexpr double kFreeTareTime = 2.0;  // s: time constant of the zero while the
 
 // The zero is the mean of the last window but one, so it contains no part of a touch, however slowly that
 // begins.
-void tare_again(const StepContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
+void tare_again(const ManipulatorContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
   if (now.tare_window == 0.0 || !clear) now.tare_mean = Vec<'F'>::zero();
   if (!clear) {
     now.tare_last = Vec<'F'>();
@@ -124,7 +123,7 @@ void tare_again(const StepContext& context, const Vec<'F'>& unloaded, bool clear
 }
 
 // The running mean of the first tare_time becomes the zero; after that the rig's setting applies.
-void tare(const StepContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
+void tare(const ManipulatorContext& context, const Vec<'F'>& unloaded, bool clear, CommandState& now) {
   const ForceRig& rig = context.scene.force;
   const bool first = now.tared < rig.tare_time;
   if (!first && rig.tare == Tare::window) return tare_again(context, unloaded, clear, now);
@@ -137,7 +136,7 @@ void tare(const StepContext& context, const Vec<'F'>& unloaded, bool clear, Comm
 }  // namespace
 
 // The force zero does not change while the tool is unseen or in a hold: the tool may be anywhere.
-void sense(StepContext& context, CommonState& state, CommandState& now, bool clear) noexcept {
+void sense(ManipulatorContext& context, CommonState& state, CommandState& now, bool clear) noexcept {
   if (!context.scene.has_force) return;
   const auto& sample = context.in.wrench;
   if (sample.health == Health::absent || age(context.tick.t, sample.t) > context.scene.force.stale) {
@@ -165,8 +164,8 @@ void sense(StepContext& context, CommonState& state, CommandState& now, bool cle
     context.why |= kTaring;
     return;
   }
-  context.felt = X_WF * (unloaded - now.force_zero);
-  state.force = state.force + context.scene.filter_gain * (context.felt - state.force);
+  context.force_unfiltered = X_WF * (unloaded - now.force_zero);
+  state.force = state.force + context.scene.filter_gain * (context.force_unfiltered - state.force);
   context.force = state.force;
 }
 

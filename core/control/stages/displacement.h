@@ -4,10 +4,9 @@
 
 #include "core/base/fields.h"
 #include "core/control/safety/following.h"
+#include "core/control/stages/step_context.h"
 
 namespace enc {
-
-struct CommonState;
 
 // Base of such a task. It uses the stages of this file unless it has its own.
 struct DisplacementTask {};
@@ -41,16 +40,21 @@ void fields(F& f, CommandState& d) {
 }
 
 namespace stages {
-struct StepContext;
+// Data of one tick of such a task.
+struct ManipulatorContext : StepContext {
+  using StepContext::StepContext;
+  Vec<'W'> force;     // sense: force on the tip, N
+  Point<'W'> target;  // act: commanded tip centre, before guard
+};
 // Computes the poses of tip and tool.
-void track(StepContext& context, const DisplacementTask& task, CommonState& state,
+void track(ManipulatorContext& context, const DisplacementTask& task, CommonState& state,
            CommandState& now) noexcept;
 // Checks that the gripper holds its tool, if the scene has a clamped tool.
-void grip(StepContext& context) noexcept;
+void grip(ManipulatorContext& context) noexcept;
 // Computes the force on the tip. `clear`: nothing can touch the tip, so the sensor's reading is its zero.
-void sense(StepContext& context, CommonState& state, CommandState& now, bool clear) noexcept;
+void sense(ManipulatorContext& context, CommonState& state, CommandState& now, bool clear) noexcept;
 // Holds a machine that did not follow.
-void hold_lost(StepContext& context, CommonState& state, CommandState& now) noexcept;
+void hold_lost(ManipulatorContext& context, CommonState& state, CommandState& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

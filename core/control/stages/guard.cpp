@@ -9,7 +9,7 @@ namespace enc::stages {
 namespace {
 
 // The part of the path to the target that the machine can reach.
-Point<'R'> reachable(StepContext& context, const Point<'R'>& from, const Point<'R'>& to) {
+Point<'R'> reachable(ManipulatorContext& context, const Point<'R'>& from, const Point<'R'>& to) {
   const Quat q = context.scene.X_WR.q().conjugate();
   const auto ok = [&](const Point<'R'>& p) { return context.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
   if (ok(to) || !ok(from)) return to;
@@ -26,7 +26,7 @@ Point<'R'> reachable(StepContext& context, const Point<'R'>& from, const Point<'
 // Keeps speed and acceleration within the machine's limits. The normal comes first and is one-dimensional, so
 // the command can never overshoot the surface or the deflection limit, whatever the target does. The sideways
 // motion gets the rest.
-Vec3 next_velocity(StepContext& context, const Walls& walls, const Vec3& way, const Vec3& before) {
+Vec3 next_velocity(ManipulatorContext& context, const Walls& walls, const Vec3& way, const Vec3& before) {
   const double dt = context.scene.dt;
   const Reach& reach = context.scene.reach;
   const double most = reach.acceleration * dt;
@@ -65,7 +65,7 @@ Vec3 next_velocity(StepContext& context, const Walls& walls, const Vec3& way, co
 }
 
 // The walls describe the nearest side only; beside an edge there are others.
-Vec3 kept_inside(StepContext& context, CommonState& state, const CommandState& now, const Walls& walls,
+Vec3 kept_inside(ManipulatorContext& context, CommonState& state, const CommandState& now, const Walls& walls,
                  const Vec3& wanted) {
   if (std::isnan(walls.depth)) return wanted;
   // Usually there is room for the whole stopping distance.
@@ -79,7 +79,7 @@ Vec3 kept_inside(StepContext& context, CommonState& state, const CommandState& n
 }
 
 // Velocity of the next set-point, in W.
-Vec3 commanded(StepContext& context, CommonState& state, const CommandState& now, const Walls& walls,
+Vec3 commanded(ManipulatorContext& context, CommonState& state, const CommandState& now, const Walls& walls,
                const Vec3& before) {
   const double dt = context.scene.dt;
   const double acceleration = context.scene.reach.acceleration;
@@ -154,14 +154,15 @@ Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity,
 
 }  // namespace
 
-Brake brake_of(const StepContext& context, const CommandState& now) {
+Brake brake_of(const ManipulatorContext& context, const CommandState& now) {
   const Pose<'W', 'R'>& X_WR = context.scene.X_WR;
   const Reach& reach = context.scene.reach;
   return {X_WR * now.command, X_WR.q() * now.command_velocity.e(), reach.acceleration, reach.speed,
           context.scene.dt};
 }
 
-void limit_command(StepContext& context, CommonState& state, CommandState& now, const Walls& walls) noexcept {
+void limit_command(ManipulatorContext& context, CommonState& state, CommandState& now,
+                   const Walls& walls) noexcept {
   const double dt = context.scene.dt;
   const double acceleration = context.scene.reach.acceleration;
   const Quat q_WR = context.scene.X_WR.q();

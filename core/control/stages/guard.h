@@ -6,7 +6,6 @@
 
 #include "core/control/safety/inside.h"
 #include "core/control/stages/displacement.h"
-#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 
@@ -22,12 +21,13 @@ struct Walls {
 
 // Writes a set-point into now.command that is finite, reachable, slow enough and within the walls. Call it
 // only after the machine has reported its position.
-void limit_command(StepContext& context, CommonState& state, CommandState& now, const Walls& walls) noexcept;
+void limit_command(ManipulatorContext& context, CommonState& state, CommandState& now,
+                   const Walls& walls) noexcept;
 
 // Depth of the tip's centre at which the whole tip is inside, m.
-[[nodiscard]] inline double least_depth(const StepContext& context) {
+[[nodiscard]] inline double least_depth(const ManipulatorContext& context) {
   return context.scene.tip_radius + kSkin;
 }
-[[nodiscard]] Brake brake_of(const StepContext& context, const CommandState& now);
+[[nodiscard]] Brake brake_of(const ManipulatorContext& context, const CommandState& now);
 
 }  // namespace enc::stages

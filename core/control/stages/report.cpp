@@ -49,9 +49,10 @@ SeenTool seen_tool(const stages::StepContext& context, const CommonState& state,
   if (rig.tip == SeenTip::predicted || !context.tool_known) return {context.X_WT, context.tool_tip};
   const Point<'W'> free = free_tip_ahead(context, state);
   Vec<'W'> shift = free - context.tool_tip;
-  if (contact != nullptr && state.mode == Mode::contact && context.felt.finite() && context.X_WH.valid()) {
+  if (contact != nullptr && state.mode == Mode::contact && context.force_unfiltered.finite() &&
+      context.X_WH.valid()) {
     // Use the force before the low-pass: the filtered force would hold back a tool that has left.
-    const double force = -dot(context.felt, contact->X_WN * Vec<'N'>(0, 0, 1));
+    const double force = -dot(context.force_unfiltered, contact->X_WN * Vec<'N'>(0, 0, 1));
     const double apart =
         context.tool_radius + context.scene.tip_radius - rig.compliance * std::max(0.0, force);
     // The direction is the present one, the position the extrapolated one.
@@ -74,7 +75,7 @@ void report_common(const StepContext& context, const CommonState& state, const Q
   out.contacts = state.contacts;
   out.gap = context.gap;
   out.force = Vec<'N'>(Vec3(q_WN.conjugate() * state.force.e()));
-  out.felt = context.felt;
+  out.felt = context.force_unfiltered;
   const SeenTool seen = seen_tool(context, state, contact);
   out.view.t = context.tick.t;
   out.view.tool = context.tool_known ? state.tool.value.tool : -1;

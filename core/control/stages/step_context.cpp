@@ -55,7 +55,7 @@ void take_in(const StepContext& context, CommonState& state, bool pressing) {
 // until the poses show it, and would carry the tool right through the machine.
 Point<'W'> stopped_by_tip(const StepContext& context, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
-  if (!context.stops_tool || !context.X_WH.valid()) return to;
+  if (!context.X_WH.valid()) return to;
   const double apart = tool_radius + context.scene.tip_radius;
   const Vec3 c = (from - context.X_WH.origin()).e();
   const Vec3 way = (to - from).e();
@@ -71,18 +71,18 @@ Point<'W'> stopped_by_tip(const StepContext& context, double tool_radius, const 
 
 // Extrapolates the tip from the newest pose. The tool moves with the tip and keeps that pose's rotation: its
 // rotation is not rendered, and its effect on the tip is part of the tip's own motion.
-void carry_on(StepContext& context, const CommonState& state) {
+void carry_on(StepContext& context, const CommonState& state, bool stopped) {
   const TipMotion& motion = state.tip_motion;
   const double radius = context.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
   const Point<'W'> ahead = predict(context.scene.tracker, motion, context.tick.t);
-  const Point<'W'> tip = stopped_by_tip(context, radius, motion.position, ahead);
+  const Point<'W'> tip = stopped ? stopped_by_tip(context, radius, motion.position, ahead) : ahead;
   context.X_WT = {context.X_WT.q(), context.X_WT.origin() + (tip - context.tool_tip)};
   context.tool_tip = tip;
 }
 
 }  // namespace
 
-void track_tool(StepContext& context, CommonState& state, bool pressing) noexcept {
+void track_tool(StepContext& context, CommonState& state, const ToolAtTip& at_tip) noexcept {
   if (!context.scene.has_tracker) return;
   const auto& sample = context.in.tool;
   if (sample.health == Health::fault) context.why |= kTrackerFault;
@@ -91,7 +91,7 @@ void track_tool(StepContext& context, CommonState& state, bool pressing) noexcep
       context.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
-      take_in(context, state, pressing);
+      take_in(context, state, at_tip.pressing);
     }
   }
   if (state.tool.health != Health::ok) {
@@ -105,7 +105,7 @@ void track_tool(StepContext& context, CommonState& state, bool pressing) noexcep
   context.tool_tip = context.X_WT * tool.tip.centre;
   context.X_WT_newest = context.X_WT;
   context.tip_newest = context.tool_tip;
-  if (context.scene.tracker.prediction != Prediction::hold) carry_on(context, state);
+  if (context.scene.tracker.prediction != Prediction::hold) carry_on(context, state, at_tip.stopped);
   context.tool_radius = tool.tip.radius;
   judge_age(context, state);
 }
@@ -266,7 +266,7 @@ void nearest_surface(StepContext& context, CommonState& state, const SurfaceQuer
   const bool by_tool = context.scene.has_tracker;
   const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
   if (by_tool && !context.tool_known) return;
-  const Query query{context.scene, context.moved, by_tool ? context.tool_tip : context.X_WH.origin(),
+  const Query query{context.scene, asked.moved, by_tool ? context.tool_tip : context.X_WH.origin(),
                     context.tool_radius, asked.touched_first};
   if (!query.p.finite()) return;
   Candidate best;

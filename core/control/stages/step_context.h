@@ -1,5 +1,6 @@
-// Step context: the data that pass through the stages of a tick, and the functions that tasks share. Internal
-// to the core: step.cpp calls the stages, and each task has its own (tasks.h).
+// Step context: the data that pass through the stages of a tick of every task, and the functions that tasks
+// share. step.cpp calls the stages, and each task has its own (tasks.h), with a context of its own
+// (Task::Context) if its stages pass on more.
 #pragma once
 
 #include <span>
@@ -19,9 +20,6 @@ struct StepContext {
   const Tick& tick;
   const Inputs& in;
   std::uint32_t why = 0;
-  // Set by guide(): target of an arm that follows no finger; unset: it waits.
-  Point<'W'> sent;
-  const Pose<'W', 'H'>* carried = nullptr;  // Set by carry(): target of the machine with its tool.
 
   bool tool_known = false;  // track
   bool tool_fresh = false;
@@ -30,28 +28,15 @@ struct StepContext {
   Point<'W'> tip_newest;
   Point<'W'> tool_tip;
   double tool_radius = 0.0;
-  // track: the tip is firm, so a tool cannot pass through it.
-  bool stops_tool = false;
-  std::span<MoverState> moved;  // track: objects that move
-  std::span<const Mover> movers;
   Pose<'W', 'H'> X_WH;  // track: tip pose reported by the machine
 
   // touch: nearest to the tool; without a tracker, to the tip.
   Point<'W'> surface_point;
   Vec<'W'> normal;      // outward
   double gap = kUnset;  // m
-  // check_tip: nearest to the tip's centre, in the frame of state.object.
-  SurfacePoint at_tip;
-  Vec<'W'> force;                           // sense: force on the tip, N
-  Vec<'W'> felt;                            // sense: that force before the low-pass, N
-  Point<'W'> target;                        // target: wanted tip centre
-  Mat3 jacobian = Mat3::Zero();             // track: of an arm
-  Vec3 target_acceleration = Vec3::Zero();  // aim: acceleration of an arm's target on its path, m/s^2
-  Vec3 target_change = Vec3::Zero();        // aim: that acceleration on and off its path, m/s^2
-  Vec<'W'> tip_velocity;                    // track: velocity of an arm's tip
-  Vec<'W'> wanted_force;                    // render_impedance(): force that the law asks for; unset: none
-  double along_mass = 0.0;                  // kg, tip mass along the normal, with a passivity controller
-  Vec<'R'> arm_force;                       // guard: commanded force of an arm
+
+  // sense, or an arm's guard: force on the tip before the low-pass, N
+  Vec<'W'> force_unfiltered;
 };
 
 // Query for the surface nearest to a tool.
@@ -60,10 +45,16 @@ struct SurfaceQuery {
   bool touched_first = false;        // prefer any touched object to every untouched one
   // Predicted touch of the tool; unset: extrapolate its motion by follow.ahead.
   Point<'W'> comes_to{};
+  std::span<const MoverState> moved{};  // positions of the objects that move
 };
 void nearest_surface(StepContext& context, CommonState& state, const SurfaceQuery& asked) noexcept;
-// The tracked tool at this tick. `pressing`: a finger that rests on a prop moves slowly.
-void track_tool(StepContext& context, CommonState& state, bool pressing) noexcept;
+
+struct ToolAtTip {
+  bool pressing = false;  // a finger that rests on a prop moves slowly
+  bool stopped = false;   // the tip is firm, so the tool cannot pass through it
+};
+// Computes the pose of the tracked tool at this tick.
+void track_tool(StepContext& context, CommonState& state, const ToolAtTip& at_tip = {}) noexcept;
 
 // Outward normal and distance of a W point to an object.
 struct NearestInWorld {

@@ -8,7 +8,6 @@
 #include "core/control/safety/inside.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
-#include "core/control/stages/step_context.h"
 #include "core/shape/deformation/dent.h"
 
 namespace enc::stages {
@@ -29,7 +28,7 @@ constexpr double kUnit = 1e-3;
 // source).
 constexpr double kWellInside = 0.7;
 
-bool command_stays(const StepContext& context, CommonState& state, const CommandState& now) {
+bool command_stays(const AdmittanceContext& context, CommonState& state, const CommandState& now) {
   Inside inside(context.scene, state.object, least_depth(context), Vec<'W'>::zero(), state.hints.command);
   const Brake brake = brake_of(context, now);
   const double here = inside.depth(brake.at);
@@ -37,7 +36,8 @@ bool command_stays(const StepContext& context, CommonState& state, const Command
 }
 
 // `distance`: from the tip's outermost point to the undeformed surface, m.
-void check_undeformed(StepContext& context, double distance, CommonState& state, const CommandState& now) {
+void check_undeformed(AdmittanceContext& context, double distance, CommonState& state,
+                      const CommandState& now) {
   // On its way in, the tip is rightly outside, and so is its command.
   if (!state.entered && distance <= -kSkin) state.entered = command_stays(context, state, now);
   if (state.entered && distance > kPlay) context.why |= kOutsideObject;
@@ -50,7 +50,7 @@ bool possible(const Tip<'O'>& tip) {
          tip.length < kLongestTip;
 }
 
-bool possible(const StepContext& context, const Measurement<DentSample>& sample) {
+bool possible(const AdmittanceContext& context, const Measurement<DentSample>& sample) {
   const DentSample& dent = sample.value;
   if (sample.t > context.tick.t + context.tick.dt) return false;
   if (dent.object == -1) return true;
@@ -60,7 +60,7 @@ bool possible(const StepContext& context, const Measurement<DentSample>& sample)
 
 // The seen surface is late: the tip may be outside it by the distance that tool and tip can have moved since
 // [VHMR 3.5].
-void check_dent(StepContext& context, const Object& object, const Point<'O'>& outer, double distance,
+void check_dent(AdmittanceContext& context, const Object& object, const Point<'O'>& outer, double distance,
                 CommonState& state, AdmittanceState& now) {
   if (context.in.dent.health == Health::fault ||
       (context.in.dent.health == Health::ok && !possible(context, context.in.dent))) {
@@ -95,7 +95,7 @@ void check_dent(StepContext& context, const Object& object, const Point<'O'>& ou
 
 }  // namespace
 
-void check_tip(StepContext& context, CommonState& state, AdmittanceState& now) noexcept {
+void check_tip(AdmittanceContext& context, CommonState& state, AdmittanceState& now) noexcept {
   if (!context.X_WH.valid() || state.object < 0) return;
   const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   const Point<'O'> centre = object.X_OW * context.X_WH.origin();
@@ -126,7 +126,7 @@ Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) 
 constexpr double kBelow = 3e-3;
 
 // Part of the pressing force that the object carries; the damper carries the rest.
-double carried(const StepContext& context, const AdmittanceTask& task, const Object& object,
+double carried(const AdmittanceContext& context, const AdmittanceTask& task, const Object& object,
                AdmittanceState& now, double force, double pressed, double limit) {
   if (!task.damping) return pressed;
   const DampingLaw& law = *task.damping;
@@ -144,14 +144,14 @@ double carried(const StepContext& context, const AdmittanceTask& task, const Obj
 
 // Beside an edge the tip cannot be right under the tool. It waits at the nearest position with the whole tip
 // inside.
-Point<'W'> inside(const StepContext& context, CommonState& state, std::int32_t object, double margin,
+Point<'W'> inside(const AdmittanceContext& context, CommonState& state, std::int32_t object, double margin,
                   const Point<'W'>& wanted) {
   return Inside(context.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
 }
 
 // Straight under the surface point. Inside round and flat objects that is enough; in a mesh another side may
 // be near.
-Point<'W'> under_surface(const StepContext& context, CommonState& state, double margin) {
+Point<'W'> under_surface(const AdmittanceContext& context, CommonState& state, double margin) {
   const Point<'W'> under = context.surface_point - margin * context.normal;
   const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   const bool mesh = std::holds_alternative<MeshSurface>(object.surface.shape());
@@ -160,7 +160,7 @@ Point<'W'> under_surface(const StepContext& context, CommonState& state, double 
 
 }  // namespace
 
-void model(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void model(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
            AdmittanceState& now) noexcept {
   const Contact& contact = now.contact;
   if (state.mode != Mode::contact || now.contact.below) {
@@ -181,7 +181,7 @@ void model(StepContext& context, const AdmittanceTask& task, CommonState& state,
   now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
 
-void target(StepContext& context, CommonState& state, const AdmittanceState& now) noexcept {
+void target(AdmittanceContext& context, CommonState& state, const AdmittanceState& now) noexcept {
   const double radius = context.scene.tip_radius;
   switch (state.mode) {
     case Mode::follow:
@@ -227,7 +227,7 @@ constexpr double kComes = 2.0;  // times the hand's stiffness: the hand moves as
 constexpr double kComesOn = 1.1e-3;
 
 // Outward motion along the normal since the last tick, and the depth and push of the object at the tip.
-PassivityTick yielded(const StepContext& context, const AdmittanceState& now) {
+PassivityTick yielded(const AdmittanceContext& context, const AdmittanceState& now) {
   const Contact& contact = now.contact;
   const Object& object = context.scene.objects[static_cast<std::size_t>(contact.object)];
   const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, 1);
@@ -238,21 +238,21 @@ PassivityTick yielded(const StepContext& context, const AdmittanceState& now) {
 }
 
 // m, outwards: free way of the tip, because the tool is seen farther away.
-double free_way(const StepContext& context, double depth, double push) {
+double free_way(const AdmittanceContext& context, double depth, double push) {
   if (!context.tool_known || !context.tool_fresh || push >= context.scene.force.contact) return 0.0;
   return std::max(0.0, context.gap + depth - kNearHand);
 }
 
 // N, push of a hand, which cannot pull. If the force is unknown for a moment, the last push holds. If the tip
 // can meet nothing, the force is the sensor's error.
-double pressed(const StepContext& context, const AdmittanceState& now, double depth) {
-  if (!context.felt.finite()) return now.spent.pressed;
-  const double push = -dot(context.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
+double pressed(const AdmittanceContext& context, const AdmittanceState& now, double depth) {
+  if (!context.force_unfiltered.finite()) return now.spent.pressed;
+  const double push = -dot(context.force_unfiltered, now.contact.X_WN * Vec<'N'>(0, 0, 1));
   return free_way(context, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
 }
 
 // True in a contact, and on the way back from it until the tip is at its waiting position.
-bool engaged(const StepContext& context, const CommonState& state, const AdmittanceState& now) {
+bool engaged(const AdmittanceContext& context, const CommonState& state, const AdmittanceState& now) {
   if (state.mode == Mode::contact || state.mode == Mode::restore) return true;
   return now.spent.energy.on && state.mode == Mode::follow &&
          now.spent.energy.depth > context.scene.follow.inset;
@@ -260,7 +260,7 @@ bool engaged(const StepContext& context, const CommonState& state, const Admitta
 
 }  // namespace
 
-void weigh(const StepContext& context, const AdmittanceTask&, const CommonState& state,
+void weigh(const AdmittanceContext& context, const AdmittanceTask&, const CommonState& state,
            AdmittanceState& now) noexcept {
   RenderedEnergy& spent = now.spent;
   if (!spent.energy.on) return;
@@ -287,7 +287,7 @@ void weigh(const StepContext& context, const AdmittanceTask&, const CommonState&
   spent.tip = context.X_WH.origin();
 }
 
-void spare(StepContext& context, const AdmittanceTask& task, const CommonState& state,
+void spare(AdmittanceContext& context, const AdmittanceTask& task, const CommonState& state,
            AdmittanceState& now) noexcept {
   if (task.passivity == PassivityForm::none || !engaged(context, state, now) || !context.X_WH.valid()) return;
   RenderedEnergy& spent = now.spent;
@@ -325,7 +325,7 @@ bool engaged(const CommonState& state) { return state.mode == Mode::contact || s
 
 // True if no tool can touch the tip. A tool that was out of view as its contact ended may press until it is
 // seen clear.
-bool clear_of_object(const StepContext& context, const CommonState& state, Contact& contact) {
+bool clear_of_object(const AdmittanceContext& context, const CommonState& state, Contact& contact) {
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   if (!context.scene.has_tracker) return true;
   const bool clear =
@@ -334,7 +334,7 @@ bool clear_of_object(const StepContext& context, const CommonState& state, Conta
   return clear && !contact.unseen;
 }
 
-Walls walls_around(const StepContext& context, CommonState& state, const AdmittanceState& now) {
+Walls walls_around(const AdmittanceContext& context, CommonState& state, const AdmittanceState& now) {
   if (state.object < 0 || !state.entered) return {};
   const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
   const NearestInWorld at =
@@ -355,11 +355,12 @@ void rest(AdmittanceState& now) noexcept {
   now.displacement = Vec<'N'>::zero();
 }
 
-void touch(StepContext& context, const AdmittanceTask&, CommonState& state, AdmittanceState& now) noexcept {
+void touch(AdmittanceContext& context, const AdmittanceTask&, CommonState& state,
+           AdmittanceState& now) noexcept {
   nearest_surface(context, state, {engaged(state) ? &now.contact : nullptr});
 }
 
-void act(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void act(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
          AdmittanceState& now) noexcept {
   grip(context);
   sense(context, state, now, clear_of_object(context, state, now.contact));  // force on the tip
@@ -373,12 +374,13 @@ void act(StepContext& context, const AdmittanceTask& task, CommonState& state,
   spare(context, task, state, now);
 }
 
-void guard(StepContext& context, const AdmittanceTask&, CommonState& state, AdmittanceState& now) noexcept {
+void guard(AdmittanceContext& context, const AdmittanceTask&, CommonState& state,
+           AdmittanceState& now) noexcept {
   if (state.started) limit_command(context, state, now, walls_around(context, state, now));
 }
 
-void report(const StepContext& context, const AdmittanceTask&, CommonState& state, const AdmittanceState& now,
-            Outputs& out) noexcept {
+void report(const AdmittanceContext& context, const AdmittanceTask&, CommonState& state,
+            const AdmittanceState& now, Outputs& out) noexcept {
   report_common(context, state,
                 engaged(state) ? Quat(now.contact.X_WN.q()) : rotation_z_to(context.normal.e()), &now.contact,
                 out);

@@ -33,8 +33,17 @@ struct AdmittanceState : CommandState {
   bool outside_dent = false;  // the tip is outside its deformed surface
 };
 
+namespace stages {
+struct AdmittanceContext : ManipulatorContext {
+  using ManipulatorContext::ManipulatorContext;
+  // check_tip: surface point nearest to the tip's centre, in O of state.object.
+  SurfacePoint at_tip;
+};
+}  // namespace stages
+
 struct AdmittanceTask : DisplacementTask {
   using Memory = AdmittanceState;
+  using Context = stages::AdmittanceContext;
   std::optional<DampingLaw> damping;  // set if the rig asks for a damper
   PassivityForm passivity = PassivityForm::none;
   double hand_stiffness = 0.0;  // N/m, stiffness of the rig's operator model
@@ -72,30 +81,31 @@ void fields(F& f, AdmittanceState& r) {
 }
 
 namespace stages {
-void touch(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void touch(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
            AdmittanceState& now) noexcept;
-void act(StepContext& context, const AdmittanceTask& task, CommonState& state, AdmittanceState& now) noexcept;
-void guard(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void act(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
+         AdmittanceState& now) noexcept;
+void guard(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
            AdmittanceState& now) noexcept;
-void report(const StepContext& context, const AdmittanceTask& task, CommonState& state,
+void report(const AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
             const AdmittanceState& now, Outputs& out) noexcept;
 
 void rest(AdmittanceState& now) noexcept;  // resets the object to its unloaded state
 
 // The stages of act().
-void check_tip(StepContext& context, CommonState& state,
+void check_tip(AdmittanceContext& context, CommonState& state,
                AdmittanceState& now) noexcept;  // Is the tip inside the object and the shown surface?
-void mode(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void mode(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
           AdmittanceState& now) noexcept;  // away, follow, contact, restore
-void model(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void model(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
            AdmittanceState& now) noexcept;  // force in, displacement out
-// Computes the wanted tip position.
-void target(StepContext& context, CommonState& state, const AdmittanceState& now) noexcept;
+// Computes the commanded tip position.
+void target(AdmittanceContext& context, CommonState& state, const AdmittanceState& now) noexcept;
 // Passivity controller: weigh() updates the energy balance; spare() limits the outward command to the energy
 // left.
-void weigh(const StepContext& context, const AdmittanceTask& task, const CommonState& state,
+void weigh(const AdmittanceContext& context, const AdmittanceTask& task, const CommonState& state,
            AdmittanceState& now) noexcept;
-void spare(StepContext& context, const AdmittanceTask& task, const CommonState& state,
+void spare(AdmittanceContext& context, const AdmittanceTask& task, const CommonState& state,
            AdmittanceState& now) noexcept;
 }  // namespace stages
 

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "core/base/rotation.h"
-#include "core/control/stages/step_context.h"
 #include "core/control/task/admittance/admittance_task.h"
 
 namespace enc::stages {
 namespace {
 
-double pressing_force(const StepContext& context, const Vec<'W'>& normal) {
+double pressing_force(const AdmittanceContext& context, const Vec<'W'>& normal) {
   return context.force.finite() ? -dot(context.force, normal) : 0.0;
 }
 
@@ -20,22 +19,24 @@ constexpr double kFar = 10e-3;  // m
 constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0, kUnseen = 5.0, kUnseenLong = 60.0;  // s
 // A force is steady within this share of the contact threshold, and small up to this multiple of it.
 constexpr double kSteady = 0.15, kSmall = 3.0;
-bool too_far(const StepContext& context) { return context.tool_known && context.gap > kFar; }
+bool too_far(const AdmittanceContext& context) { return context.tool_known && context.gap > kFar; }
 
 // A pressing hand cannot change its tool. Another tool in view did not make this contact, and its position is
 // no evidence. Then force alone keeps the contact and ends it.
-bool changed_tool(const StepContext& context, const CommonState& state, const AdmittanceState& now) {
+bool changed_tool(const AdmittanceContext& context, const CommonState& state, const AdmittanceState& now) {
   return context.tool_known && state.tool.value.tool != now.contact.tool;
 }
 
 // True if the scene has a tracker and the tracker sees no known tool.
-bool nothing_seen(const StepContext& context) { return context.scene.has_tracker && !context.tool_known; }
+bool nothing_seen(const AdmittanceContext& context) {
+  return context.scene.has_tracker && !context.tool_known;
+}
 
 // Force without a cause is an error of the sensor's zero. Either the contact's own tool is seen clear of the
 // object, or that tool is out of view and the force is steadier than a hand can keep it. The latter must last
 // a while if the force is small and the tool in view is clear, and a minute otherwise. A late pose neither
 // counts nor resets the count.
-bool force_is_drift(const StepContext& context, bool own, double force, Contact& contact) {
+bool force_is_drift(const AdmittanceContext& context, bool own, double force, Contact& contact) {
   if (!context.scene.has_tracker) return false;
   if (context.tool_known && !context.tool_fresh) return false;
   const double threshold = context.scene.force.contact;
@@ -53,24 +54,24 @@ bool force_is_drift(const StepContext& context, bool own, double force, Contact&
 // m/s: machine and command stand still (assumed: no source).
 constexpr double kStandstill = 1e-5;
 // True if the machine is as near to the buffered point as it gets.
-bool at_rest(const StepContext& context, const AdmittanceState& now) {
+bool at_rest(const AdmittanceContext& context, const AdmittanceState& now) {
   return now.command_velocity.norm() < kStandstill && context.in.tip.value.velocity.norm() < kStandstill;
 }
 
 // The surface point under the tool; without a tracker, over the tip.
-Pose<'W', 'N'> frame_under_tool(const StepContext& context, const CommonState& state) {
+Pose<'W', 'N'> frame_under_tool(const AdmittanceContext& context, const CommonState& state) {
   if (context.tool_known) return {rotation_z_to(context.normal.e()), context.surface_point};
   const Pose<'W', 'O'>& X_WO = context.scene.objects[static_cast<std::size_t>(state.object)].X_WO;
   return {rotation_z_to((X_WO * context.at_tip.normal).e()), X_WO * context.at_tip.point};
 }
 
 // Distance of the tip from its place under the tool, along the surface, m.
-double beside_tool(const StepContext& context, const AdmittanceState& now) {
+double beside_tool(const AdmittanceContext& context, const AdmittanceState& now) {
   return (now.contact.X_WN.inverse() * context.X_WH.origin()).e().head<2>().norm();
 }
 constexpr double kUnder = 0.5e-3;  // m: a nearer tip is under its tool
 
-void begin_contact(StepContext& context, CommonState& state, AdmittanceState& now, bool by_force) {
+void begin_contact(AdmittanceContext& context, CommonState& state, AdmittanceState& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
   if (now.contact.object != state.object)
@@ -91,7 +92,7 @@ void begin_contact(StepContext& context, CommonState& state, AdmittanceState& no
 
 // Until force is measured with the tip under the tool, the anchor follows the tool. A fast or slanted touch
 // meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
-void anchor(StepContext& context, const CommonState& state, AdmittanceState& now) {
+void anchor(AdmittanceContext& context, const CommonState& state, AdmittanceState& now) {
   now.contact.X_WN = frame_under_tool(context, state);
   const double force = pressing_force(context, now.contact.X_WN * Vec<'N'>(0, 0, 1));
   const bool under = beside_tool(context, now) <= kUnder, felt = force >= context.scene.force.contact;
@@ -99,7 +100,8 @@ void anchor(StepContext& context, const CommonState& state, AdmittanceState& now
   now.contact.below = now.contact.below && context.tool_known && !felt && !under;
 }
 
-void in_contact(StepContext& context, const AdmittanceTask& task, CommonState& state, AdmittanceState& now) {
+void in_contact(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
+                AdmittanceState& now) {
   const bool changed = changed_tool(context, state, now);
   if (!now.contact.anchored && !changed) anchor(context, state, now);
   const double force = pressing_force(context, now.contact.X_WN * Vec<'N'>(0, 0, 1));
@@ -127,7 +129,7 @@ void in_contact(StepContext& context, const AdmittanceTask& task, CommonState& s
   now.contact.left = context.tick.t;
 }
 
-void in_free_space(StepContext& context, CommonState& state, AdmittanceState& now) {
+void in_free_space(AdmittanceContext& context, CommonState& state, AdmittanceState& now) {
   const FollowSpec& follow = context.scene.follow;
   if (nothing_seen(context)) {
     state.mode = Mode::away;
@@ -147,7 +149,7 @@ void in_free_space(StepContext& context, CommonState& state, AdmittanceState& no
 
 }  // namespace
 
-void mode(StepContext& context, const AdmittanceTask& task, CommonState& state,
+void mode(AdmittanceContext& context, const AdmittanceTask& task, CommonState& state,
           AdmittanceState& now) noexcept {
   if (state.object < 0) {
     state.mode = Mode::away;

@@ -1,7 +1,6 @@
 #include "core/control/task/dynamic_object/dynamic_object.h"
 
 #include "core/base/rotation.h"
-#include "core/control/stages/step_context.h"
 
 namespace enc::stages {
 namespace {
@@ -36,7 +35,7 @@ struct StrikeSpec {
 // True if the prop, standing at the surface, is struck: pushed in faster and farther than noise explains, and
 // than an arm lags that was just sent somewhere. Vision only shows that a finger may be there. Motion of the
 // arm on its way home is no strike.
-bool struck(const StepContext& context, const CommonState& state, ImpedanceState& now) {
+bool struck(const ArmContext& context, const CommonState& state, ImpedanceState& now) {
   using Is = StrikeSpec;
   const double behind = dot(now.aim.target - context.X_WH.origin(), context.normal);
   const double speed = dot(now.aim.velocity - context.tip_velocity, context.normal);
@@ -52,7 +51,7 @@ bool struck(const StepContext& context, const CommonState& state, ImpedanceState
 // the hit is over. So the depth is that of the prop behind the point of the strike. It ends when they part,
 // when no force was detected for a while, or when the ball is at its waiting position. A ball cannot be hit
 // again before it is back.
-double hit_depth(StepContext& context, CommonState& state, ImpedanceState& memory, const Mover& mover,
+double hit_depth(ArmContext& context, CommonState& state, ImpedanceState& memory, const Mover& mover,
                  const MoverState& now) {
   Contact& contact = memory.contact;
   const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
@@ -83,7 +82,7 @@ double hit_depth(StepContext& context, CommonState& state, ImpedanceState& memor
 }
 
 // Time also stands still here in a hold.
-void push(StepContext& context, CommonState& state, DynamicObjectState& now) {
+void push(ArmContext& context, CommonState& state, DynamicObjectState& now) {
   if (holding(context)) {
     now.contact.anchored = false;
     return;
@@ -108,14 +107,14 @@ void push(StepContext& context, CommonState& state, DynamicObjectState& now) {
 
 }  // namespace
 
-void track(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+void track(ArmContext& context, const DynamicObjectTask& task, CommonState& state,
            DynamicObjectState& now) noexcept {
   context.moved = now.moved;
   context.movers = task.movers;
   track(context, static_cast<const Impedance&>(task), state, now);
 }
 
-void act(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+void act(ArmContext& context, const DynamicObjectTask& task, CommonState& state,
          DynamicObjectState& now) noexcept {
   push(context, state, now);
   act(context, static_cast<const Impedance&>(task), state, now);

@@ -16,6 +16,7 @@ struct DynamicObjectState : ImpedanceState {
 
 struct DynamicObjectTask : Impedance {
   using Memory = DynamicObjectState;
+  using Context = stages::ArmContext;
   std::vector<Mover> movers;  // same order as DynamicObjectState::moved
 };
 
@@ -34,9 +35,9 @@ void fields(F& f, DynamicObjectState& p) {
 }
 
 namespace stages {
-void track(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+void track(ArmContext& context, const DynamicObjectTask& task, CommonState& state,
            DynamicObjectState& now) noexcept;
-void act(StepContext& context, const DynamicObjectTask& task, CommonState& state,
+void act(ArmContext& context, const DynamicObjectTask& task, CommonState& state,
          DynamicObjectState& now) noexcept;
 }  // namespace stages
 

@@ -30,7 +30,7 @@ constexpr double kFarthest = 0.05;       // m: a predicted touch farther from th
 
 // Earlier pictures are of use as long as no long gap lies between them. If the finger is seen more often than
 // its path needs, the pictures in between are skipped.
-bool take_picture(const StepContext& context, const CommonState& state, ReachPrediction& now) {
+bool take_picture(const ArmContext& context, const CommonState& state, ReachPrediction& now) {
   const Time exposed_at = exposed(context.scene.tracker, state.tool.t);
   const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
   const bool another = state.tool.value.tool != now.tool;
@@ -50,12 +50,12 @@ bool take_picture(const StepContext& context, const CommonState& state, ReachPre
   return true;
 }
 
-double noise_of_newest(const StepContext& context, const CommonState& state) {  // m rms, each axis
+double noise_of_newest(const ArmContext& context, const CommonState& state) {  // m rms, each axis
   return std::sqrt(noise_of(context.scene.tracker, state.tool.value, context.scene.X_WC).mean_square());
 }
 
 // A hysteresis: pictures whose noise is close to the limit do not switch the prediction on and off.
-bool clear(const StepContext& context, const CommonState& state, const ReachPrediction& now) {
+bool clear(const ArmContext& context, const CommonState& state, const ReachPrediction& now) {
   const double vaguest = context.scene.tracker.reach.vaguest;
   return noise_of_newest(context, state) <=
          (now.clear ? ReachPredictionSpec::kStaysClear * vaguest : vaguest);
@@ -64,7 +64,7 @@ bool clear(const StepContext& context, const CommonState& state, const ReachPred
 // A reaching hand is never slower than its speed at touch, except for a moment between its movements. No
 // picture shows how a hovering finger moves on, and neither does a picture with too much noise. In both cases
 // the prop meets the finger at its present position.
-bool reaches(const StepContext& context, const ReachPrediction& now) {
+bool reaches(const ArmContext& context, const ReachPrediction& now) {
   if (now.count < 3 || !now.clear) return false;
   const auto first = static_cast<std::size_t>(now.count - 1);
   const double down =
@@ -73,7 +73,7 @@ bool reaches(const StepContext& context, const ReachPrediction& now) {
 }
 
 // The prediction uses the axes of the surface under the finger.
-void ask(const StepContext& context, const CommonState& state, ReachPrediction& now) {
+void ask(const ArmContext& context, const CommonState& state, ReachPrediction& now) {
   now.object = state.object;
   now.told = context.tick.t;
   const Object& object = context.scene.objects[static_cast<std::size_t>(state.object)];
@@ -139,7 +139,7 @@ Vec2 expected(const ReachPrediction& now, double passed) {
   return sum.head<2>() / sum[2];
 }
 
-Point<'W'> on_surface(const StepContext& context, const CommonState& state, const ReachPrediction& now,
+Point<'W'> on_surface(const ArmContext& context, const CommonState& state, const ReachPrediction& now,
                       double passed) {
   const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
@@ -149,7 +149,7 @@ Point<'W'> on_surface(const StepContext& context, const CommonState& state, cons
 
 }  // namespace
 
-Goal predicted_touch(const StepContext& context, const CommonState& state, ImpedanceState& memory) noexcept {
+Goal predicted_touch(const ArmContext& context, const CommonState& state, ImpedanceState& memory) noexcept {
   ReachPrediction& now = memory.coming;
   const Object* object = nearest_object(context, state);
   const TrackerRig& rig = context.scene.tracker;
@@ -179,7 +179,7 @@ Goal predicted_touch(const StepContext& context, const CommonState& state, Imped
   return {at, (1.0 / dt) * (then - at), true};
 }
 
-Point<'W'> comes_to(const StepContext& context, const ImpedanceState& memory) noexcept {
+Point<'W'> comes_to(const ArmContext& context, const ImpedanceState& memory) noexcept {
   const ReachPrediction& now = memory.coming;
   const double passed = age(context.tick.t, now.told);
   if (now.object < 0 || passed > kAfter.back()) return {};
@@ -200,7 +200,7 @@ bool tells_depth(const Object& object) {
 
 // True if the waiting prop is pushed back. The arm measures that in the tick in which it begins; a camera
 // sees it a picture or more later.
-bool felt_first(const StepContext& context, const CommonState& state, const ImpedanceState& now,
+bool felt_first(const ArmContext& context, const CommonState& state, const ImpedanceState& now,
                 const Object& object) {
   const bool behind = dot(context.X_WH.origin() - context.surface_point, context.normal) < 0.0;
   return now.aim.caught_up && tells_depth(object) && context.tool_fresh && behind && !context.in.withheld &&
@@ -211,7 +211,7 @@ bool felt_first(const StepContext& context, const CommonState& state, const Impe
 // measures its prop to 0.03 mm, while a camera measures the finger to 0.5 mm, late and seldom. The prop gives
 // the finger's depth, the camera its presence. The finger is never behind the prop. A prediction that says so
 // ran on past the contact.
-void lie_on_prop(StepContext& context, CommonState& state, const ImpedanceState& now) {
+void lie_on_prop(ArmContext& context, CommonState& state, const ImpedanceState& now) {
   const Object* object = nearest_object(context, state);
   if (state.mode != Mode::contact || object == nullptr || !context.tool_known) return;
   // The prop is on its way to another position, unless a picture jumps sideways while it is pressed.
@@ -232,7 +232,7 @@ void lie_on_prop(StepContext& context, CommonState& state, const ImpedanceState&
 
 // An arm measures no force: the gap decides what is touched, or the pushed prop does. "Prepare" is the motion
 // from away to follow.
-void choose_mode(const StepContext& context, CommonState& state, ImpedanceState& now) {
+void choose_mode(const ArmContext& context, CommonState& state, ImpedanceState& now) {
   const FollowSpec& follow = context.scene.follow;
   const Object* object = nearest_object(context, state);
   if (object == nullptr || !context.tool_known) {
@@ -260,7 +260,7 @@ void choose_mode(const StepContext& context, CommonState& state, ImpedanceState&
 
 // A flying ball is no longer touched. Its prop clears the finger's path and moves to the ball's waiting
 // position.
-Vec<'W'> rest_of_flight(const StepContext& context, const Object& object) {
+Vec<'W'> rest_of_flight(const ArmContext& context, const Object& object) {
   if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
   const MoverState& ball = context.moved[static_cast<std::size_t>(object.moving)];
   const double flown = ball.shift.norm();
@@ -274,7 +274,7 @@ bool touches_belt(const CommonState& state, const Object* object) {
 
 // The finger's projection on the surface moves with the finger and with the object. The surface determines
 // its speed: on a small ball it is slower than the finger, and beyond the edge of a button it stands still.
-Goal goal_of(const StepContext& context, const CommonState& state, ImpedanceState& memory,
+Goal goal_of(const ArmContext& context, const CommonState& state, ImpedanceState& memory,
              const Object& object) {
   const Goal touch = predicted_touch(context, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.predicted};
@@ -310,7 +310,7 @@ struct TargetLimits {
 // If the nearest point jumps to another part of the object, the straight path may leave a hollow object,
 // where the finger is. Then the target waits at the last point of its path that is inside, or moves along the
 // surface while that is nearer.
-Vec3 not_through_a_hollow(const StepContext& context, double acceleration, double speed, CommonState& state,
+Vec3 not_through_a_hollow(const ArmContext& context, double acceleration, double speed, CommonState& state,
                           const Aim& now, const Object& object, const Vec3& wanted) {
   Inside inside(context.scene, state.object, -AimSpec::kOutside, shift_of(object, context.moved),
                 state.hints.command);
@@ -322,7 +322,7 @@ Vec3 not_through_a_hollow(const StepContext& context, double acceleration, doubl
 
 // The target always keeps within speed and acceleration. It first moves straight to the goal and then follows
 // it. The goal jumps with each new picture of the finger; `settle` smooths these jumps.
-void move_target(StepContext& context, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
+void move_target(ArmContext& context, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
                  const Object* object) {
   const double dt = context.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
@@ -360,7 +360,7 @@ void move_target(StepContext& context, const ArmRig& rig, CommonState& state, Ai
 }
 
 // Moves the target to a point under the finger. A point out of reach stops the target.
-void go_to(Goal goal, StepContext& context, const Impedance& task, CommonState& state, Aim& now,
+void go_to(Goal goal, ArmContext& context, const Impedance& task, CommonState& state, Aim& now,
            const Object& object) {
   const Arm& arm = task.arm;
   PerJoint q = context.in.arm.value.joints;
@@ -380,7 +380,7 @@ void go_to(Goal goal, StepContext& context, const Impedance& task, CommonState& 
 // where the finger has pushed it. So there is no step when they part. The target's speed is that of the prop,
 // smoothed, and at most what the distance so far allows: one wrong reading sets nothing in motion. Sideways
 // the target comes to rest.
-void go_with_prop(const StepContext& context, const ArmRig& rig, const Contact& contact, Aim& now) {
+void go_with_prop(const ArmContext& context, const ArmRig& rig, const Contact& contact, Aim& now) {
   const double dt = context.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
   const double ticks = 1.0 + std::round(age(context.tick.t, contact.began) / dt);
@@ -398,7 +398,7 @@ void go_with_prop(const StepContext& context, const ArmRig& rig, const Contact& 
 
 // Checks that the arm follows its commands. A finger may push the tip away from its target, so the distance
 // is evidence only without a finger nearby. Accepted lag: an even motion lags by K_v / K_p.
-void check_following(StepContext& context, const Impedance& law, Aim& now) {
+void check_following(ArmContext& context, const Impedance& law, Aim& now) {
   if (context.in.withheld) {
     now.deviation = PathDeviation{};
     return;
@@ -420,7 +420,7 @@ void check_following(StepContext& context, const Impedance& law, Aim& now) {
 }
 
 // The hold of a stuck arm lasts until the finger has gone: a new attempt would push with full force.
-void hold_stuck(StepContext& context, Aim& now) {
+void hold_stuck(ArmContext& context, Aim& now) {
   if (!now.stuck) return;
   const bool gone = !context.tool_known || context.gap > context.scene.follow.pause;
   if (gone)
@@ -430,7 +430,7 @@ void hold_stuck(StepContext& context, Aim& now) {
 }
 
 // Blends from one stiffness to the next over `gradual_time`, without a step.
-void change_gain(const StepContext& context, double free, const CommonState& state, const Object* object,
+void change_gain(const ArmContext& context, double free, const CommonState& state, const Object* object,
                  Aim& now) {
   RenderedStiffness felt{free, 0.0};
   if (object == nullptr) {
@@ -456,7 +456,7 @@ void change_gain(const StepContext& context, double free, const CommonState& sta
 
 }  // namespace
 
-void aim(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& memory) noexcept {
+void aim(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& memory) noexcept {
   Aim& now = memory.aim;
   if (!context.X_WH
            .valid()) {  // one missed reading changes nothing; after more of them the tip may be anywhere
@@ -480,7 +480,8 @@ void aim(StepContext& context, const Impedance& task, CommonState& state, Impeda
   if (hit_now(context, state) != nullptr) {
     go_with_prop(context, task.rig, memory.contact, now);
   } else if (state.mode == Mode::away || object == nullptr) {
-    move_target(context, task.rig, state, now, {context.sent.finite() ? context.sent : now.target}, nullptr);
+    move_target(context, task.rig, state, now,
+                {context.guide_target.finite() ? context.guide_target : now.target}, nullptr);
   } else {
     go_to(goal_of(context, state, memory, *object), context, task, state, now, *object);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/stages/step_context.h"
 #include "core/control/task/impedance/finger.h"
 #include "core/control/task/impedance/impedance.h"
 #include "core/control/task/impedance/impedance_spec.h"
@@ -20,10 +19,10 @@ namespace {
 // round object. The same holds for a normal that turns under a sliding tip.
 struct PassivityLimiter {
   // Limits the force that the law asks for.
-  PassivityLimiter(StepContext& context, const Impedance& law, const CommonState& state,
+  PassivityLimiter(ArmContext& context, const Impedance& law, const CommonState& state,
                    ImpedanceState& memory) noexcept;
   // Stores the push after all limits.
-  void held(const StepContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept;
+  void held(const ArmContext& context, ImpedanceState& memory, const Vec3& pushed) const noexcept;
   Vec3 wanted;
   double taken = 0.0;  // N, outward force taken from the law's
 };
@@ -35,7 +34,7 @@ constexpr double kPressed = 2e-3;
 struct Spring {
   double depth, push;
 };
-Spring spring_of(const StepContext& context, const Impedance& law, const CommonState& state,
+Spring spring_of(const ArmContext& context, const Impedance& law, const CommonState& state,
                  const ImpedanceState& now, const Object& object) {
   if (const MoverState* ball = hit_now(context, state)) {
     const double depth = std::isnan(ball->depth) ? 0.0 : std::max(0.0, ball->depth);
@@ -47,7 +46,7 @@ Spring spring_of(const StepContext& context, const Impedance& law, const CommonS
 
 // m: outward motion of the tip relative to its target. The target of a ball moves with the tip, so there it
 // is relative to the ball.
-double moved(const StepContext& context, const CommonState& state, const ImpedanceState& memory) {
+double moved(const ArmContext& context, const CommonState& state, const ImpedanceState& memory) {
   const PassivityControl& now = memory.passivity;
   const double dt = context.scene.dt;
   const bool on = now.energy.on;
@@ -60,7 +59,7 @@ double moved(const StepContext& context, const CommonState& state, const Impedan
 
 // A contact that is lost while the tip is inside, and found again, keeps its remaining energy: a new start
 // gives the law no new credit. Once the tip has been outside, no deficit remains.
-void lose(const StepContext& context, const ImpedanceState& memory, PassivityControl& now) {
+void lose(const ArmContext& context, const ImpedanceState& memory, PassivityControl& now) {
   if (now.energy.on) now.kept = now.energy.left;
   now.energy = Passivity{};
   const bool known = !holding(context) && context.normal.finite() && memory.aim.target.finite();
@@ -72,20 +71,20 @@ void lose(const StepContext& context, const ImpedanceState& memory, PassivityCon
 
 // A law whose force is not sent gives out no energy. A prop on its way to the touch renders nothing either; a
 // prop that jumps under the finger that presses it has already arrived.
-const Object* controlled_object(const StepContext& context, const CommonState& state,
+const Object* controlled_object(const ArmContext& context, const CommonState& state,
                                 const ImpedanceState& memory) {
   if (state.mode != Mode::contact || context.in.withheld || holding(context)) return nullptr;
   const bool met = memory.passivity.pressed && memory.passivity.object == state.object;
   if (!memory.aim.caught_up && !met) return nullptr;
   const Object* object = nearest_object(context, state);
   const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
-  const bool known = context.along_mass > 0.0 && context.wanted_force.finite() && context.normal.finite();
+  const bool known = context.along_mass > 0.0 && context.law_force.finite() && context.normal.finite();
   return renders && known ? object : nullptr;
 }
 
-PassivityLimiter::PassivityLimiter(StepContext& context, const Impedance& law, const CommonState& state,
+PassivityLimiter::PassivityLimiter(ArmContext& context, const Impedance& law, const CommonState& state,
                                    ImpedanceState& memory) noexcept
-    : wanted(context.wanted_force.e()) {
+    : wanted(context.law_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
   PassivityControl& now = memory.passivity;
   const Object* object = controlled_object(context, state, memory);
@@ -116,7 +115,7 @@ PassivityLimiter::PassivityLimiter(StepContext& context, const Impedance& law, c
   taken = std::clamp(asked, -law.rig.peak, law.rig.peak) - std::clamp(given, -law.rig.peak, law.rig.peak);
 }
 
-void PassivityLimiter::held(const StepContext& context, ImpedanceState& memory,
+void PassivityLimiter::held(const ArmContext& context, ImpedanceState& memory,
                             const Vec3& pushed) const noexcept {
   if (!memory.passivity.energy.on) return;
   const double push = pushed.dot(context.normal.e());
@@ -161,7 +160,7 @@ double fading(const Impedance& law, const Aim& now, double dt) {
 // The second derivative of e [eq. 2] is known only for the target: this is the force that the arm needs to
 // follow it. It is no measurement and needs no filter: through the filter of eq. 3 it would come late and
 // overshoot.
-Vec3 going_along(const StepContext& context, const Arm& arm, const Mat3& mass) {
+Vec3 going_along(const ArmContext& context, const Arm& arm, const Mat3& mass) {
   if (context.target_acceleration.isZero()) return Vec3::Zero();
   const Pose<'W', 'R'>& X_WR = context.scene.X_WR;
   const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(context.target_acceleration);
@@ -170,7 +169,7 @@ Vec3 going_along(const StepContext& context, const Arm& arm, const Mat3& mass) {
 
 }  // namespace
 
-void render_impedance(StepContext& context, const Impedance& law, CommonState& state,
+void render_impedance(ArmContext& context, const Impedance& law, CommonState& state,
                       ImpedanceState& memory) noexcept {
   if (!context.X_WH.valid() || holding(context)) return;
   Aim& now = memory.aim;
@@ -201,13 +200,13 @@ void render_impedance(StepContext& context, const Impedance& law, CommonState& s
     const double back = object->stiffness * ball->firmness * std::max(0.0, ball->depth);
     wanted += normal * ((std::isnan(back) ? 0.0 : back) - normal.dot(wanted));
   }
-  context.wanted_force = Vec<'W'>(wanted);
+  context.law_force = Vec<'W'>(wanted);
 }
 
 namespace {
 
 // Gravity compensation, as a force of the tip [VisHap eq. 4, 5].
-Vec<'R'> against_gravity(const StepContext& context, const Impedance& law) {
+Vec<'R'> against_gravity(const ArmContext& context, const Impedance& law) {
   if (law.rig.gravity == GravityForm::none) return Vec<'R'>::zero();
   const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
   const PerJoint& q = context.in.arm.value.joints;
@@ -216,12 +215,12 @@ Vec<'R'> against_gravity(const StepContext& context, const Impedance& law) {
 
 // The law's force, as far as the machine can exert it. Gravity is compensated in full. Each motor adds what
 // it has left, and the force keeps its direction.
-Vec3 guarded(StepContext& context, const Impedance& law, const Heat& heat, const Vec3& force) {
+Vec3 guarded(ArmContext& context, const Impedance& law, const Heat& heat, const Vec3& force) {
   if (!force.allFinite()) {
     context.why |= kNotFinite;
     return Vec3::Zero();
   }
-  const PerJoint held = law.arm.torque(context.jacobian, context.arm_force);
+  const PerJoint held = law.arm.torque(context.jacobian, context.commanded_force);
   const PerJoint wanted = law.arm.torque(context.jacobian, context.scene.X_WR.inverse() * Vec<'W'>(force));
   MotorLimit limit = MotorLimit::none;
   double share = law.motors.share(heat, held, wanted, limit);
@@ -236,21 +235,22 @@ Vec3 guarded(StepContext& context, const Impedance& law, const Heat& heat, const
 
 }  // namespace
 
-void guard(StepContext& context, const Impedance& law, CommonState& state, ImpedanceState& memory) noexcept {
+void guard(ArmContext& context, const Impedance& law, CommonState& state, ImpedanceState& memory) noexcept {
   // Without a valid pose, command nothing. A withheld command does not heat the motors either.
   PerJoint torque{};
   if (context.X_WH.valid()) {
-    context.arm_force = against_gravity(context, law);
-    context.felt = Vec<'W'>::zero();
+    context.commanded_force = against_gravity(context, law);
+    context.force_unfiltered = Vec<'W'>::zero();
     const PassivityLimiter limiter(context, law, state, memory);  // between the law and the machine's limits
     if (!holding(context)) {
       const Vec3 pushed = guarded(context, law, memory.heat, limiter.wanted);
       limiter.held(context, memory, pushed);
-      context.felt = Vec<'W'>(Vec3(-pushed));
-      context.arm_force = context.arm_force + context.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
+      context.force_unfiltered = Vec<'W'>(Vec3(-pushed));
+      context.commanded_force =
+          context.commanded_force + context.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
     }
-    state.force = context.felt;
-    if (!context.in.withheld) torque = law.arm.torque(context.jacobian, context.arm_force);
+    state.force = context.force_unfiltered;
+    if (!context.in.withheld) torque = law.arm.torque(context.jacobian, context.commanded_force);
   }
   law.motors.warm(memory.heat, torque);
 }

@@ -2,14 +2,13 @@
 // Internal to the core.
 #pragma once
 
-#include "core/control/stages/step_context.h"
 #include "core/control/task/impedance/impedance_spec.h"
 #include "core/control/task/impedance/impedance_task.h"
 
 namespace enc::stages {
 
 // Null if there is no object.
-[[nodiscard]] inline const Object* nearest_object(const StepContext& context, const CommonState& state) {
+[[nodiscard]] inline const Object* nearest_object(const ArmContext& context, const CommonState& state) {
   return state.object < 0 ? nullptr : &context.scene.objects[static_cast<std::size_t>(state.object)];
 }
 
@@ -23,7 +22,7 @@ namespace enc::stages {
 }
 
 // The ball that the finger has struck; null if it struck no ball.
-[[nodiscard]] inline const MoverState* hit_now(const StepContext& context, const CommonState& state) {
+[[nodiscard]] inline const MoverState* hit_now(const ArmContext& context, const CommonState& state) {
   const Object* object = nearest_object(context, state);
   const bool hit = object != nullptr && object->interaction.kind == Interaction::hit;
   if (!hit || state.mode != Mode::contact) return nullptr;
@@ -37,9 +36,9 @@ struct Goal {
   bool predicted = false;  // True if the point is a predicted touch.
 };
 // Predicted touch of an approaching finger; unset: no touch is predicted, or the finger lies on the prop.
-[[nodiscard]] Goal predicted_touch(const StepContext& context, const CommonState& state,
+[[nodiscard]] Goal predicted_touch(const ArmContext& context, const CommonState& state,
                                    ImpedanceState& now) noexcept;
 // Point just above the predicted touch, by the last prediction; unset: no touch is predicted.
-[[nodiscard]] Point<'W'> comes_to(const StepContext& context, const ImpedanceState& now) noexcept;
+[[nodiscard]] Point<'W'> comes_to(const ArmContext& context, const ImpedanceState& now) noexcept;
 
 }  // namespace enc::stages

@@ -11,7 +11,7 @@ namespace enc::stages {
 namespace {
 
 // An arm's tip turns with its joints, but only its position is rendered, so H keeps the axes of R.
-void track_arm(StepContext& context, const Impedance& task, CommonState& state) {
+void track_arm(ArmContext& context, const Impedance& task, CommonState& state) {
   const Measurement<ArmSample>& sample = context.in.arm;
   if (sample.health == Health::absent || age(context.tick.t, sample.t) > task.rig.stale) {
     context.why |= kTipLost;
@@ -43,31 +43,32 @@ double driven(const Object& object, const Impedance& law, const Aim& now, const 
 
 }  // namespace
 
-void track(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept {
+void track(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept {
   track_arm(context, task, state);
-  track_tool(context, state, presses(state, now.contact));
+  track_tool(context, state, {.pressing = presses(state, now.contact)});
 }
 
 // An arm renders touch: any touched object precedes all untouched ones.
-void touch(StepContext& context, const Impedance&, CommonState& state, ImpedanceState& now) noexcept {
+void touch(ArmContext& context, const Impedance&, CommonState& state, ImpedanceState& now) noexcept {
   const bool touched = state.mode == Mode::contact, ahead = !touched && context.scene.follow.ahead > 0.0;
-  nearest_surface(context, state,
-                  {touched ? &now.contact : nullptr, true, ahead ? comes_to(context, now) : Point<'W'>()});
+  nearest_surface(
+      context, state,
+      {touched ? &now.contact : nullptr, true, ahead ? comes_to(context, now) : Point<'W'>(), context.moved});
 }
 
-void act(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept {
+void act(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept {
   aim(context, task, state, now);
   render_impedance(context, task, state, now);
 }
 
 // The arm measures no force: the finger feels the commanded force beyond gravity compensation.
-void report(const StepContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
+void report(const ArmContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
             Outputs& out) noexcept {
   const bool touched = state.mode == Mode::contact;
   report_common(context, state, touched ? Quat(now.contact.X_WN.q()) : rotation_z_to(context.normal.e()),
                 &now.contact, out);
   out.tip = Pose<'R', 'H'>();
-  out.arm_force = context.arm_force;
+  out.arm_force = context.commanded_force;
   out.wanted = now.aim.target;
   out.gain = now.aim.gain;
   const Object* object = nearest_object(context, state);

@@ -7,6 +7,7 @@
 
 #include "core/control/safety/following.h"
 #include "core/control/stages/common_state.h"
+#include "core/control/task/impedance/arm_context.h"
 #include "core/control/task/impedance/impedance.h"
 #include "core/control/task/impedance/passivity_control.h"
 #include "core/control/track/reach.h"
@@ -14,7 +15,6 @@
 namespace enc {
 
 struct Outputs;
-struct CommonState;
 
 // State of the control law (impedance.h).
 struct Aim {
@@ -59,6 +59,7 @@ struct ImpedanceState {
 
 struct ImpedanceTask : Impedance {
   using Memory = ImpedanceState;
+  using Context = stages::ArmContext;
 };
 
 template <class F>
@@ -103,17 +104,16 @@ void fields(F& f, ImpedanceState& m) {
 }
 
 namespace stages {
-struct StepContext;
-void track(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void touch(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void act(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void guard(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void report(const StepContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
+void track(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void touch(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void act(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void guard(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void report(const ArmContext& context, const Impedance& task, CommonState& state, const ImpedanceState& now,
             Outputs& out) noexcept;
 
 // The stages of act(): place the prop (aim); position in, force out (render_impedance).
-void aim(StepContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
-void render_impedance(StepContext& context, const Impedance& task, CommonState& state,
+void aim(ArmContext& context, const Impedance& task, CommonState& state, ImpedanceState& now) noexcept;
+void render_impedance(ArmContext& context, const Impedance& task, CommonState& state,
                       ImpedanceState& now) noexcept;
 }  // namespace stages
 

@@ -7,7 +7,6 @@
 #include "core/base/error.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
-#include "core/control/stages/step_context.h"
 
 namespace enc {
 
@@ -159,13 +158,13 @@ namespace {
 constexpr double kNear = 1e-6;
 
 // True if the set-point is at the programme's position.
-bool arrived(const StepContext& context, const IndentationState& now, const Point<'W'>& wanted) {
+bool arrived(const ManipulatorContext& context, const IndentationState& now, const Point<'W'>& wanted) {
   return (context.scene.X_WR * now.command - wanted).norm() <= kNear;
 }
 
 // The next phase, once the present one is over.
-ProbePhase next_phase(const StepContext& context, const IndentationTask& probe, const CommonState& state,
-                      const IndentationState& now) {
+ProbePhase next_phase(const ManipulatorContext& context, const IndentationTask& probe,
+                      const CommonState& state, const IndentationState& now) {
   const bool there = arrived(context, now, probe.at(now.deflection));
   switch (now.phase) {
     case ProbePhase::wait:
@@ -191,7 +190,8 @@ bool at_rest(const IndentationState& now) {
   return now.phase == ProbePhase::wait || now.phase == ProbePhase::rest || now.phase == ProbePhase::done;
 }
 
-void go_on(StepContext& context, const IndentationTask& probe, CommonState& state, IndentationState& now) {
+void go_on(ManipulatorContext& context, const IndentationTask& probe, CommonState& state,
+           IndentationState& now) {
   if (state.mode != Mode::probe) now.deflection = -probe.clear;  // the first tick
   state.mode = Mode::probe;
   now.elapsed += context.scene.dt;
@@ -210,7 +210,7 @@ void go_on(StepContext& context, const IndentationTask& probe, CommonState& stat
 }  // namespace
 
 // The machine's own probe replaces the tool.
-void touch(StepContext& context, const IndentationTask& probe, CommonState& state,
+void touch(ManipulatorContext& context, const IndentationTask& probe, CommonState& state,
            IndentationState&) noexcept {
   state.object = probe.object;
   if (!context.X_WH.valid()) return;
@@ -221,7 +221,7 @@ void touch(StepContext& context, const IndentationTask& probe, CommonState& stat
   context.gap = found.distance - context.scene.tip_radius;
 }
 
-void act(StepContext& context, const IndentationTask& probe, CommonState& state,
+void act(ManipulatorContext& context, const IndentationTask& probe, CommonState& state,
          IndentationState& now) noexcept {
   grip(context);
   sense(context, state, now, at_rest(now) && context.gap > context.scene.force.tare_clearance);
@@ -230,7 +230,7 @@ void act(StepContext& context, const IndentationTask& probe, CommonState& state,
 }
 
 // The object is real, so the end of the push is the only wall.
-void guard(StepContext& context, const IndentationTask& probe, CommonState& state,
+void guard(ManipulatorContext& context, const IndentationTask& probe, CommonState& state,
            IndentationState& now) noexcept {
   if (!state.started) return;
   Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
@@ -238,7 +238,7 @@ void guard(StepContext& context, const IndentationTask& probe, CommonState& stat
   limit_command(context, state, now, walls);
 }
 
-void report(const StepContext& context, const IndentationTask& probe, CommonState& state,
+void report(const ManipulatorContext& context, const IndentationTask& probe, CommonState& state,
             const IndentationState& now, Outputs& out) noexcept {
   report_common(context, state, probe.X_WN.q(), nullptr, out);
   report_displaced(context, now, out);

@@ -27,6 +27,7 @@ struct IndentationState : CommandState {
 
 struct IndentationTask : DisplacementTask {
   using Memory = IndentationState;
+  using Context = stages::ManipulatorContext;
   // The programme that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this
   // machine cannot do it: out of reach, an obstacle, no force sensor, too deep.
   [[nodiscard]] static std::optional<IndentationTask> asked(const SceneSpec& spec, const CommonScene& scene);
@@ -60,13 +61,13 @@ void fields(F& f, IndentationState& p) {
 }
 
 namespace stages {
-void touch(StepContext& context, const IndentationTask& task, CommonState& state,
+void touch(ManipulatorContext& context, const IndentationTask& task, CommonState& state,
            IndentationState& now) noexcept;
-void act(StepContext& context, const IndentationTask& task, CommonState& state,
+void act(ManipulatorContext& context, const IndentationTask& task, CommonState& state,
          IndentationState& now) noexcept;
-void guard(StepContext& context, const IndentationTask& task, CommonState& state,
+void guard(ManipulatorContext& context, const IndentationTask& task, CommonState& state,
            IndentationState& now) noexcept;
-void report(const StepContext& context, const IndentationTask& task, CommonState& state,
+void report(const ManipulatorContext& context, const IndentationTask& task, CommonState& state,
             const IndentationState& now, Outputs& out) noexcept;
 }  // namespace stages
 

@@ -97,7 +97,7 @@ namespace stages {
 
 namespace {
 
-void go_on(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) {
+void go_on(TrackingContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) {
   state.mode = Mode::travel;
   now.elapsed += context.scene.dt;
   const auto begin = [&](TravelPhase phase) {
@@ -121,11 +121,12 @@ void go_on(StepContext& context, const TrackingTask& travel, CommonState& state,
 
 // Moves to the pose that a procedure sends. The phase follows the motion, so that the force zero does not
 // change on the way.
-void go_where_sent(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) {
+void go_where_sent(TrackingContext& context, const TrackingTask& travel, CommonState& state,
+                   TrackingState& now) {
   state.mode = Mode::travel;
-  const bool may = context.carried->valid() && (!travel.tool_held || context.in.grip.value.holding);
+  const bool may = context.carry_target->valid() && (!travel.tool_held || context.in.grip.value.holding);
   now.phase = may ? TravelPhase::move : TravelPhase::wait;
-  context.target = may ? context.carried->origin() : context.scene.X_WR * now.command;
+  context.target = may ? context.carry_target->origin() : context.scene.X_WR * now.command;
 }
 
 // A straight leg has no sideways part, so each is a trapezoid of the leg's speed and the machine's whole
@@ -141,33 +142,35 @@ Walls walls_around(const TrackingTask& travel, const TrackingState& now) {
 
 }  // namespace
 
-void touch(StepContext&, const TrackingTask&, CommonState&, TrackingState&) noexcept {}  // nothing is touched
+void touch(TrackingContext&, const TrackingTask&, CommonState&, TrackingState&) noexcept {
+}  // nothing is touched
 
-void act(StepContext& context, const TrackingTask& travel, CommonState& state, TrackingState& now) noexcept {
+void act(TrackingContext& context, const TrackingTask& travel, CommonState& state,
+         TrackingState& now) noexcept {
   grip(context);
   sense(context, state, now, now.phase != TravelPhase::move);
   hold_lost(context, state, now);
   if (holding(context)) return;
-  context.carried != nullptr ? go_where_sent(context, travel, state, now)
-                             : go_on(context, travel, state, now);
+  context.carry_target != nullptr ? go_where_sent(context, travel, state, now)
+                                  : go_on(context, travel, state, now);
 }
 
-void guard(StepContext& context, const TrackingTask& travel, CommonState& state,
+void guard(TrackingContext& context, const TrackingTask& travel, CommonState& state,
            TrackingState& now) noexcept {
   if (state.started)
-    limit_command(context, state, now, context.carried != nullptr ? Walls{} : walls_around(travel, now));
+    limit_command(context, state, now, context.carry_target != nullptr ? Walls{} : walls_around(travel, now));
 }
 
-void report(const StepContext& context, const TrackingTask&, CommonState& state, const TrackingState& now,
+void report(const TrackingContext& context, const TrackingTask&, CommonState& state, const TrackingState& now,
             Outputs& out) noexcept {
   const Pose<'R', 'H'> sent = out.tip;
   report_common(context, state, rotation_z_to(context.normal.e()), nullptr, out);
   report_displaced(context, now, out);
-  if (context.carried == nullptr) return;
+  if (context.carry_target == nullptr) return;
   // The tip turns only while it may move; otherwise it keeps its rotation.
-  const bool goes = now.phase == TravelPhase::move && !holding(context) && context.carried->valid();
+  const bool goes = now.phase == TravelPhase::move && !holding(context) && context.carry_target->valid();
   if (goes)
-    out.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate() * context.carried->q(), now.command);
+    out.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate() * context.carry_target->q(), now.command);
   else if (sent.valid() && out.tip.valid())
     out.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
 }

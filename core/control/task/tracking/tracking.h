@@ -35,8 +35,17 @@ struct TrackingState : CommandState {
   std::int32_t leg = 0;  // index in TrackingTask::legs
 };
 
+namespace stages {
+struct TrackingContext : ManipulatorContext {
+  using ManipulatorContext::ManipulatorContext;
+  // Set by carry(): commanded pose of the machine with its tool; null: the next stop.
+  const Pose<'W', 'H'>* carry_target = nullptr;
+};
+}  // namespace stages
+
 struct TrackingTask : DisplacementTask {
   using Memory = TrackingState;
+  using Context = stages::TrackingContext;
   // The travel that the scene asks for, if any; `scene` is otherwise complete. Throws Error if this machine
   // cannot do the travel.
   [[nodiscard]] static std::optional<TrackingTask> asked(const SceneSpec& spec, const CommonScene& scene);
@@ -61,10 +70,12 @@ void fields(F& f, TrackingState& t) {
 }
 
 namespace stages {
-void touch(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
-void act(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
-void guard(StepContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
-void report(const StepContext& context, const TrackingTask& task, CommonState& state,
+void touch(TrackingContext& context, const TrackingTask& task, CommonState& state,
+           TrackingState& now) noexcept;
+void act(TrackingContext& context, const TrackingTask& task, CommonState& state, TrackingState& now) noexcept;
+void guard(TrackingContext& context, const TrackingTask& task, CommonState& state,
+           TrackingState& now) noexcept;
+void report(const TrackingContext& context, const TrackingTask& task, CommonState& state,
             const TrackingState& now, Outputs& out) noexcept;
 }  // namespace stages
 

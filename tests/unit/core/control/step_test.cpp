@@ -240,7 +240,7 @@ TEST(Contact, EveryLimitIsReached) {
         now.contact.object = 0;
         now.contact.X_WN = Pose<'W', 'N'>::identity();
         for (int i = 0; i < 3; ++i) {
-          stages::StepContext context(scene, tick, in);
+          stages::AdmittanceContext context(scene, tick, in);
           context.force = Vec<'W'>(0, 0, -1000.0);
           stages::model(context, task, state, now);
           EXPECT_TRUE(context.why & kAtLimit) << tenths << " of " << curve;
