@@ -31,7 +31,7 @@ int main() {
     const Pose<'F', 'W'> X_FW = (scene.X_WR * machine * scene.X_HF).inverse();
     in.wrench = {{X_FW * (push + weight), Vec<'F'>::zero()}, tick.t, Health::ok};
     step(scene, tick, in, state, out);
-    machine = out.tip;
+    machine = out.manipulator.tip;
     if (tick.index % 500 == 0)
       std::printf("%4d ms  %-8s gap %5.1f mm  deflection %4.2f mm  force %4.2f N\n", int(tick.index),
                   mode_name(out.mode).data(), 1e3 * out.gap, 1e3 * out.deflection, press);

@@ -72,11 +72,12 @@ bool Gate::sent(RoleId id, const Outputs& out) noexcept {
 
 void Gate::write(Rig& rig, const Outputs& out) noexcept {
   stopped_ = false;
-  if (rig.manipulator && out.tip.valid() && sent(RoleId::manipulator, out)) rig.manipulator->command(out.tip);
-  if (rig.arm && out.arm_force.finite() && sent(RoleId::arm, out)) rig.arm->command(out.arm_force);
-  if (rig.arm && open(RoleId::arm, out)) rig.arm->move_prop({out.prop_speed, out.prop_facing});
+  if (rig.manipulator && out.manipulator.tip.valid() && sent(RoleId::manipulator, out))
+    rig.manipulator->command(out.manipulator.tip);
+  if (rig.arm && out.arm.force.finite() && sent(RoleId::arm, out)) rig.arm->command(out.arm.force);
+  if (rig.arm && open(RoleId::arm, out)) rig.arm->move_prop({out.arm.prop_speed, out.arm.prop_facing});
   if (rig.display) rig.display->show(out.view);
-  if (rig.gripper && sent(RoleId::gripper, out)) rig.gripper->command(out.grip);
+  if (rig.gripper && sent(RoleId::gripper, out)) rig.gripper->command(out.manipulator.grip);
 }
 
 void Gate::stop(Rig& rig) noexcept {

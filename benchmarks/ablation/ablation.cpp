@@ -190,8 +190,8 @@ std::vector<Part> Form::idle(const Form& minimal) const {
 
 void Form::see(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
-  for (const Vec3 v : {truth.tip.e(), truth.tool_tip.e(), truth.contact_force.e(), glance.out.tip.p(),
-                       glance.out.force.e(), glance.out.arm_force.e()})
+  for (const Vec3 v : {truth.tip.e(), truth.tool_tip.e(), truth.contact_force.e(),
+                       glance.out.manipulator.tip.p(), glance.out.force.e(), glance.out.arm.force.e()})
     for (const double x : v) felt_.add(leaf_bits(x));
   felt_.add(leaf_bits(glance.out.mode));
   ++ticks_;

@@ -357,8 +357,8 @@ CaseResult saturated(const BenchContext& context) {
     wrong += full != held ? 1.0 : 0.0;
     held_for = held ? held_for + g.scene.dt : 0.0;
     constexpr double kBrakes = 0.125;  // s: from 50 mm/s at 0.41 m/s2
-    if (held_for > kBrakes) moved = std::max(moved, (g.out.tip.p() - before).norm());
-    before = g.out.tip.p();
+    if (held_for > kBrakes) moved = std::max(moved, (g.out.manipulator.tip.p() - before).norm());
+    before = g.out.manipulator.tip.p();
   });
   found.numbers = {{"wrong.value", wrong, "", exactly(0.0), "ticks with the one and not the other"},
                    {"full.value", ticks, "", at_least(500.0), "ticks at the range"},

@@ -136,7 +136,7 @@ CaseResult dropout(const BenchContext& context, bool arm, double length) {
   trial::TrialOptions options{.seed = context.seed, .seconds = 4.0};
   const Run run = judged(setup, options, [&](const trial::Glance& g) {
     const double t = time_of(g);
-    const Vec3 command = arm ? Vec3(g.out.wanted.e()) : Vec3(g.out.tip.p());
+    const Vec3 command = arm ? Vec3(g.out.arm.target.e()) : Vec3(g.out.manipulator.tip.p());
     if (t >= kAt && t <= kAt + std::min(length, kExtrapolated)) error = std::max(error, belief_error(g));
     if (t > kAt + lost + kStops && t < kAt + length)
       speed = std::max(speed, (command - before).norm() / g.scene.dt);

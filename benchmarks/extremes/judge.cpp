@@ -76,7 +76,7 @@ void Judge::judge_numbers(const trial::Glance& glance) {
 
 void Judge::judge_machine(const trial::Glance& glance) {
   const Reach& reach = glance.scene.reach;
-  const Pose<'R', 'H'>& tip = glance.out.tip;
+  const Pose<'R', 'H'>& tip = glance.out.manipulator.tip;
   if (!tip.valid()) {
     if (told_) wrong(glance, "the command is no pose");
     return;
@@ -100,7 +100,7 @@ void Judge::judge_machine(const trial::Glance& glance) {
 
 // The bound is gravity plus the sheet's peak force, and what the weight adds to that: both at the tip.
 void Judge::judge_arm(const trial::Glance& glance, const Impedance& law) {
-  const Vec<'R'>& told = glance.out.arm_force;
+  const Vec<'R'>& told = glance.out.arm.force;
   const Mat3 jacobian = law.arm.jacobian(glance.truth.joints);
   dexterity = std::min(dexterity, law.arm.dexterity(jacobian));
   if (!told.finite()) {  // all of it unset: no command

@@ -28,8 +28,8 @@ struct Nominal {
   void see(const trial::Glance& g) {
     if (g.out.view.tip.finite()) belief = std::max(belief, (g.out.view.tip - g.truth.tool_tip).norm());
     held += g.out.mode == Mode::hold ? 1 : 0;
-    if (!g.out.tip.valid()) return;  // an arm receives a force, not a pose
-    const Point<'W'> told = (g.scene.X_WR * g.out.tip).origin();
+    if (!g.out.manipulator.tip.valid()) return;  // an arm receives a force, not a pose
+    const Point<'W'> told = (g.scene.X_WR * g.out.manipulator.tip).origin();
     tip = std::max(tip, (told - g.truth.tip).norm());
   }
 };

@@ -352,7 +352,7 @@ PressTrace press_trace(const BenchContext& context, const std::string& scene, st
     trace.believed.push_back(-glance.out.gap);
     trace.force.push_back(force);
     trace.side.push_back(known ? (pushed + force * at.normal).norm() : 0.0);
-    trace.gain.push_back(glance.out.gain);
+    trace.gain.push_back(glance.out.arm.gain);
     trace.speed.push_back(glance.truth.tip_velocity.norm());
     trace.phase.push_back(glance.truth.phase);
     trace.contact.push_back(glance.out.mode == Mode::contact ? 1 : 0);

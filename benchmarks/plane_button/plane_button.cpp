@@ -105,7 +105,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
     const double now = seconds(glance.truth.t.time_since_epoch());
     leap.t.push_back(now - kWhen);
     leap.x.push_back((glance.truth.tip.e() - way.from).dot(way.along));
-    leap.target.push_back((glance.out.wanted.e() - way.from).dot(way.along));
+    leap.target.push_back((glance.out.arm.target.e() - way.from).dot(way.along));
     if (now < kEnd - 0.3) return;
     sum += std::pow(glance.truth.tip_velocity.norm(), 2);
     n += 1.0;

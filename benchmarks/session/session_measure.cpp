@@ -18,7 +18,7 @@ double time_of(const sim::Truth& truth) { return seconds(truth.t.time_since_epoc
 
 // Checks each set-point against the machine's limits of speed, acceleration and reach.
 void SessionMeasure::see_command(const trial::Glance& glance) {
-  const Point<'R'> command = glance.out.tip.origin();
+  const Point<'R'> command = glance.out.manipulator.tip.origin();
   if (command_.finite()) {
     const double dt = glance.scene.dt;
     const Vec3 velocity = (command - command_).e() / dt;
@@ -27,7 +27,7 @@ void SessionMeasure::see_command(const trial::Glance& glance) {
     constexpr double kRounding = 1e-6;  // rounding of a difference of set-points
     const bool within = velocity.norm() <= reach.speed * (1.0 + kRounding) &&
                         acceleration <= reach.acceleration * (1.0 + kRounding) &&
-                        reach.contains(glance.out.tip);
+                        reach.contains(glance.out.manipulator.tip);
     if (!within) ++beyond_;
     command_velocity_ = velocity;
   }

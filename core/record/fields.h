@@ -93,7 +93,7 @@ void fields(F& f, View& v) {
 }
 template <class F>
 void fields(F& f, Outputs& out) {
-  fields(f, "tip_X_RH", out.tip);
+  fields(f, "tip_X_RH", out.manipulator.tip);
   f("mode", out.mode);
   f("why", out.why);
   f("object", out.object);
@@ -104,12 +104,12 @@ void fields(F& f, Outputs& out) {
   f("deflection", out.deflection);
   fields(f, "first_touch_W", out.first_touch);
   fields(f, out.view);
-  fields(f, out.grip);
-  fields(f, "arm_force_R", out.arm_force);
-  fields(f, "wanted_W", out.wanted);
-  f("gain", out.gain);
-  f("prop_speed", out.prop_speed);
-  fields(f, "prop_facing_R", out.prop_facing);
+  fields(f, out.manipulator.grip);
+  fields(f, "arm_force_R", out.arm.force);
+  fields(f, "wanted_W", out.arm.target);
+  f("gain", out.arm.gain);
+  f("prop_speed", out.arm.prop_speed);
+  fields(f, "prop_facing_R", out.arm.prop_facing);
 }
 
 }  // namespace enc

@@ -98,11 +98,11 @@ inline void expect_same_commands(const std::string& one, const std::string& othe
   RecordedTick x, y;
   while (a.next(x) && b.next(y)) {
     ASSERT_EQ(x.out.mode, y.out.mode) << x.tick.index;
-    ASSERT_EQ(x.out.tip.valid(), y.out.tip.valid()) << x.tick.index;
-    if (!x.out.tip.valid()) continue;
+    ASSERT_EQ(x.out.manipulator.tip.valid(), y.out.manipulator.tip.valid()) << x.tick.index;
+    if (!x.out.manipulator.tip.valid()) continue;
     ++sent;
-    farthest = std::max(farthest, (x.out.tip.p() - y.out.tip.p()).norm());
-    turned = std::max(turned, x.out.tip.q().angularDistance(y.out.tip.q()));
+    farthest = std::max(farthest, (x.out.manipulator.tip.p() - y.out.manipulator.tip.p()).norm());
+    turned = std::max(turned, x.out.manipulator.tip.q().angularDistance(y.out.manipulator.tip.q()));
   }
   EXPECT_GT(sent, a.ticks() / 2);
   EXPECT_LT(farthest, 1e-12) << "the wire carries twelve digits of a millimetre";

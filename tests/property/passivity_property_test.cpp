@@ -40,7 +40,7 @@ class PushedMachine {
   void tick(double push) {  // N, downwards
     loop_.force = Vec<'W'>(0, 0, -push - noise_(random_));
     loop_.tick();
-    machine_.command(loop_.out.tip);
+    machine_.command(loop_.out.manipulator.tip);
     machine_.begin_cycle();
     machine_.move(1e-3);
   }

@@ -75,8 +75,9 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
     wander.move(loop);
     loop.tick();
     ++modes[static_cast<std::size_t>(loop.out.mode)];
-    ASSERT_TRUE(loop.out.tip.valid()) << "tick " << i;
-    ASSERT_TRUE(loop.scene.reach.contains(loop.out.tip)) << "tick " << i << " z " << loop.tip().xyz[2];
+    ASSERT_TRUE(loop.out.manipulator.tip.valid()) << "tick " << i;
+    ASSERT_TRUE(loop.scene.reach.contains(loop.out.manipulator.tip))
+        << "tick " << i << " z " << loop.tip().xyz[2];
     ASSERT_LE(loop.worst_speed, 1.0 + 1e-9) << "tick " << i;
     ASSERT_LE(loop.worst_acceleration, 1.0 + 1e-9) << "tick " << i;
     ASSERT_LE(loop.worst_outside, 50e-6) << "tick " << i;

@@ -123,14 +123,14 @@ Loop::Loop(Scene made) : scene(std::move(made)) {
   k.index = -1;
   k.dt = from_seconds(scene.dt);
   k.t = Time(-k.dt);
-  out.tip = scene.reach.machine.zero();
-  before_ = out.tip.p();
+  out.manipulator.tip = scene.reach.machine.zero();
+  before_ = out.manipulator.tip.p();
 }
 
 void Loop::sense() {
   in.missed = 0;
-  in.tip = {{out.tip, Vec<'R'>(velocity_), Vec<'R'>(acceleration_)}, k.t, Health::ok};
-  const Pose<'W', 'F'> X_WF = scene.X_WR * out.tip * scene.X_HF;
+  in.tip = {{out.manipulator.tip, Vec<'R'>(velocity_), Vec<'R'>(acceleration_)}, k.t, Health::ok};
+  const Pose<'W', 'F'> X_WF = scene.X_WR * out.manipulator.tip * scene.X_HF;
   const Vec<'W'> carried =
       scene.force.mass * (Vec<'W'>(0, 0, -9.80665) - scene.X_WR * Vec<'R'>(acceleration_));
   in.wrench = {{X_WF.inverse() * (force + carried) + force_zero, Vec<'F'>::zero()}, k.t, Health::ok};
@@ -154,17 +154,18 @@ const Outputs& Loop::tick(int n) {
 
 void Loop::judge() {
   if (!state.started) {
-    out.tip = scene.reach.machine.zero();  // without a command the machine stays in place
+    out.manipulator.tip = scene.reach.machine.zero();  // without a command the machine stays in place
     return;
   }
-  const Vec3 at = out.tip.p();
+  const Vec3 at = out.manipulator.tip.p();
   const Vec3 velocity = (at - before_) / scene.dt;
   acceleration_ = (velocity - velocity_) / scene.dt;
   velocity_ = velocity;
   before_ = at;
   worst_speed = std::max(worst_speed, velocity_.norm() / scene.reach.speed);
   worst_acceleration = std::max(worst_acceleration, acceleration_.norm() / scene.reach.acceleration);
-  always_reachable = always_reachable && out.tip.valid() && scene.reach.contains(out.tip);
+  always_reachable =
+      always_reachable && out.manipulator.tip.valid() && scene.reach.contains(out.manipulator.tip);
   if (out.object < 0 || !state.entered) return;
   const Object& object = scene.objects[static_cast<std::size_t>(out.object)];
   worst_outside = std::max(worst_outside,

@@ -36,14 +36,14 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
   LawAt at;
   const State& state = *glance.state;
   const ImpedanceState& now = recall<ImpedanceState>(state);
-  at.live = glance.out.mode != Mode::hold && glance.out.arm_force.finite() && now.aim.target.finite();
+  at.live = glance.out.mode != Mode::hold && glance.out.arm.force.finite() && now.aim.target.finite();
   if (!at.live) return at;
   const bool contact = state.mode == Mode::contact;
   at.object = state.object < 0 ? nullptr : &glance.scene.objects[static_cast<std::size_t>(state.object)];
   at.felt = contact && at.object != nullptr && at.object->stiffness > 0.0;
   at.real = at.object != nullptr && at.object->interaction.kind == Interaction::passive;
   at.hit = contact && at.object != nullptr && at.object->interaction.kind == Interaction::hit;
-  if (glance.out.prop_facing.finite()) at.normal = (glance.scene.X_WR * glance.out.prop_facing).e();
+  if (glance.out.arm.prop_facing.finite()) at.normal = (glance.scene.X_WR * glance.out.arm.prop_facing).e();
   at.target = now.aim.target.e();
   at.target_velocity = now.aim.velocity.e();
   at.gain = now.aim.gain;
@@ -222,7 +222,7 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
                                .e();
   now.held = ideal_force(now.law, now.tip);
   filter(glance, law, was, now);
-  now.given = turn * (glance.out.arm_force.e() - at.against_weight);
+  now.given = turn * (glance.out.arm.force.e() - at.against_weight);
   now.jacobian = turn * at.jacobian;  // the motors are commanded with this Jacobian
 }
 

@@ -113,11 +113,11 @@ void arm_fields(F& f, const std::vector<std::string>& joints, const std::vector<
   for (std::size_t i = 0; i < speeds.size(); ++i) f.number(speeds[i], "", arm.joint_velocities[i]);
   vector_field(f, "tip_m", "where the encoders say that the tip is, in R", arm.tip);
   vector_field(f, "tip_velocity_m_per_s", "in R", arm.velocity);
-  vector_field(f, "told_force_N", "that it is told to push with, in R; gravity included", out.arm_force);
-  vector_field(f, "wanted_m", "where its tip shall be, in W", out.wanted);
-  f.number("gain", "of its stiffness along the surface's normal; 1 in free space", out.gain);
-  f.number("prop_speed_m_per_s", "of a driven prop's surface against the prop", out.prop_speed);
-  vector_field(f, "prop_facing", "that the prop's front shall face, unit, in R", out.prop_facing);
+  vector_field(f, "told_force_N", "that it is told to push with, in R; gravity included", out.arm.force);
+  vector_field(f, "wanted_m", "where its tip shall be, in W", out.arm.target);
+  f.number("gain", "of its stiffness along the surface's normal; 1 in free space", out.arm.gain);
+  f.number("prop_speed_m_per_s", "of a driven prop's surface against the prop", out.arm.prop_speed);
+  vector_field(f, "prop_facing", "that the prop's front shall face, unit, in R", out.arm.prop_facing);
   f.text("health", "what the arm says of itself", word_if_any(in.arm.health));
   stamp_field(f, in.arm);
 }
@@ -278,7 +278,7 @@ void RecordMcap::add_channels() {
                    [&](auto& f) { arm_fields(f, joints_, joint_speeds_, any.in, any.out); });
   if (scene_.clamped_tool >= 0)
     gripper_ = channel("/gripper", "encounter.Gripper",
-                       [&](auto& f) { gripper_fields(f, any.in.grip, any.out.grip); });
+                       [&](auto& f) { gripper_fields(f, any.in.grip, any.out.manipulator.grip); });
   if (scene_.has_display)
     surface_ =
         channel("/surface", "encounter.Surface", [&](auto& f) { surface_fields(f, objects_, any.in.dent); });
@@ -316,12 +316,14 @@ void RecordMcap::add(const RecordedTick& frame) {
   }
   if (tip_ && is_known(in.tip.value.X_RH))
     say(*tip_, now, in.tip.t, [&](auto& f) { pose_fields(f, in.tip.t, in.tip.value.X_RH); });
-  if (command_ && is_known(out.tip)) say(*command_, now, now, [&](auto& f) { pose_fields(f, now, out.tip); });
+  if (command_ && is_known(out.manipulator.tip))
+    say(*command_, now, now, [&](auto& f) { pose_fields(f, now, out.manipulator.tip); });
   if (wrench_) say(*wrench_, now, stamp_or(in.wrench, now), [&](auto& f) { wrench_fields(f, in.wrench); });
   if (arm_)
     say(*arm_, now, stamp_or(in.arm, now), [&](auto& f) { arm_fields(f, joints_, joint_speeds_, in, out); });
   if (gripper_)
-    say(*gripper_, now, stamp_or(in.grip, now), [&](auto& f) { gripper_fields(f, in.grip, out.grip); });
+    say(*gripper_, now, stamp_or(in.grip, now),
+        [&](auto& f) { gripper_fields(f, in.grip, out.manipulator.grip); });
   if (surface_ && in.dent.health != Health::absent && in.dent.t != surface_t_) {
     surface_t_ = in.dent.t;
     say(*surface_, now, in.dent.t, [&](auto& f) { surface_fields(f, objects_, in.dent); });

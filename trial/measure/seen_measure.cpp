@@ -27,7 +27,7 @@ bool pushed(const Glance& glance, const Object& object, const Point<'W'>& prop, 
   constexpr double kBeside = 8e-3;  // m: farther, it is on its way elsewhere (kLeap in aim.cpp is 10 mm)
   if (object.interaction.kind != Interaction::slide && object.interaction.kind != Interaction::click)
     return false;
-  const Vec<'W'> way = prop - glance.out.wanted;
+  const Vec<'W'> way = prop - glance.out.arm.target;
   const double depth = -dot(way, normal);
   return depth > kDeep && (way + depth * normal).norm() < kBeside && -glance.out.force.xyz[2] > kForce;
 }
@@ -95,12 +95,12 @@ void SeenMeasure::remember(const Glance& glance) {
   now.t = glance.tick.t;
   const std::int32_t index = glance.out.object;
   const bool known = index >= 0 && glance.out.mode != Mode::hold && glance.in.arm.health == Health::ok &&
-                     glance.out.wanted.finite() && glance.out.force.finite();
+                     glance.out.arm.target.finite() && glance.out.force.finite();
   bool pushes = false;
   if (known) {
     const Object& object = glance.scene.objects[static_cast<std::size_t>(index)];
     now.prop = glance.scene.X_WR * glance.in.arm.value.tip;
-    now.normal = normal_at(object, glance.out.wanted);
+    now.normal = normal_at(object, glance.out.arm.target);
     pushes = index == object_ && pushed(glance, object, now.prop, now.normal);
   }
   object_ = index;

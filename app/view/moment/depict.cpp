@@ -201,7 +201,7 @@ void aim_at_hexapod(const Moment& m, bool close_up, sim::Camera& camera) {
   }
 }
 
-Point<'W'> hexapod_target(const Moment& m) { return (m.X_WR * m.out.tip).origin(); }
+Point<'W'> hexapod_target(const Moment& m) { return (m.X_WR * m.out.manipulator.tip).origin(); }
 
 // The hexapod carries 12 N.
 constexpr MachineLook kHexapodLook{.force_scale = 0.005,
@@ -268,7 +268,7 @@ constexpr MachineLook kArmLook{.force_scale = 0.015,
                                .add_parts = add_arm,
                                .add_labels = add_arm_labels,
                                .aim = aim_at_arm,
-                               .target = [](const Moment& m) { return m.out.wanted; }};
+                               .target = [](const Moment& m) { return m.out.arm.target; }};
 
 }  // namespace
 

@@ -87,8 +87,8 @@ void report_common(const StepContext& context, const CommonState& state, const Q
 
 void report_displaced(const StepContext& context, const CommandState& now, Outputs& out) noexcept {
   // Also in a hold: opening the jaws would drop the tool.
-  if (context.scene.clamped_tool >= 0) out.grip = {true, context.scene.grip_force};
-  out.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate(), now.command);
+  if (context.scene.clamped_tool >= 0) out.manipulator.grip = {true, context.scene.grip_force};
+  out.manipulator.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate(), now.command);
 }
 
 }  // namespace enc::stages

@@ -32,14 +32,15 @@ TEST(Extremes, TheJudgeObjectsToACommandOfAMachine) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judged("tennis_ball", [](Outputs&) {}).broken(), 0);
   for (const double x : {kUnset, kInf, 1e12})
-    EXPECT_GT(judged("tennis_ball", [&](Outputs& out) { out.tip.xyz[0] = x; }).broken(), 0) << x;
-  EXPECT_GT(judged("tennis_ball", [](Outputs& out) { out.tip.xyz[2] += 1e-6; }).broken(), 0);  // 1 m/s2
+    EXPECT_GT(judged("tennis_ball", [&](Outputs& out) { out.manipulator.tip.xyz[0] = x; }).broken(), 0) << x;
+  EXPECT_GT(judged("tennis_ball", [](Outputs& out) { out.manipulator.tip.xyz[2] += 1e-6; }).broken(),
+            0);  // 1 m/s2
   EXPECT_GT(judged("tennis_ball", [](Outputs& out) { out.deflection = -kInf; }).broken(), 0);
 }
 
 TEST(Extremes, TheJudgeObjectsToACommandOfAnArm) {
   EXPECT_EQ(judged("wall", [](Outputs&) {}).broken(), 0);
-  EXPECT_GT(judged("wall", [](Outputs& out) { out.arm_force.xyz[1] = kUnset; }).broken(), 0);
+  EXPECT_GT(judged("wall", [](Outputs& out) { out.arm.force.xyz[1] = kUnset; }).broken(), 0);
   // The judge allows one cycle above the peak, and counts it.
   const Judge once = judged("wall", [](Outputs& out) { out.felt = Vec<'W'>(0, 0, 9.0); });
   EXPECT_EQ(once.broken(), 0);

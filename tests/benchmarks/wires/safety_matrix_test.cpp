@@ -288,14 +288,15 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   const auto& plant = trial.world().machine->state();
   of.in = trial.outputs().mode;
   const Vec3 first = plant.pose.p();
-  Vec3 told = trial.outputs().tip.p();
+  Vec3 told = trial.outputs().manipulator.tip.p();
   fault.inject(wired);
   for (int i = 1; i <= kInjured; ++i) {
     const bool before = std::isinf(of.hold);
     if (before) of.speed = std::max(of.speed, plant.velocity.norm());
     if (!wired.tick()) break;
-    if (before) of.speed = std::max(of.speed, (trial.outputs().tip.p() - told).norm() / trial.scene().dt);
-    told = trial.outputs().tip.p();
+    if (before)
+      of.speed = std::max(of.speed, (trial.outputs().manipulator.tip.p() - told).norm() / trial.scene().dt);
+    told = trial.outputs().manipulator.tip.p();
     of.held = of.held || in(Mode::hold);
     if (in(Mode::hold) && std::isinf(of.hold)) {
       of.hold = i;

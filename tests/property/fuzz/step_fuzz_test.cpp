@@ -209,9 +209,9 @@ std::string Limits::judge(const Scene& scene, const State& state, const Outputs&
 
 std::string Limits::judge_machine(const Scene& scene, const State& state, const Outputs& out) {
   if (!state.started) return {};
-  if (!out.tip.valid()) return "the command is not a pose";
-  if (!scene.reach.contains(out.tip)) return "the command is out of reach";
-  const Vec3 at = out.tip.p();
+  if (!out.manipulator.tip.valid()) return "the command is not a pose";
+  if (!scene.reach.contains(out.manipulator.tip)) return "the command is out of reach";
+  const Vec3 at = out.manipulator.tip.p();
   if (!known_) before_ = at - scene.dt * recall<CommandState>(state).command_velocity.e();
   const Vec3 velocity = (at - before_) / scene.dt;
   const double change = (velocity - velocity_).norm() / scene.dt;
@@ -231,7 +231,7 @@ std::string Limits::judge_machine(const Scene& scene, const State& state, const 
 }
 
 std::string Limits::judge_arm(const Scene& scene, const State& state, const Outputs& out) {
-  if (!out.arm_force.finite()) return {};
+  if (!out.arm.force.finite()) return {};
   const ArmRig& rig = scene.impedance()->rig;
   if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
   const Vec3 velocity = recall<ImpedanceState>(state).aim.velocity.e(),
@@ -333,7 +333,7 @@ class World {
     if (scene_.impedance() && lags_ && recall<ImpedanceState>(state).aim.target.finite())
       (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<ImpedanceState>(state).aim.target,
                                             joints_);
-    if (!scene_.impedance() && state.started) sent_ = out.tip.p();
+    if (!scene_.impedance() && state.started) sent_ = out.manipulator.tip.p();
     ++k_.index;
     k_.t += k_.dt;
   }
@@ -359,7 +359,7 @@ class World {
           (recall<ImpedanceState>(state).aim.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() >
               6.5e-3 &&
           (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
-      off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
+      off_ = off && !held && out.arm.force.finite() ? off_ + scene_.dt : 0.0;
       return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";
     }
     const double most = 1e-3 + 2.0 * scene_.servo.lag * scene_.reach.speed;

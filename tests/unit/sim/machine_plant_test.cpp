@@ -338,8 +338,8 @@ TEST(ClampedTool, IsNotFollowed) {
   EXPECT_EQ(twin.out.mode, Mode::away);
   EXPECT_EQ(twin.out.contacts, 0);
   EXPECT_LT(twin.world->truth().tip.e().norm(), 5e-6);
-  EXPECT_TRUE(twin.out.grip.closed);
-  EXPECT_DOUBLE_EQ(twin.out.grip.force, 100.0);
+  EXPECT_TRUE(twin.out.manipulator.grip.closed);
+  EXPECT_DOUBLE_EQ(twin.out.manipulator.grip.force, 100.0);
   EXPECT_TRUE(twin.in.grip.value.holding);
 }
 
@@ -350,7 +350,7 @@ TEST(ClampedTool, AnEmptyGripperMeansHoldAndStaysClosed) {
   twin.run(20);
   EXPECT_EQ(twin.out.mode, Mode::hold);
   EXPECT_NE(twin.out.why & kToolNotHeld, 0U);
-  EXPECT_TRUE(twin.out.grip.closed);
+  EXPECT_TRUE(twin.out.manipulator.grip.closed);
 }
 
 TEST(ClampedTool, WithoutAGripperNothingIsBuiltOrWanted) {
@@ -358,7 +358,7 @@ TEST(ClampedTool, WithoutAGripperNothingIsBuiltOrWanted) {
   EXPECT_FALSE(twin.rig.gripper);
   EXPECT_FALSE(twin.world->gripper);
   twin.run(10);
-  EXPECT_FALSE(twin.out.grip.closed);
+  EXPECT_FALSE(twin.out.manipulator.grip.closed);
   EXPECT_EQ(twin.in.grip.health, Health::absent);
 }
 

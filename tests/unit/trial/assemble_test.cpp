@@ -280,7 +280,7 @@ TEST_F(Assemble, OnlyAnArmedMachineIsSentCommands) {
     made.armed = armed;
     made.law = [](const Scene& s, const Tick&, const Inputs&, State&, Outputs& out) {
       const Pose<'R', 'H'> zero = s.reach.machine.zero();
-      out.tip = {zero.q(), Vec3(zero.p() + Vec3(0, 0, 1e-3))};
+      out.manipulator.tip = {zero.q(), Vec3(zero.p() + Vec3(0, 0, 1e-3))};
     };
     Trial trial(shipped("rig_A", kSample), made);
     trial.run();

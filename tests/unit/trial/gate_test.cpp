@@ -245,13 +245,13 @@ TEST(Gate, AResumedMachineBeginsWhereItIs) {
   moved = seen.machine.linked = true;
   trial.resume();
   trial.tick();
-  EXPECT_LT((trial.outputs().tip.p() - trial.inputs().tip.value.X_RH.p()).norm(), 1e-6);
+  EXPECT_LT((trial.outputs().manipulator.tip.p() - trial.inputs().tip.value.X_RH.p()).norm(), 1e-6);
   const double most = trial.scene().reach.speed * trial.scene().dt * (1.0 + 1e-9);
-  Vec3 before = trial.outputs().tip.p();
+  Vec3 before = trial.outputs().manipulator.tip.p();
   for (int i = 0; i < 100; ++i) {
     trial.tick();
-    ASSERT_LE((trial.outputs().tip.p() - before).norm(), most);
-    before = trial.outputs().tip.p();
+    ASSERT_LE((trial.outputs().manipulator.tip.p() - before).norm(), most);
+    before = trial.outputs().manipulator.tip.p();
   }
 }
 
@@ -351,7 +351,7 @@ TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   Gate gate;
   Inputs in;
   Outputs out;
-  out.tip = rig.manipulator->reach().machine.zero();
+  out.manipulator.tip = rig.manipulator->reach().machine.zero();
   const auto sent = [&](Mode mode) {
     out.mode = mode;
     gate.mark(rig, Time{}, in);

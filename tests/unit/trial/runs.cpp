@@ -28,7 +28,7 @@ trial::TrialResult run(const models::Setup& setup, trial::TrialOptions options) 
 }
 
 void Onlooker::see(const trial::Glance& g) {
-  const Vec3 command = g.out.tip.p();
+  const Vec3 command = g.out.manipulator.tip.p();
   const double dt = g.scene.dt;
   const Vec3 velocity = ticks > 0 ? Vec3((command - command_) / dt) : Vec3::Zero();
   fastest = std::max(fastest, velocity.norm());

@@ -513,8 +513,8 @@ TEST(ShippedTiles, PushWithoutGaps) {
     Vec3 before = Vec3::Constant(kUnset);  // N
     double most = 0.0;
     while (trial.tick()) {
-      const bool contact = trial.outputs().mode == Mode::contact && trial.outputs().arm_force.finite();
-      const Vec3 now = contact ? Vec3(trial.outputs().arm_force.e()) : Vec3(Vec3::Constant(kUnset));
+      const bool contact = trial.outputs().mode == Mode::contact && trial.outputs().arm.force.finite();
+      const Vec3 now = contact ? Vec3(trial.outputs().arm.force.e()) : Vec3(Vec3::Constant(kUnset));
       if (now.allFinite() && before.allFinite()) most = std::max(most, (now - before).norm());
       before = now;
     }

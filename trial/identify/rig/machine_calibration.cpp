@@ -146,11 +146,11 @@ TrialOptions CarriedTool::with_law(TrialOptions options) {
   options.seconds = std::numeric_limits<double>::infinity();
   // The core limits the position to the reach, but not the rotation added to it.
   options.law = [this](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
-    const Pose<'R', 'H'> before = out.tip;
+    const Pose<'R', 'H'> before = out.manipulator.tip;
     carry(scene, tick, in, wanted_, state, out);
-    if (!out.tip.valid() || scene.reach.contains(out.tip)) return;
+    if (!out.manipulator.tip.valid() || scene.reach.contains(out.manipulator.tip)) return;
     out_of_reach_ = true;
-    out.tip = before;
+    out.manipulator.tip = before;
   };
   return options;
 }
@@ -213,7 +213,8 @@ void CarriedTool::begin() {
   const auto ready = [&] {
     const Inputs& in = trial_.inputs();
     return trial_.scene().X_WR.valid() && in.tip.health == Health::ok && in.tip.value.X_RH.valid() &&
-           trial_.outputs().tip.valid() && in.grip.value.holding && trial_.outputs().mode != Mode::hold;
+           trial_.outputs().manipulator.tip.valid() && in.grip.value.holding &&
+           trial_.outputs().mode != Mode::hold;
   };
   do {
     if (now_ - began > kClosing)
@@ -232,7 +233,7 @@ void CarriedTool::begin() {
                       turn.angularDistance(Quat::Identity()) * 180.0 / M_PI),
           {}, ErrorKind::device);
   } while (!ready());
-  wanted_ = trial_.scene().X_WR * trial_.outputs().tip;
+  wanted_ = trial_.scene().X_WR * trial_.outputs().manipulator.tip;
 }
 
 void CarriedTool::go(const Pose<'W', 'H'>& to) {

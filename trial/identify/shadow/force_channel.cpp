@@ -354,7 +354,8 @@ std::vector<Depth> depths(const Tape& tape) {
     Inputs in = frame.in;
     if (machine.known() && is_well(in.tip)) in.tip = {machine.said(), frame.tick.t, Health::ok};
     step(tape.scene, frame.tick, in, state, outputs);
-    if (machine.known() && was_sent(frame) && outputs.tip.valid()) machine.command(outputs.tip);
+    if (machine.known() && was_sent(frame) && outputs.manipulator.tip.valid())
+      machine.command(outputs.manipulator.tip);
     const Contact& contact = contact_of(state);
     const bool both = outputs.mode == Mode::contact && frame.out.mode == Mode::contact &&
                       outputs.contacts == frame.out.contacts && contact.anchored && !contact.below &&

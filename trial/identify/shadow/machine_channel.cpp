@@ -98,7 +98,7 @@ Ways ways_of(const Tape& tape) {
     const Vec3 place = twin.known() ? Vec3(twin.said().X_RH.p()) : Vec3(Vec3::Constant(kUnset));
     at.resize(static_cast<std::size_t>(frame.tick.index - tape.first), Vec3::Constant(kUnset));
     at.push_back(place);
-    if (was_sent(frame)) twin.command(frame.out.tip);
+    if (was_sent(frame)) twin.command(frame.out.manipulator.tip);
     if (is_well(frame.in.tip) && frame.in.tip.t > newest) {
       newest = frame.in.tip.t;
       said.push_back({in_seconds(newest), frame.in.tip.value.X_RH.p()});

@@ -29,7 +29,7 @@ bool is_well(const Measurement<TipSample>& tip) {
 }
 
 bool was_sent(const RecordedTick& frame) {
-  return !frame.in.withheld && frame.out.tip.valid() && frame.in.tip.health != Health::fault &&
+  return !frame.in.withheld && frame.out.manipulator.tip.valid() && frame.in.tip.health != Health::fault &&
          frame.in.tip.health != Health::absent;
 }
 

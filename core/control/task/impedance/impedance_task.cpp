@@ -67,16 +67,16 @@ void report(const ArmContext& context, const Impedance& task, CommonState& state
   const bool touched = state.mode == Mode::contact;
   report_common(context, state, touched ? Quat(now.contact.X_WN.q()) : rotation_z_to(context.normal.e()),
                 &now.contact, out);
-  out.tip = Pose<'R', 'H'>();
-  out.arm_force = context.commanded_force;
-  out.wanted = now.aim.target;
-  out.gain = now.aim.gain;
+  out.manipulator.tip = Pose<'R', 'H'>();
+  out.arm.force = context.commanded_force;
+  out.arm.target = now.aim.target;
+  out.arm.gain = now.aim.gain;
   const Object* object = nearest_object(context, state);
   const bool near = !holding(context) && object != nullptr && (state.mode == Mode::follow || touched);
-  out.prop_speed =
+  out.arm.prop_speed =
       near ? driven(*object, task, now.aim, touched ? context.target_change : Vec3::Zero()) : 0.0;
   const Vec<'W'> facing = touched ? now.contact.X_WN * Vec<'N'>(0, 0, 1) : context.normal;
-  out.prop_facing = near && facing.finite() ? context.scene.X_WR.inverse() * facing : Vec<'R'>();
+  out.arm.prop_facing = near && facing.finite() ? context.scene.X_WR.inverse() * facing : Vec<'R'>();
   out.deflection = touched && context.gap < 0.0 ? -context.gap : 0.0;
   out.first_touch =
       touched ? now.contact.X_WN * Point<'N'>(0, 0, -context.scene.tip_radius - kSkin) : Point<'W'>();

@@ -163,16 +163,17 @@ void guard(TrackingContext& context, const TrackingTask& travel, CommonState& st
 
 void report(const TrackingContext& context, const TrackingTask&, CommonState& state, const TrackingState& now,
             Outputs& out) noexcept {
-  const Pose<'R', 'H'> sent = out.tip;
+  const Pose<'R', 'H'> sent = out.manipulator.tip;
   report_common(context, state, rotation_z_to(context.normal.e()), nullptr, out);
   report_displaced(context, now, out);
   if (context.carry_target == nullptr) return;
   // The tip turns only while it may move; otherwise it keeps its rotation.
   const bool goes = now.phase == TravelPhase::move && !holding(context) && context.carry_target->valid();
   if (goes)
-    out.tip = Pose<'R', 'H'>(context.scene.X_WR.q().conjugate() * context.carry_target->q(), now.command);
-  else if (sent.valid() && out.tip.valid())
-    out.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
+    out.manipulator.tip =
+        Pose<'R', 'H'>(context.scene.X_WR.q().conjugate() * context.carry_target->q(), now.command);
+  else if (sent.valid() && out.manipulator.tip.valid())
+    out.manipulator.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
 }
 
 }  // namespace stages

@@ -42,7 +42,7 @@ void expect_hold(Loop& loop, std::uint32_t why, const std::string& name,
   loop.tick();
   EXPECT_EQ(loop.out.mode, Mode::hold) << name << ": " << why_text(loop.out.why);
   EXPECT_EQ(loop.out.why & why, why) << name << ": " << why_text(loop.out.why);
-  EXPECT_TRUE(loop.out.tip.valid()) << name;
+  EXPECT_TRUE(loop.out.manipulator.tip.valid()) << name;
   loop.spoil = good;
   loop.tick();
   EXPECT_EQ(loop.out.mode, before) << name << " did not recover: " << why_text(loop.out.why);
@@ -107,7 +107,8 @@ TEST(Hold, WhenTheGripperLosesItsToolOrSaysNothing) {
   to_contact(loop);
   const auto expect = [&](const std::function<void(Measurement<GripSample>&)>& spoil, const char* name) {
     expect_hold(loop, kToolNotHeld, name, [&](Inputs& in) { spoil(in.grip); });
-    EXPECT_TRUE(loop.out.grip.closed) << name;  // also in hold: an open gripper would drop the tool
+    EXPECT_TRUE(loop.out.manipulator.grip.closed)
+        << name;  // also in hold: an open gripper would drop the tool
   };
   expect([](auto& s) { s.value.holding = false; }, "empty");
   expect([](auto& s) { s.health = Health::fault; }, "fault");
@@ -274,7 +275,7 @@ TEST(Hold, NothingIsSaidToAMachineThatNeverAnswered) {
   Outputs out;
   State state;
   step(loop.scene, loop.k, loop.in, state, out);
-  EXPECT_FALSE(out.tip.valid());
+  EXPECT_FALSE(out.manipulator.tip.valid());
 }
 
 }  // namespace

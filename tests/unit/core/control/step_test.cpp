@@ -415,11 +415,11 @@ TEST(State, AStateHasTheMemoryOfItsScenesTask) {
 TEST(State, OfAnotherTaskBeginsAnew) {
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
   loop.tick(500);
-  EXPECT_TRUE(loop.state.started && loop.out.tip.valid());
+  EXPECT_TRUE(loop.state.started && loop.out.manipulator.tip.valid());
   loop.state.task.emplace<IndentationState>().phase = ProbePhase::push;
   loop.tick();
   EXPECT_TRUE(std::holds_alternative<AdmittanceState>(loop.state.task));
-  EXPECT_TRUE(loop.out.tip.valid()) << "it begins where the machine is";
+  EXPECT_TRUE(loop.out.manipulator.tip.valid()) << "it begins where the machine is";
 }
 
 TEST(State, ABallsSceneRemembersItsPart) {

@@ -377,7 +377,7 @@ TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
   const models::Setup setup = ball_setup();
   std::vector<RecordedTick> ticks = ticks_of(setup, 40);
   ticks[7].in.wrench.value.force = Vec<'F'>(0.1, -2e-17, 1e300);
-  ticks[12].in.tip.value.X_RH = ticks[13].out.tip = kTurned;
+  ticks[12].in.tip.value.X_RH = ticks[13].out.manipulator.tip = kTurned;
   const ReadMcap read = exported(setup, ticks);
   for (const char* topic : {"/core", "/tip", "/command", "/wrench"}) {
     const std::vector<ReadMessage>& messages = read.topics.at(topic);
@@ -392,7 +392,7 @@ TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
   EXPECT_EQ(force.at("z").get<double>(), 1e300);
   expect_pose(read.topics.at("/tip")[9].json, "R", ticks[9].in.tip.value.X_RH);
   expect_pose(read.topics.at("/tip")[12].json, "R", kTurned);
-  expect_pose(read.topics.at("/command")[9].json, "R", ticks[9].out.tip);
+  expect_pose(read.topics.at("/command")[9].json, "R", ticks[9].out.manipulator.tip);
   expect_pose(read.topics.at("/command")[13].json, "R", kTurned);
   expect_pose(read.topics.at("/tool")[0].json, "C", ticks[0].in.tool.value.X_CT);
   const Json& core = read.topics.at("/core")[9].json;

@@ -52,7 +52,7 @@ TEST(Touch, WhereTheSearchBeginsChangesNothing) {
     cold.tick();
     ASSERT_EQ(warm.out.gap, cold.out.gap) << k;
     ASSERT_EQ(warm.out.object, cold.out.object) << k;
-    ASSERT_EQ(warm.out.tip.xyz, cold.out.tip.xyz) << k;
+    ASSERT_EQ(warm.out.manipulator.tip.xyz, cold.out.manipulator.tip.xyz) << k;
   }
   EXPECT_GE(warm.state.hints.tool[0].feature, 0);
 }

@@ -37,13 +37,13 @@ struct TrackingLoop {
     const bool holds = ticks++ >= from;
     in.grip = {{holds ? GripPhase::closed : phase, 0.006, 100.0, holds}, tick.t, Health::ok};
     in.wrench = {{Vec<'F'>(0, 0, -9), Vec<'F'>::zero()}, tick.t, Health::ok};
-    in.tip.value.X_RH = out.tip.valid() ? out.tip : loop.reach.machine.zero();
+    in.tip.value.X_RH = out.manipulator.tip.valid() ? out.manipulator.tip : loop.reach.machine.zero();
     in.tip.value.velocity = in.tip.value.acceleration = Vec<'R'>::zero();
     in.tip.t = tick.t;
     in.tip.health = Health::ok;
     carry(loop, tick, in, to, state, out);
   }
-  [[nodiscard]] Pose<'W', 'H'> at() const { return loop.X_WR * out.tip; }
+  [[nodiscard]] Pose<'W', 'H'> at() const { return loop.X_WR * out.manipulator.tip; }
   Scene loop;
   Tick tick;
   Inputs in;
@@ -115,7 +115,7 @@ TEST(Carry, ToolThatIsLostHoldsTheMachine) {
   const Vec3 stood = sent.at().p();
   for (int i = 0; i < 100; ++i) sent.next(kTo);
   EXPECT_LT((sent.at().p() - stood).norm(), 1e-9);
-  EXPECT_TRUE(sent.out.grip.closed);
+  EXPECT_TRUE(sent.out.manipulator.grip.closed);
 }
 
 // The travel programme, driven by hand with a machine that is always at its commanded place.

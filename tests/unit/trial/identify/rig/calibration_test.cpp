@@ -138,9 +138,9 @@ TEST(CarriedTool, TurnsSlowlyAndWithoutALeap) {
   Quat before = Quat::Identity();
   double fastest = 0.0, slowest_change = 0.0, speed = 0.0;
   options.watch = [&](const Glance& glance) {
-    if (!glance.out.tip.valid()) return;
-    const double now = glance.out.tip.q().angularDistance(before) / 1e-3;
-    before = Quat(glance.out.tip.q());
+    if (!glance.out.manipulator.tip.valid()) return;
+    const double now = glance.out.manipulator.tip.q().angularDistance(before) / 1e-3;
+    before = Quat(glance.out.manipulator.tip.q());
     fastest = std::max(fastest, now);
     slowest_change = std::max(slowest_change, std::abs(now - speed));
     speed = now;
@@ -159,11 +159,11 @@ TEST(CarriedTool, GoesAndTurnsAsSlowlyAsItsRig) {
   Pose<'R', 'H'> before;
   double turning = 0.0, speed = 0.0;
   options.watch = [&](const Glance& glance) {
-    if (glance.out.tip.valid() && before.valid()) {
-      turning = std::max(turning, glance.out.tip.q().angularDistance(before.q()) / 1e-3);
-      speed = std::max(speed, (glance.out.tip.p() - before.p()).norm() / 1e-3);
+    if (glance.out.manipulator.tip.valid() && before.valid()) {
+      turning = std::max(turning, glance.out.manipulator.tip.q().angularDistance(before.q()) / 1e-3);
+      speed = std::max(speed, (glance.out.manipulator.tip.p() - before.p()).norm() / 1e-3);
     }
-    before = glance.out.tip;
+    before = glance.out.manipulator.tip;
   };
   CarriedTool tool(clamped({"rig.manipulator.speed_mm_s=5"}), options);
   tool.go(kAside);
@@ -352,13 +352,13 @@ TEST(Guide, TheTargetGoesWhereItIsSentWithinItsLimits) {
   for (int i = 0; i < 1000; ++i) {
     core.next();
     guide(core.scene, core.tick, core.in, kPlace, core.state, core.out);
-    const Vec3 velocity = (core.out.wanted.e() - before) / core.scene.dt;
+    const Vec3 velocity = (core.out.arm.target.e() - before) / core.scene.dt;
     EXPECT_LE(velocity.norm(), rig.speed * 1.001);
     EXPECT_LE((velocity - speed).norm() / core.scene.dt, rig.acceleration * 1.001);
-    before = core.out.wanted.e();
+    before = core.out.arm.target.e();
     speed = velocity;
   }
-  EXPECT_LT((core.out.wanted - kPlace).norm(), 1e-6);
+  EXPECT_LT((core.out.arm.target - kPlace).norm(), 1e-6);
   EXPECT_EQ(core.out.mode, Mode::away);
 }
 
@@ -370,9 +370,9 @@ TEST(Guide, WhoIsSentNowhereWaitsAsStepDoes) {
     guide(guided.scene, guided.tick, guided.in, Point<'W'>(), guided.state, guided.out);
     step(stepped.scene, stepped.tick, stepped.in, stepped.state, stepped.out);
   }
-  EXPECT_EQ(guided.out.arm_force.xyz, stepped.out.arm_force.xyz);
-  EXPECT_EQ(guided.out.wanted.xyz, stepped.out.wanted.xyz);
-  EXPECT_LT(guided.out.wanted.e().norm(), 1e-12);
+  EXPECT_EQ(guided.out.arm.force.xyz, stepped.out.arm.force.xyz);
+  EXPECT_EQ(guided.out.arm.target.xyz, stepped.out.arm.target.xyz);
+  EXPECT_LT(guided.out.arm.target.e().norm(), 1e-12);
 }
 
 TEST(DrivenArm, RestsWhereItIsSent) {

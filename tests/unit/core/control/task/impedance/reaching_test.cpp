@@ -40,9 +40,9 @@ TEST(Reaching, AwayFollowContact) {
 TEST(Reaching, FarAwayTheTargetStandsStill) {
   Bench bench("wall");
   bench.at(-0.150, 100);
-  const Point<'W'> before = bench.loop.out.wanted;
+  const Point<'W'> before = bench.loop.out.arm.target;
   bench.at(-0.150, 100, 0.050);
-  EXPECT_EQ((bench.loop.out.wanted - before).norm(), 0.0);
+  EXPECT_EQ((bench.loop.out.arm.target - before).norm(), 0.0);
 }
 
 TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
@@ -50,9 +50,9 @@ TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
   bench.at(-0.050, 10);
   const ArmRig& rig = bench.loop.scene.impedance()->rig;
   const double dt = bench.loop.scene.dt;
-  Vec3 before = bench.loop.out.wanted.e(), speed = Vec3::Zero();
+  Vec3 before = bench.loop.out.arm.target.e(), speed = Vec3::Zero();
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 now = bench.at(-0.050, 1, 0.030).wanted.e();
+    const Vec3 now = bench.at(-0.050, 1, 0.030).arm.target.e();
     const Vec3 velocity = (now - before) / dt;
     EXPECT_LE(velocity.norm(), rig.speed * 1.001);
     EXPECT_LE((velocity - speed).norm() / dt, rig.acceleration * 1.001) << i;
@@ -74,7 +74,7 @@ Point<'W'> sent_to(const char* foresight, double gap) {
   };  // at 0.5 s
   for (int i = 0; finger(0.001 * i).xyz[2] - 0.008 > gap; ++i)
     i % 50 == 0 ? bench.loop.see(finger(0.001 * (i - 50)), std::chrono::milliseconds(50)) : bench.loop.tick();
-  return bench.loop.out.wanted;
+  return bench.loop.out.arm.target;
 }
 
 TEST(Reaching, TheTargetWaitsWhereTheFingerWillTouch) {
@@ -87,10 +87,10 @@ TEST(Reaching, TheTargetWaitsWhereTheFingerWillTouch) {
 TEST(Reaching, ThePropFacesTheSurfaceThatIsBelievedToBeMet) {
   Bench bench("reaching");
   for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.030, 0.060, 0.060));  // beside the left ball
-  const Vec3 facing = (bench.loop.scene.X_WR * bench.loop.out.prop_facing).e();
+  const Vec3 facing = (bench.loop.scene.X_WR * bench.loop.out.arm.prop_facing).e();
   EXPECT_LT((facing - Vec3(0.030, 0.0, 0.070).normalized()).norm(), 1e-6);
   for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.0, 0.0, 0.400));
-  EXPECT_FALSE(bench.loop.out.prop_facing.finite());  // away: it stays as it is
+  EXPECT_FALSE(bench.loop.out.arm.prop_facing.finite());  // away: it stays as it is
 }
 
 // A block with a groove replaces the wall, and the finger goes through the groove. From the right wall the
@@ -157,7 +157,7 @@ TEST(Reaching, AWallIsASpringOfLambdaKp) {
     bench.press_tip(depth);
     bench.at(depth, 500);
     EXPECT_NEAR(bench.pushed(), 600.0 * depth, 1e-3) << depth;
-    EXPECT_NEAR(bench.loop.out.gain, 2.0, 1e-12);
+    EXPECT_NEAR(bench.loop.out.arm.gain, 2.0, 1e-12);
   }
 }
 
@@ -238,10 +238,10 @@ TEST(Reaching, AHoldLeavesGravityAloneAndRecovers) {
   bench.loop.in.arm.value.velocity = Vec<'R'>(kUnset, 0, 0);
   EXPECT_EQ(bench.at(0.005).mode, Mode::hold);
   EXPECT_TRUE((bench.loop.out.why & kTipInvalid) != 0);
-  EXPECT_TRUE(!bench.loop.out.arm_force.finite() || bench.loop.out.arm_force.norm() < 2.0);
+  EXPECT_TRUE(!bench.loop.out.arm.force.finite() || bench.loop.out.arm.force.norm() < 2.0);
   bench.loop.in.arm.value = good;
   EXPECT_EQ(bench.at(0.005).mode, Mode::contact);
-  EXPECT_TRUE(bench.loop.out.arm_force.finite());
+  EXPECT_TRUE(bench.loop.out.arm.force.finite());
   EXPECT_NEAR(bench.pushed(), before, 0.05);  // one bad sample is a tick without data, not a kick
 }
 
@@ -260,7 +260,7 @@ TEST(Reaching, AFingerLostPushesNoLonger) {
   }
   EXPECT_EQ(bench.loop.out.mode, Mode::hold);
   EXPECT_TRUE((bench.loop.out.why & kToolLost) != 0);
-  EXPECT_LT((bench.loop.out.arm_force - weight(bench)).norm(), 1e-12);
+  EXPECT_LT((bench.loop.out.arm.force - weight(bench)).norm(), 1e-12);
 }
 
 TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
@@ -271,7 +271,7 @@ TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
   // Each motor has its own peak; here the second is the first to reach it.
   const Impedance& law = *bench.loop.scene.impedance();
   const PerJoint torque =
-      law.arm.torque(law.arm.jacobian(bench.loop.in.arm.value.joints), bench.loop.out.arm_force);
+      law.arm.torque(law.arm.jacobian(bench.loop.in.arm.value.joints), bench.loop.out.arm.force);
   EXPECT_NEAR(std::abs(torque[1]), 0.129 * 7.47, 1e-9);
   EXPECT_LT(bench.loop.out.felt.norm(), 8.5);
   EXPECT_TRUE((bench.loop.out.why & kOverload) != 0);
@@ -290,7 +290,7 @@ TEST(Reaching, AfterALossItBeginsWhereItIs) {
   bench.press_tip(0.070);
   bench.at(-0.050);
   EXPECT_LT(bench.loop.out.felt.norm(), 2.0);  // it starts with 15 m/s2; thrown back it would be 8.5 N
-  EXPECT_LT((bench.loop.out.wanted - Point<'W'>(0, 0, -0.070)).norm(), 1e-3);
+  EXPECT_LT((bench.loop.out.arm.target - Point<'W'>(0, 0, -0.070)).norm(), 1e-3);
 }
 
 // One missed reading is no loss: the press continues.
@@ -319,7 +319,7 @@ TEST(Reaching, TheChangeToTheBottomBoardDoesNotLeapInForce) {
     bench.at(depth);
     most = std::max(most, std::abs(bench.pushed() - last));
     last = bench.pushed();
-    greatest_gain = std::max(greatest_gain, bench.loop.out.gain);
+    greatest_gain = std::max(greatest_gain, bench.loop.out.arm.gain);
   }
   EXPECT_NEAR(greatest_gain, 600.0 / 300.0, 1e-6);  // the floor's stiffness over K_p: it is on the board
   EXPECT_LT(most, 0.2);
@@ -336,8 +336,8 @@ TEST(Reaching, TheTargetOverABallStaysUnderTheFinger) {
     if (i < 800) continue;
     const Point<'W'> middle(0, -0.060, -0.010);
     const Vec3 way = (finger - middle).e();
-    most =
-        std::max(most, (bench.loop.out.wanted - (middle + Vec<'W'>(Vec3(0.020 * way.normalized())))).norm());
+    most = std::max(most,
+                    (bench.loop.out.arm.target - (middle + Vec<'W'>(Vec3(0.020 * way.normalized())))).norm());
   }
   EXPECT_LT(most, 0.5e-3);
 }
@@ -345,10 +345,10 @@ TEST(Reaching, TheTargetOverABallStaysUnderTheFinger) {
 // The prop of a drum moves along with the finger: its belt is slower by that speed.
 TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   Bench bench("drum");
-  EXPECT_EQ(bench.at(-0.150, 10).prop_speed, 0.0);
+  EXPECT_EQ(bench.at(-0.150, 10).arm.prop_speed, 0.0);
   double fastest = 0.0;  // speed of the target on its way; the belt removes the rest on arrival
   for (int i = 0; i < 500; ++i) {
-    EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
+    EXPECT_NEAR(bench.at(-0.020, 1, 0.020).arm.prop_speed, 0.050, 0.060) << i;
     fastest = std::max(fastest, recall<ImpedanceState>(bench.loop.state).aim.velocity.norm());
   }
   EXPECT_GT(fastest, 0.100);
@@ -357,12 +357,12 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   // not felt.
   for (int i = 0; i < 300; ++i) bench.at(0.001, 1, x -= 60e-6);
   for (int i = 0; i < 700; ++i) bench.at(0.001, 1, x += 30e-6);  // 30 mm/s
-  EXPECT_NEAR(bench.loop.out.prop_speed, 0.020, 1e-4);
+  EXPECT_NEAR(bench.loop.out.arm.prop_speed, 0.020, 1e-4);
   for (int i = 0; i < 700; ++i) bench.at(0.001, 1, x -= 30e-6);
-  EXPECT_NEAR(bench.loop.out.prop_speed, 0.080, 1e-4);
-  EXPECT_NEAR(bench.at(0.001, 700, x).prop_speed, 0.050, 1e-4);
+  EXPECT_NEAR(bench.loop.out.arm.prop_speed, 0.080, 1e-4);
+  EXPECT_NEAR(bench.at(0.001, 700, x).arm.prop_speed, 0.050, 1e-4);
   Bench plate("drum", {"prop.kind=\"plate\""});
-  EXPECT_EQ(plate.at(-0.020, 500).prop_speed, 0.0);  // it cannot run
+  EXPECT_EQ(plate.at(-0.020, 500).arm.prop_speed, 0.0);  // it cannot run
 }
 
 // The target moves fast from key to key only without a touch: a touched key stays the target.
@@ -414,7 +414,7 @@ ReachTrace meet(const ApproachingFinger& finger, double until, const std::vector
     double& most = now.hurried ? gone.hurried : gone.without;
     most = std::max(most, change);
   }
-  gone.wanted = bench.loop.out.wanted;
+  gone.wanted = bench.loop.out.arm.target;
   gone.predicted_way = (gone.wanted.e() - finger.at(until).e()).head<2>().norm();
   return gone;
 }
@@ -446,7 +446,7 @@ double sent_x(const std::function<double(int)>& vague) {
     seen.along = seen.across = noise;
     bench.loop.go();
   }
-  return bench.loop.out.wanted.xyz[0];
+  return bench.loop.out.arm.target.xyz[0];
 }
 double sent_x(double even, double odd) {
   return sent_x([&](int i) { return i % 2 == 0 ? even : odd; });
