@@ -14,7 +14,7 @@ int main(int count, char** words) {
   const enc::models::Setup setup = enc::models::setup_of(record.texts(), words[1]);
   const enc::Scene scene = enc::trial::prepare_setup(setup);
   double peak = 0.0;
-  for (enc::RecordedTick frame; record.next(frame);) peak = std::max(peak, frame.out.felt.norm());
+  for (enc::RecordedTick frame; record.next(frame);) peak = std::max(peak, frame.out.force_unfiltered.norm());
   record.rewind();
   const enc::ReplayResult again = enc::replay(scene, record);
   std::printf("%lld ticks, peak force %.1f N, state hash %016llx\n", static_cast<long long>(again.ticks),

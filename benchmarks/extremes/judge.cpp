@@ -112,8 +112,8 @@ void Judge::judge_arm(const trial::Glance& glance, const Impedance& law) {
   constexpr double kRounding = 0.05;  // N: the weight at the encoders' joints
   const double weight =
       law.arm.force(jacobian, law.arm.gravity(glance.truth.joints, law.prop_mass, Payload::exact)).norm();
-  force = std::max(force, glance.out.felt.norm());
-  const bool above = !(glance.out.felt.norm() <= law.rig.peak * (1.0 + 1e-9)) ||
+  force = std::max(force, glance.out.force_unfiltered.norm());
+  const bool above = !(glance.out.force_unfiltered.norm() <= law.rig.peak * (1.0 + 1e-9)) ||
                      !(told.norm() <= law.rig.peak + weight + kRounding);
   over_now_ = above ? over_now_ + 1 : 0;
   over = std::max(over, over_now_);

@@ -49,7 +49,7 @@ Rest rest_of(const IndentStudy& study, const Words& own) {
     held += glance.scene.dt;
     if (held < kSettled) return;
     tip.push_back(glance.truth.tip.xyz[2]);
-    force.push_back(glance.out.felt.xyz[2]);
+    force.push_back(glance.out.force_unfiltered.xyz[2]);
   };
   trial::Trial(setup, options).run();
   if (tip.empty()) return {};

@@ -37,7 +37,7 @@ class Recorder {
     const stages::NearestInWorld at_tip = stages::nearest(object, glance.truth.tip);
     const double deflection = -(at_tip.distance + glance.truth.tip_radius);
     const double force = -dot(glance.truth.contact_force, at_tip.normal);
-    sensor.add(recorded, -dot(glance.out.felt, normal));
+    sensor.add(recorded, -dot(glance.out.force_unfiltered, normal));
     filtered.add(recorded, -glance.out.force.xyz[2]);
     truth.add(deflection, force);
     greatest = std::max(greatest, deflection);

@@ -47,7 +47,7 @@ class Observer {
   }
   void see(const Inputs& in, const Outputs& out, const State& state, Hold& hold) const {
     const Pose<'W', 'H'> X_WH = scene_.X_WR * in.tip.value.X_RH;
-    hold.force.push_back(-dot(out.felt, at_.normal));
+    hold.force.push_back(-dot(out.force_unfiltered, at_.normal));
     hold.displacement.push_back(dot(rest_point() - X_WH.origin(), at_.normal));
     if (world_ == nullptr) return;
     hold.zero_error.push_back(-dot(zero_error(X_WH, state), at_.normal));

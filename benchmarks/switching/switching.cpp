@@ -127,7 +127,7 @@ Bounce hit_once(models::Setup setup, std::uint64_t seed) {
       bounce.given += dt * force;
       bounce.work -= dt * force * normal.dot(truth.tip_velocity.e());
     }
-    if (presses) bounce.rendered -= dt * normal.dot(trial.outputs().felt.e());
+    if (presses) bounce.rendered -= dt * normal.dot(trial.outputs().force_unfiltered.e());
     if (pressed && !presses && std::isnan(parted)) {
       const double mass = trial.scene().objects[0].interaction.mass, speed = moved.velocity.norm();
       parted = now;

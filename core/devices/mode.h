@@ -32,6 +32,7 @@ enum class Mode : std::uint8_t {
   contact,
   restore,  // released: the tip returns to the buffered first-touch point [VHMR 3.4]
   hold,     // a fault: the tip stands still; `why` has the reasons
+  // The procedures below keep a mode each: report, record and the column `mode` name what the machine does.
   // The machine itself presses and measures a real object, without rendering [VHMR 4.2].
   probe,
   // The machine carries a clamped tool past the tracker, without rendering [VHMR 4.1].

@@ -59,7 +59,7 @@ struct Outputs {
   // On the tip, N, filtered; z along the outward normal. An arm reports -Lambda f: the force on the finger,
   // without gravity.
   Vec<'N'> force;
-  Vec<'W'> felt;  // that force before the low-pass, N
+  Vec<'W'> force_unfiltered;  // that force before the low-pass, N
   // Deflection along -z of N, m: commanded; for a probe: measured, negative before the first touch.
   double deflection = 0.0;
   Point<'W'> first_touch;  // Buffered point of the current or last contact, tip centre.

@@ -100,7 +100,7 @@ void fields(F& f, Outputs& out) {
   f("contacts", out.contacts);
   f("gap", out.gap);
   fields(f, "force_N", out.force);
-  fields(f, "felt_W", out.felt);
+  fields(f, "felt_W", out.force_unfiltered);
   f("deflection", out.deflection);
   fields(f, "first_touch_W", out.first_touch);
   fields(f, out.view);

@@ -441,9 +441,11 @@ trial::Pushes pushes_of(const models::Setup& setup, std::uint64_t seed) {
   options.seed = seed;
   options.watch = [&](const trial::Glance& glance) {
     const Outputs& out = glance.out;
-    if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) || !out.felt.finite()) return;
+    if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) ||
+        !out.force_unfiltered.finite())
+      return;
     pushes.resize(static_cast<std::size_t>(out.contacts));
-    const double force = dot(out.felt, glance.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
+    const double force = dot(out.force_unfiltered, glance.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
     pushes.back().push_back({out.deflection, force, true, seconds(glance.tick.t.time_since_epoch())});
   };
   trial::Trial(setup, options).run();

@@ -65,7 +65,7 @@ struct FingerBench {
     arm.tip = law.arm.tip(arm.joints);
   }
   // Pushing force beyond gravity, N along z of W.
-  [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
+  [[nodiscard]] double pushed() const { return -loop.out.force_unfiltered.xyz[2]; }
   trial::FingerLoop loop;
 };
 

@@ -60,7 +60,8 @@ HexapodLedger::TickState HexapodLedger::know(const Glance& glance, const std::op
   }
   Forces& f = now.force;
   f.held = -now.normal.dot(glance.truth.contact_force.e());
-  f.measured = glance.out.felt.finite() ? -now.normal.dot(glance.out.felt.e()) : f.held;
+  f.measured =
+      glance.out.force_unfiltered.finite() ? -now.normal.dot(glance.out.force_unfiltered.e()) : f.held;
   f.filtered = state.force.finite() ? -now.normal.dot(state.force.e()) : f.measured;
   if (!engaged) return now;
   threshold_ = glance.scene.force.threshold;

@@ -147,7 +147,7 @@ void core_fields(F& f, const Scene& scene, const std::vector<std::string>& objec
   f.number("gap_m", "of the tool's tip to the surface; negative inside", out.gap);
   f.number("deflection_m", "wanted; of a probe: measured, negative before it touches", out.deflection);
   vector_field(f, "force_N", "on the tip, low-passed, in N: z along the outward normal", out.force);
-  vector_field(f, "felt_N", "the same before the low-pass, in W", out.felt);
+  vector_field(f, "felt_N", "the same before the low-pass, in W", out.force_unfiltered);
   vector_field(f, "first_touch_m", "centre of the tip at the first touch of the contact, in W",
                out.first_touch);
   vector_field(f, "tool_tip_m", "centre of the tool's tip as tracked, in W", out.view.tip);

@@ -29,9 +29,10 @@ void ProbeMeasure::compare(double deflection, double force) {
 }
 
 void ProbeMeasure::see(const Glance& glance) {
-  if (glance.out.mode != Mode::probe || glance.out.contacts == 0 || !glance.out.felt.finite()) return;
+  if (glance.out.mode != Mode::probe || glance.out.contacts == 0 || !glance.out.force_unfiltered.finite())
+    return;
   const Vec<'W'> axis = glance.scene.indentation()->X_WN * Vec<'N'>(0, 0, 1);
-  const double force = dot(glance.out.felt, axis);
+  const double force = dot(glance.out.force_unfiltered, axis);
   const double deflection = glance.out.deflection;
   if (pushes_.size() != static_cast<std::size_t>(glance.out.contacts)) {
     pushes_.resize(static_cast<std::size_t>(glance.out.contacts));

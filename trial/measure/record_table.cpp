@@ -29,7 +29,8 @@ void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 // Pressing force on the object, N. A probe's force is that measured in this tick, unfiltered. A contact's
 // force is the filtered one that the object answers to.
 double pressing(const Scene& scene, const Outputs& out) {
-  if (scene.indentation() != nullptr) return dot(out.felt, scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
+  if (scene.indentation() != nullptr)
+    return dot(out.force_unfiltered, scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
   return -out.force.xyz[2];
 }
 
@@ -97,7 +98,7 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
   const Point<'W'> tip = scene_.X_WR * family_.tip(in);
   for (const double x : tip.xyz) add(row, kMmPerM * x);
-  for (const double x : out.felt.xyz) add(row, x);
+  for (const double x : out.force_unfiltered.xyz) add(row, x);
   add(row, kMmPerM * out.deflection);
   add(row, pressing(scene_, out));
   const std::int32_t number = repeat(out);

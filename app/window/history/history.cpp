@@ -36,7 +36,7 @@ ChartSample Sampler::sample(const trial::Glance& glance) {
   s.gap = static_cast<float>(1e3 * glance.out.gap);
   s.energy = static_cast<float>(1e3 * energy_);
   if (!touched) return s;
-  s.measured = or_zero(glance.out.felt.norm());
+  s.measured = or_zero(glance.out.force_unfiltered.norm());
   s.filtered = or_zero(-glance.out.force.xyz[2]);
   s.deflection = or_zero(1e3 * glance.out.deflection);
   return s;

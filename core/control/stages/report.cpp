@@ -75,7 +75,7 @@ void report_common(const StepContext& context, const CommonState& state, const Q
   out.contacts = state.contacts;
   out.gap = context.gap;
   out.force = Vec<'N'>(Vec3(q_WN.conjugate() * state.force.e()));
-  out.felt = context.force_unfiltered;
+  out.force_unfiltered = context.force_unfiltered;
   const SeenTool seen = seen_tool(context, state, contact);
   out.view.t = context.tick.t;
   out.view.tool = context.tool_known ? state.tool.value.tool : -1;

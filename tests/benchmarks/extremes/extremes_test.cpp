@@ -42,7 +42,7 @@ TEST(Extremes, TheJudgeObjectsToACommandOfAnArm) {
   EXPECT_EQ(judged("wall", [](Outputs&) {}).broken(), 0);
   EXPECT_GT(judged("wall", [](Outputs& out) { out.arm.force.xyz[1] = kUnset; }).broken(), 0);
   // The judge allows one cycle above the peak, and counts it.
-  const Judge once = judged("wall", [](Outputs& out) { out.felt = Vec<'W'>(0, 0, 9.0); });
+  const Judge once = judged("wall", [](Outputs& out) { out.force_unfiltered = Vec<'W'>(0, 0, 9.0); });
   EXPECT_EQ(once.broken(), 0);
   EXPECT_EQ(once.over, 1);
 }

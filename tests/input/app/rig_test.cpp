@@ -137,8 +137,8 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
     ASSERT_EQ(row.numbers[0], seconds(tick.tick.t.time_since_epoch()));
     ASSERT_EQ(row.numbers[7], 1e3 * tick.out.deflection);  // to the bit
     for (std::size_t i = 0; i < 3; ++i) {
-      ASSERT_TRUE(row.numbers[4 + i] == tick.out.felt.xyz[i] ||
-                  (std::isnan(row.numbers[4 + i]) && std::isnan(tick.out.felt.xyz[i])));
+      ASSERT_TRUE(row.numbers[4 + i] == tick.out.force_unfiltered.xyz[i] ||
+                  (std::isnan(row.numbers[4 + i]) && std::isnan(tick.out.force_unfiltered.xyz[i])));
     }
     const int repeat = static_cast<int>(row.numbers[9]);
     ASSERT_EQ(repeat, tick.out.deflection > 0.0 ? tick.out.contacts : 0);

@@ -233,7 +233,7 @@ std::string Limits::judge_machine(const Scene& scene, const State& state, const 
 std::string Limits::judge_arm(const Scene& scene, const State& state, const Outputs& out) {
   if (!out.arm.force.finite()) return {};
   const ArmRig& rig = scene.impedance()->rig;
-  if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
+  if (!(out.force_unfiltered.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
   const Vec3 velocity = recall<ImpedanceState>(state).aim.velocity.e(),
              at = recall<ImpedanceState>(state).aim.target.e();
   // Along the normal of a ball that is hit the finger moves the prop, and the target follows the prop.

@@ -317,8 +317,8 @@ PressData pressed_in(const Tape& tape, const std::vector<SeenPacket>& recorded) 
     pressed.felt.resize(n, Vec3::Constant(kUnset));  // fills lost cycles
     pressed.newest.resize(n, tool);
     contact.resize(n, frame.out.contacts);
-    const bool touched = frame.out.mode == Mode::contact && frame.out.felt.finite();
-    pressed.felt.push_back(touched ? Vec3(frame.out.felt.e()) : Vec3(Vec3::Constant(kUnset)));
+    const bool touched = frame.out.mode == Mode::contact && frame.out.force_unfiltered.finite();
+    pressed.felt.push_back(touched ? Vec3(frame.out.force_unfiltered.e()) : Vec3(Vec3::Constant(kUnset)));
     pressed.newest.push_back(tool);
     contact.push_back(frame.out.contacts);
   });

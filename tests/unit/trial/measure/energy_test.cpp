@@ -71,7 +71,7 @@ struct TrueEnergy {
     on = touched;
     most = std::max(most, given);
     height = glance.truth.tip.e().z();
-    pushed = -glance.out.felt.e().z();
+    pushed = -glance.out.force_unfiltered.e().z();
   }
 };
 

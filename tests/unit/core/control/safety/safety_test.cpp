@@ -353,8 +353,8 @@ TEST(Following, AnArmThatIsStuckIsHeldUntilTheFingerHasGone) {
   EXPECT_EQ(at(0.050, 200).mode, Mode::follow) << why_text(loop.out.why);
   EXPECT_EQ(at(0.050, 600).mode, Mode::hold);
   EXPECT_NE(loop.out.why & kNotFollowing, 0U) << why_text(loop.out.why);
-  EXPECT_EQ(at(0.050, 2000).mode, Mode::hold);  // and does not try again
-  EXPECT_LT(loop.out.felt.norm(), 1e-9);        // gravity alone
+  EXPECT_EQ(at(0.050, 2000).mode, Mode::hold);        // and does not try again
+  EXPECT_LT(loop.out.force_unfiltered.norm(), 1e-9);  // gravity alone
   EXPECT_EQ(at(0.150, 10).mode, Mode::away);
   EXPECT_EQ(at(0.050, 200).mode, Mode::follow);  // a fresh reason
 }

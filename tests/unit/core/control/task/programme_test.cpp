@@ -351,7 +351,7 @@ TEST(IndentationTask, AHoldInAPushIsOnlyAPause) {
   loop.spoil = [](Inputs& in) { in.wrench.health = Health::fault; };
   loop.tick(20);
   EXPECT_EQ(loop.out.mode, Mode::hold);
-  EXPECT_FALSE(loop.out.felt.finite());
+  EXPECT_FALSE(loop.out.force_unfiltered.finite());
   const double stopped = depth(loop);
   loop.tick(300);
   EXPECT_NEAR(depth(loop), stopped, 1e-9);
@@ -375,8 +375,8 @@ TEST(IndentationTask, MeasuresForceAlongItsAxisWithoutLag) {
   loop.tick(1500);
   loop.force = Vec<'W'>(0.5, 0, -7.0);
   loop.tick();
-  EXPECT_NEAR(loop.out.felt.xyz[2], -7.0, 1e-9);
-  EXPECT_NEAR(loop.out.felt.xyz[0], 0.5, 1e-9);
+  EXPECT_NEAR(loop.out.force_unfiltered.xyz[2], -7.0, 1e-9);
+  EXPECT_NEAR(loop.out.force_unfiltered.xyz[0], 0.5, 1e-9);
   EXPECT_LT(loop.out.force.xyz[2], 1.0);  // filtered: has only begun
   loop.tick(1000);
   EXPECT_NEAR(loop.out.force.xyz[2], 7.0, 1e-6);

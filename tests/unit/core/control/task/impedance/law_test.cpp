@@ -210,7 +210,7 @@ using Bench = test::FingerBench;
 double strays_by_a_count(Bench& bench) {
   const Impedance& law = *bench.loop.scene.impedance();
   ArmSample& arm = bench.loop.in.arm.value;
-  const Vec3 before = bench.loop.out.felt.e();
+  const Vec3 before = bench.loop.out.force_unfiltered.e();
   double most = 0.0;
   for (std::size_t joint = 0; joint < kMostJoints; ++joint) {
     const double count = 2.0 * M_PI / 4096.0 / law.rig.machine.drives[joint].ratio;
@@ -220,7 +220,7 @@ double strays_by_a_count(Bench& bench) {
     arm.velocity = Vec<'R'>(Vec3(jacobian.col(static_cast<Eigen::Index>(joint)) * (count / 2e-3)));
     for (int tick = 0; tick < 100; ++tick) {
       bench.at(-0.150);
-      most = std::max(most, (bench.loop.out.felt.e() - before).norm());
+      most = std::max(most, (bench.loop.out.force_unfiltered.e() - before).norm());
       if (tick == 1) arm.velocity = Vec<'R'>::zero();
     }
   }
@@ -248,7 +248,7 @@ TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
   bench.put_tip({3.8e-3, 0.0, 1.9e-3});
   bench.at(-0.150, 2000);
   ASSERT_TRUE(recall<ImpedanceState>(bench.loop.state).aim.slipped);
-  EXPECT_GT(bench.loop.out.felt.norm(), 1.0);
+  EXPECT_GT(bench.loop.out.force_unfiltered.norm(), 1.0);
   EXPECT_LT(strays_by_a_count(bench), 0.02);
 }
 
@@ -258,7 +258,7 @@ TEST(Rest, AnArmThatIsPushedIsBroughtBack) {
   bench.at(-0.150, 2000);
   bench.put_tip({0.0, 0.0, 2e-3});
   bench.at(-0.150, 30);
-  EXPECT_GT(bench.loop.out.felt.norm(), 0.5);  // 300 N/m over 2 mm
+  EXPECT_GT(bench.loop.out.force_unfiltered.norm(), 0.5);  // 300 N/m over 2 mm
 }
 
 // The stiffest wall that a certificate allows against the arm's own motion: joints, law and delay line in
