@@ -40,7 +40,7 @@ enum class Mode : std::uint8_t {
 };
 inline constexpr int kModes = 7;
 
-enum HoldReason : std::uint32_t {
+enum Reason : std::uint32_t {
   // Reasons to hold.
   // Tracker sample not finite, not a rotation, absurdly far, of an unknown tool, or out of order.
   kToolInvalid = 1U << 0,

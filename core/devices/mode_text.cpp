@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr auto kTexts = std::to_array<std::pair<HoldReason, std::string_view>>(
+  static constexpr auto kTexts = std::to_array<std::pair<Reason, std::string_view>>(
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},

@@ -52,7 +52,7 @@ struct ArmOutputs {
 
 struct Outputs {
   Mode mode = Mode::away;
-  std::uint32_t why = 0;      // bits of Why
+  std::uint32_t why = 0;      // bits of Reason
   std::int32_t object = -1;   // nearest object, or the one in contact
   std::int32_t contacts = 0;  // contacts since the start
   double gap = kUnset;        // tracked tool's tip to the surface, m; negative inside
