@@ -15,16 +15,17 @@ struct Wire {
 
   void declare(Settings& table) {
     table.value({.name = "path",
-                 .meaning = "folder of PNG or JPEG images, or a video; from where the program was started",
+                 .meaning = "folder of PNG or JPEG images, or a video; relative to the folder in which the "
+                            "program was started",
                  .needed = true},
                 reel.path);
-    table.value(
-        {.name = "layout",
-         .meaning = "of a folder: left01.png and right01.png, or both in one image, as every video has them",
-         .words = kWords<Layout>},
-        layout);
-    table.value({.name = "rate_hz", .meaning = "frames a second", .low = 0.1, .high = 1000.0}, reel.rate);
-    table.value({.name = "repeat", .meaning = "from the beginning when it has ended", .words = kRepeat},
+    table.value({.name = "layout",
+                 .meaning = "layout of a folder: pairs (left01.png, right01.png) or both halves in one "
+                            "image; a video always has the latter",
+                 .words = kWords<Layout>},
+                layout);
+    table.value({.name = "rate_hz", .meaning = "frames per second", .low = 0.1, .high = 1000.0}, reel.rate);
+    table.value({.name = "repeat", .meaning = "repeat from the beginning at the end", .words = kRepeat},
                 repeat);
     table.value({.name = "start", .meaning = "number of the first frame, from 0", .low = 0, .high = 1e9},
                 reel.start);

@@ -15,8 +15,8 @@ struct Wire {
   std::int64_t port = 4711;
 
   void declare(Settings& table) {
-    table.value({.name = "address", .meaning = "of the controller"}, address);
-    table.value({.name = "port", .meaning = "of the controller, TCP", .low = 1, .high = 65535}, port);
+    table.value({.name = "address", .meaning = "address of the controller"}, address);
+    table.value({.name = "port", .meaning = "TCP port of the controller", .low = 1, .high = 65535}, port);
   }
   explicit Wire(const Offer& offer) {
     declare(offer.table);

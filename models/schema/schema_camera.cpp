@@ -25,10 +25,10 @@ void describe(Visitor& v, Lens& lens, const HeadKeys& k) {
   v.value({"focal_px", "focal length along the rows, along the columns", k.source, derived, kPositive,
            k.presence},
           std::span<double>(focal));
-  v.value({"centre_px", "where the optical axis is seen", k.source, assumed, kAny, k.presence},
+  v.value({"centre_px", "image of the optical axis", k.source, assumed, kAny, k.presence},
           std::span<double>(centre));
   v.value({"distortion",
-           "k1, k2, p1, p2, k3, as OpenCV has them",
+           "distortion k1, k2, p1, p2, k3 by OpenCV's model",
            k.source,
            assumed,
            {-100.0, 100.0},
@@ -46,7 +46,8 @@ void describe(Visitor& v, Pose<'C', 'D'>& X_CD, const HeadKeys& k) {
   Vec3 position = X_CD.p(), rotation = angles_xyz(Quat(X_CD.q()));
   for (double& angle : rotation)
     angle = to_si(unit_of("rotation_deg"), std::round(angle * (180e9 / M_PI)) / 1e9);
-  v.value({"position_mm", "of the right camera in the left one", k.source, published, kAny, k.presence},
+  v.value({"position_mm", "position of the right camera in the left camera's frame", k.source, published,
+           kAny, k.presence},
           &position);
   v.value({"rotation_deg",
            "about the fixed x, then y, then z axis",
@@ -59,55 +60,53 @@ void describe(Visitor& v, Pose<'C', 'D'>& X_CD, const HeadKeys& k) {
 }
 
 void describe(Visitor& v, SegmentationSpec& s) {
-  choice(
-      v,
-      {"method", "published, or ours for changing light and skin-hued backgrounds", "[VisHap 2.1.1]", chosen},
-      s.method);
-  whole(v, {"background_frames", "averaged at every start", "[VisHap 3]", published, {1.0, 255.0}},
+  choice(v,
+         {"method", "published, or ours, which copes with changing light and skin-hued backgrounds",
+          "[VisHap 2.1.1]", chosen},
+         s.method);
+  whole(v,
+        {"background_frames", "frames averaged into the background at each start", "[VisHap 3]", published,
+         Range{1.0, 255.0}},
         s.background_frames);
-  whole(v, {"tile_px", "side of a tile", "[VisHap 3]", published, {1.0, 15.0}}, s.tile);
-  whole(v, {"bins", "of hue, in a tile's histogram", "[VisHap 3]", published, {1.0, 8.0}}, s.bins);
-  v.value({"match",
-           "a tile that matches its background less is foreground",
-           "docs/notes/segmentation.md",
-           derived,
-           {0.0, 1.0}},
+  whole(v, {"tile_px", "side of a tile", "[VisHap 3]", published, Range{1.0, 15.0}}, s.tile);
+  whole(v, {"bins", "hue bins of a tile's histogram", "[VisHap 3]", published, Range{1.0, 8.0}}, s.bins);
+  v.value({"match", "match with its background below which a tile is foreground",
+           "docs/notes/segmentation.md", derived, Range{0.0, 1.0}},
           &s.match);
-  v.value({"skin_sigmas",
-           "a hue that is farther from skin's mean is none",
-           "docs/notes/segmentation.md",
-           derived,
-           {0.0, 1000.0}},
+  v.value({"skin_sigmas", "distance from skin's mean hue up to which a hue is skin, in standard deviations",
+           "docs/notes/segmentation.md", derived, Range{0.0, 1000.0}},
           &s.skin);
   v.value({"change_sigmas",
-           "ours: a pixel that differs by less from its background is background",
-           "docs/notes/segmentation.md",
-           derived,
-           {0.0, 1000.0}},
+           "ours: difference from its background up to which a pixel is background, in standard deviations",
+           "docs/notes/segmentation.md", derived, Range{0.0, 1000.0}},
           &s.change);
   whole(v,
-        {"median_px", "side of the median filter; odd", "docs/notes/segmentation.md", assumed, {1.0, 15.0}},
+        {"median_px", "side of the median filter; odd", "docs/notes/segmentation.md", assumed,
+         Range{1.0, 15.0}},
         s.median);
-  v.value({"skin_hue_deg", "mean hue of skin", "encounter calibrate skin", derived, {-360.0, 360.0}},
+  v.value({"skin_hue_deg", "mean hue of skin", "encounter calibrate skin", derived, Range{-360.0, 360.0}},
           &s.model.hue);
-  v.value({"skin_spread_deg",
-           "standard deviation of it",
-           "encounter calibrate skin",
-           derived,
-           {0.0, 180.0, true}},
+  v.value({"skin_spread_deg", "standard deviation of skin's hue", "encounter calibrate skin", derived,
+           Range{0.0, 180.0, true}},
           &s.model.spread);
 }
 
 void describe(Visitor& v, FingertipSpec& f) {
   v.value({"finger_radius_mm",
-           "of the cap: K is this times the focal length",
+           "radius of the fingertip's cap; K is this times the focal length",
            "sources/tracking 7",
            assumed,
            {1.0, 50.0}},
           &f.radius);
-  v.value({"radius_scale", "of K: what a wrong radius does", "docs/notes/fingertip.md", chosen, {0.1, 10.0}},
+  v.value({"radius_scale",
+           "factor on K, to study a wrong radius",
+           "docs/notes/fingertip.md",
+           chosen,
+           {0.1, 10.0}},
           &f.scale);
-  choice(v, {"square", "how far step 6's square is from the pixel", "docs/notes/fingertip.md", chosen},
+  choice(v,
+         {"square", "step 6: reading of the paper for the square's distance from the pixel",
+          "docs/notes/fingertip.md", chosen},
          f.square);
   v.value({"circle_share",
            "step 5: least share of skin in the circle",
@@ -133,9 +132,10 @@ void describe(Visitor& v, FingertipSpec& f) {
            derived,
            {0.0, 10.0}},
           &f.stretch_radii);
-  v.value({"stretch_most_radii", "ours: most skin along it where another candidate has less, in r",
-           "docs/notes/fingertip.md", derived, kPositive},
-          &f.stretch_most);
+  v.value(
+      {"stretch_most_radii", "ours: most skin along the second square if another candidate has less, in r",
+       "docs/notes/fingertip.md", derived, kPositive},
+      &f.stretch_most);
   v.value({"pairs", "step 9: most pairs of skin pixels across the square", "[VisHap 2.1.2]", published,
            kNotNegative},
           &f.pairs);
@@ -143,67 +143,73 @@ void describe(Visitor& v, FingertipSpec& f) {
 
 void describe(Visitor& v, TrackSpec& t) {
   constexpr Range kNoise{1e-3, 100.0}, kRestless{1e-3, 1e6}, kSigmas{0.1, 1e3};
-  v.value({"pixel_noise_px", "rms of the tip's place", "docs/notes/fingertip.md", derived, kNoise},
+  v.value({"pixel_noise_px", "noise of the tip's position, rms", "docs/notes/fingertip.md", derived, kNoise},
           &t.pixel_noise);
-  v.value(
-      {"disparity_noise_px", "rms, besides what the match says", "docs/notes/fingertip.md", derived, kNoise},
-      &t.disparity_noise);
-  v.value({"acceleration_noise", "what a hand does, px/s/sqrt(s)", "sources/hand 2", assumed, kRestless},
+  v.value({"disparity_noise_px", "noise of the disparity, rms, besides that reported by the match",
+           "docs/notes/fingertip.md", derived, kNoise},
+          &t.disparity_noise);
+  v.value({"acceleration_noise", "process noise of the tip in the image, px/s/sqrt(s)", "sources/hand 2",
+           assumed, kRestless},
           &t.acceleration_noise);
-  v.value({"disparity_acceleration_noise", "the same in depth, px/s/sqrt(s)", "sources/hand 2", assumed,
-           kRestless},
+  v.value({"disparity_acceleration_noise", "process noise of the disparity, px/s/sqrt(s)", "sources/hand 2",
+           assumed, kRestless},
           &t.disparity_acceleration_noise);
-  v.value(
-      {"gate_sigmas", "a find that is farther off is not the finger", "sources/choices 5", assumed, kSigmas},
-      &t.gate);
-  v.value({"window_sigmas", "half a side of the search window", "sources/choices 5", assumed, kSigmas},
+  v.value({"gate_sigmas",
+           "distance from the prediction up to which a detection is the finger, in standard deviations",
+           "sources/choices 5", assumed, kSigmas},
+          &t.gate);
+  v.value({"window_sigmas", "half a side of the search window, in standard deviations", "sources/choices 5",
+           assumed, kSigmas},
           &t.window_sigmas);
-  v.value({"window_least_px", "half a side, at least", "sources/choices 5", assumed, {1.0, 1e4}},
+  v.value({"window_least_px", "smallest half side of the search window", "sources/choices 5", assumed,
+           Range{1.0, 1e4}},
           &t.window_least);
-  v.value(
-      {"window_growth", "with every frame that shows no finger", "sources/choices 5", assumed, {1.0, 100.0}},
-      &t.window_growth);
+  v.value({"window_growth", "growth factor of the search window for each frame without a finger",
+           "sources/choices 5", assumed, Range{1.0, 100.0}},
+          &t.window_growth);
   whole(v,
-        {"full_frame_after",
-         "frames without a finger: then all of it is searched",
-         "sources/choices 5",
-         assumed,
-         {1.0, 1000.0}},
+        {"full_frame_after", "frames without a finger after which the whole frame is searched",
+         "sources/choices 5", assumed, Range{1.0, 1000.0}},
         t.full_frame_after);
-  v.value({"predicted_for_ms",
-           "so long an unseen finger is told from the filter",
-           "sources/choices 5",
-           assumed,
-           {0.0, 1e4}},
+  v.value({"predicted_for_ms", "longest time for which the filter predicts an undetected finger",
+           "sources/choices 5", assumed, Range{0.0, 1e4}},
           &t.predicted_for);
 }
 
 void describe(Visitor& v, MatchSpec& m) {
-  whole(
-      v,
-      {"block_columns_px", "of a matched block: 8, 12 or 16", "docs/notes/fingertip.md", chosen, {8.0, 16.0}},
-      m.columns);
-  whole(v, {"block_rows_px", "of a matched block; odd", "docs/notes/fingertip.md", chosen, {3.0, 15.0}},
+  whole(v,
+        {"block_columns_px",
+         "width of a matched block: 8, 12 or 16",
+         "docs/notes/fingertip.md",
+         chosen,
+         {8.0, 16.0}},
+        m.columns);
+  whole(v,
+        {"block_rows_px", "height of a matched block; odd", "docs/notes/fingertip.md", chosen, {3.0, 15.0}},
         m.rows);
-  v.value({"nearest_mm", "depth that is matched", "docs/notes/fingertip.md", chosen, kPositive}, &m.nearest);
-  v.value({"farthest_mm", "depth that is matched", "docs/notes/fingertip.md", chosen, kPositive},
+  v.value({"nearest_mm", "smallest depth that is matched", "docs/notes/fingertip.md", chosen, kPositive},
+          &m.nearest);
+  v.value({"farthest_mm", "largest depth that is matched", "docs/notes/fingertip.md", chosen, kPositive},
           &m.farthest);
 }
 
 void describe(Visitor& v, BallSpec& b) {
   constexpr const char* kBall = "docs/guide/registration.md";
   v.value({"ball_radius_mm",
-           "of the ball at the arm's tip, by which it is registered",
+           "radius of the ball at the arm's tip, used for registration",
            kBall,
            assumed,
            {1.0, 100.0}},
           &b.radius);
-  v.value({"ball_hue_deg", "of its colour", kBall, assumed, {-360.0, 360.0}}, &b.hue);
-  v.value(
-      {"ball_hue_within_deg", "a hue that is farther from it is not the ball's", kBall, assumed, {1.0, 90.0}},
-      &b.hue_within);
+  v.value({"ball_hue_deg", "hue of the ball", kBall, assumed, {-360.0, 360.0}}, &b.hue);
+  v.value({"ball_hue_within_deg",
+           "largest difference of a ball pixel's hue from ball_hue_deg",
+           kBall,
+           assumed,
+           {1.0, 90.0}},
+          &b.hue_within);
   v.value({"ball_saturation",
-           "least of its pixels: chroma over the brightest channel",
+           "smallest saturation of a ball pixel: chroma over the brightest channel",
            kBall,
            assumed,
            {0.05, 1.0}},
@@ -213,8 +219,8 @@ void describe(Visitor& v, BallSpec& b) {
 }  // namespace
 
 void describe_size(Visitor& v, StereoRig& c, const HeadKeys& k) {
-  v.value({"width_px", "of each image", k.source, assumed, {16.0, 4096.0}, k.presence}, &c.width);
-  v.value({"height_px", "of each image", k.source, assumed, {16.0, 4096.0}, k.presence}, &c.height);
+  v.value({"width_px", "width of each image", k.source, assumed, {16.0, 4096.0}, k.presence}, &c.width);
+  v.value({"height_px", "height of each image", k.source, assumed, {16.0, 4096.0}, k.presence}, &c.height);
 }
 
 void describe_lenses(Visitor& v, StereoRig& c, const HeadKeys& k) {
@@ -226,19 +232,25 @@ void describe_lenses(Visitor& v, StereoRig& c, const HeadKeys& k) {
 }
 
 void describe(Visitor& v, StereoRig& c) {
-  v.value({"driver", "sim, or a folder of hw_drivers that has a stereo camera", "rig", chosen, kAny, needed},
+  v.value({"driver", "driver: sim, or a folder of hw_drivers that has a stereo camera", "rig", chosen, kAny,
+           needed},
           &c.driver);
-  v.value({"calibration", "file of `encounter calibrate stereo`, beside the rig's; else the numbers below",
-           "rig", chosen},
-          &c.calibration);
+  v.value(
+      {"calibration", "file of `encounter calibrate stereo`, beside the rig file; empty: the numbers below",
+       "rig", chosen},
+      &c.calibration);
   describe_size(v, c, {kHead});
   v.value({"rate_hz",
-           "frames that are expected: three that stay out are a stall",
+           "expected frame rate; three missing frames are a stall",
            "[VisHap 2.3.1]",
            published,
            {0.1, 1000.0}},
           &c.rate);
-  v.value({"latency_ms", "from the exposure to the fingertip at the core", kHead, assumed, {0.0, 1e4}},
+  v.value({"latency_ms",
+           "delay from exposure to the arrival of the fingertip at the core",
+           kHead,
+           assumed,
+           {0.0, 1e4}},
           &c.latency);
   describe_lenses(v, c, {kHead});
 }
@@ -247,14 +259,13 @@ void describe(Visitor& v, VisionRig& vision) {
   Region& s = vision.search;
   std::array<double, 4> search{static_cast<double>(s.x0), static_cast<double>(s.y0),
                                static_cast<double>(s.x1), static_cast<double>(s.y1)};
-  v.value(
-      {"search_px",
-       "left column, upper row, right column, lower row: where a finger that is not tracked is sought; all "
-       "0: everywhere",
-       "[VisHap 2.1.1]",
-       chosen,
-       {0.0, 4096.0}},
-      std::span<double>(search));
+  v.value({"search_px",
+           "region in which an untracked finger is searched: left column, upper row, right column, lower "
+           "row; all 0: everywhere",
+           "[VisHap 2.1.1]",
+           chosen,
+           {0.0, 4096.0}},
+          std::span<double>(search));
   s = {static_cast<int>(search[0]), static_cast<int>(search[1]), static_cast<int>(search[2]),
        static_cast<int>(search[3])};
   describe(v, vision.segmentation);

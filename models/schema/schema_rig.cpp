@@ -9,137 +9,150 @@ using enum Presence;
 
 // A device table must name the driver that fills the role.
 void driver(Visitor& v, std::string& value) {
-  v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &value);
+  v.value({"driver", "driver: sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &value);
 }
 
 void describe(Visitor& v, ManipulatorRig& m) {
   driver(v, m.driver);
-  v.value({"speed_mm_s", "limit of commands", "[VHMR 2]", published, kPositive}, &m.speed);
-  v.value({"acceleration_m_s2", "limit of commands", "sources/hexapod 4", derived, kPositive},
+  v.value({"speed_mm_s", "speed limit of commands", "[VHMR 2]", published, kPositive}, &m.speed);
+  v.value({"acceleration_m_s2", "acceleration limit of commands", "sources/hexapod 4", derived, kPositive},
           &m.acceleration);
   v.value({"tip_radius_mm",
-           "haptic-tip's sphere; H is its centre",
+           "radius of the haptic-tip's sphere, whose centre is H",
            "sources/hexapod 7",
            assumed,
            {0.0, 1000.0, true}},
           &m.tip_radius);
-  v.value({"stem_radius_mm", "rod under the haptic-tip; in the way of a tool from below", "[VHMR 5]", assumed,
-           kNotNegative},
+  v.value({"stem_radius_mm", "radius of the rod under the haptic-tip, an obstacle for a tool from below",
+           "[VHMR 5]", assumed, kNotNegative},
           &m.stem_radius);
-  v.value({"stem_length_mm", "of it, from H down to the gripper", "[VHMR 5]", assumed, kPositive},
+  v.value({"stem_length_mm", "length of the rod under the haptic-tip, from H down to the gripper", "[VHMR 5]",
+           assumed, kPositive},
           &m.stem_length);
-  v.value({"gripper_radius_mm", "of gripper and sensor, round about H's z: the sensor's",
+  v.value({"gripper_radius_mm", "radius of gripper and sensor about H's z axis; that of the sensor",
            "sources/force_sensor 1", derived, kNotNegative},
           &m.gripper_radius);
   v.value({"servo_hz",
-           "believed natural frequency of the position loop",
+           "assumed natural frequency of the position loop",
            "sources/hexapod 4",
            assumed,
            {0.0, 1000.0, true}},
           &m.servo);
-  v.value({"servo_damping", "believed ratio of it", "sources/hexapod 4", assumed, kPositive},
+  v.value({"servo_damping", "assumed damping ratio of the position loop", "sources/hexapod 4", assumed,
+           kPositive},
           &m.servo_damping);
-  v.value(
-      {"delay_ms", "believed dead time, from command to servo", "sources/hexapod 4", assumed, kNotNegative},
-      &m.delay);
-  v.value({"payload_N", "what it carries and is pressed with, together", "[VHMR 2]", published, kPositive},
+  v.value({"delay_ms", "assumed dead time from command to servo", "sources/hexapod 4", assumed, kNotNegative},
+          &m.delay);
+  v.value({"payload_N", "largest sum of carried weight and pressing force", "[VHMR 2]", published, kPositive},
           &m.payload);
   table(v, "geometry", [&] { describe(v, m.geometry); });
 }
 
 void describe(Visitor& v, ForceRig& f) {
   driver(v, f.driver);
-  v.value({"filter_hz", "corner of the low-pass on the force", "sources/hexapod 4", derived, kPositive},
+  v.value({"filter_hz", "corner frequency of the force low-pass", "sources/hexapod 4", derived, kPositive},
           &f.filter);
-  v.value({"threshold_N", "taken off the pressing force", "sources/force_sensor 3", assumed, kNotNegative},
+  v.value({"threshold_N", "force subtracted from the pressing force", "sources/force_sensor 3", assumed,
+           kNotNegative},
           &f.threshold);
-  v.value({"contact_N", "a pressing force from here on is a contact", "sources/force_sensor 3", assumed,
+  v.value({"contact_N", "pressing force from which on a contact begins", "sources/force_sensor 3", assumed,
            kPositive},
           &f.contact);
-  v.value(
-      {"mass_kg", "behind the sensor: gripper, adapters, tip", "sources/hexapod 3", assumed, kNotNegative},
-      &f.mass);
+  v.value({"mass_kg", "mass behind the sensor: gripper, adapters, tip", "sources/hexapod 3", assumed,
+           kNotNegative},
+          &f.mass);
   choice(v,
-         {"tare", "zero once at the start, or also when free: slowly, or by windows of tare_time_s",
+         {"tare",
+          "when the force zero is estimated: once at the start; free: also slowly while the tool is clear; "
+          "window: also over each tare_time_s of that",
           "sources/force_sensor 3", chosen},
          f.tare);
-  v.value({"tare_time_s", "of the first zero; 0: the sensor's own zero is believed", "sources/force_sensor 3",
-           assumed, kNotNegative},
+  v.value({"tare_time_s", "averaging time of the first zero; 0: use the sensor's own zero",
+           "sources/force_sensor 3", assumed, kNotNegative},
           &f.tare_time);
-  v.value({"tare_clearance_mm", "gap from which on the tool is clear", "sources/force_sensor 3", assumed,
-           kPositive},
+  v.value({"tare_clearance_mm", "gap beyond which the tool counts as clear", "sources/force_sensor 3",
+           assumed, kPositive},
           &f.tare_clearance);
-  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, {0.1, 1000.0}}, &f.stale);
+  v.value(
+      {"stale_ms", "age beyond which a sample counts as lost", "sources/choices 5", assumed, {0.1, 1000.0}},
+      &f.stale);
 }
 
 void describe(Visitor& v, ReachBelief& r) {
-  v.value({"share", "of the way, that a first movement makes", "Elliott, Hansen and Grierson 2010", assumed,
-           kPositive},
+  v.value({"share", "share of the distance that the first movement of a reach covers",
+           "Elliott, Hansen and Grierson 2010", assumed, kPositive},
           &r.share);
-  v.value({"scatter", "of that share, standard deviation", "Meyer et al. 1988", assumed, kPositive},
+  v.value({"scatter", "standard deviation of the share of the first movement", "Meyer et al. 1988", assumed,
+           kPositive},
           &r.scatter);
-  v.value({"aside", "of the way, by which it ends beside its target, to each side, rms", "Meyer et al. 1988",
-           assumed, kPositive},
+  v.value({"aside", "lateral error of the first movement, rms per axis, as a share of the distance",
+           "Meyer et al. 1988", assumed, kPositive},
           &r.aside);
-  v.value({"slowest_mm_s", "peak of a first movement, at least", "docs/reference/reaching.md", assumed,
+  v.value({"slowest_mm_s", "lowest peak speed of a first movement", "docs/reference/reaching.md", assumed,
            kPositive},
           &r.slowest);
-  v.value({"fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+  v.value({"fastest_mm_s", "highest peak speed of a first movement", "docs/reference/reaching.md", assumed,
+           kPositive},
           &r.fastest);
-  v.value({"shortest_ms", "the second movement, at least", "Milner 1992", assumed, kPositive}, &r.shortest);
-  v.value({"touch_slowest_mm_s", "wanted where the surface is, at least", "docs/reference/reaching.md",
+  v.value({"shortest_ms", "shortest duration of the second movement", "Milner 1992", assumed, kPositive},
+          &r.shortest);
+  v.value({"touch_slowest_mm_s", "lowest intended speed at the surface", "docs/reference/reaching.md",
            assumed, kPositive},
           &r.touch_slowest);
-  v.value({"touch_fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+  v.value({"touch_fastest_mm_s", "highest intended speed at the surface", "docs/reference/reaching.md",
+           assumed, kPositive},
           &r.touch_fastest);
-  v.value(
-      {"vaguest_mm", "a picture whose place is known worse, rms of an axis, tells no correction from noise",
-       "docs/reference/reaching.md", assumed, kPositive},
-      &r.vaguest);
+  v.value({"vaguest_mm", "position noise (rms per axis) above which a frame cannot show the second movement",
+           "docs/reference/reaching.md", assumed, kPositive},
+          &r.vaguest);
 }
 
 void describe(Visitor& v, TrackerRig& t) {
   driver(v, t.driver);
-  choice(v, {"prediction", "how the tool's tip goes on from an old pose", "sources/tracking 4", chosen},
+  choice(v,
+         {"prediction", "how the core extrapolates the tip from an old pose", "sources/tracking 4", chosen},
          t.prediction);
-  v.value({"measurement_noise_mm",
-           "rms of a pose along an axis, as the prediction believes of a tracker that does not tell it",
-           "sources/tracking 2", derived, kNotNegative},
-          &t.measurement_noise);
-  v.value({"acceleration_noise_m_s2_per_sqrt_hz", "what drives the tip, to constant_velocity",
-           "sources/tracking 4", derived, kPositive},
+  v.value(
+      {"measurement_noise_mm", "assumed position noise (rms per axis) of a tracker that does not report it",
+       "sources/tracking 2", derived, kNotNegative},
+      &t.measurement_noise);
+  v.value({"acceleration_noise_m_s2_per_sqrt_hz",
+           "process noise of constant_velocity: white acceleration of the tip", "sources/tracking 4", derived,
+           kPositive},
           &t.acceleration_noise);
-  v.value({"surprise_noise_m_s2_per_sqrt_hz",
-           "a pose four sigma off raises the noise to constant_velocity, up to this; 0: it does not",
-           "docs/reference/reaching.md", chosen, kNotNegative},
-          &t.surprise_noise);
-  v.value({"jerk_noise_m_s3_per_sqrt_hz", "what drives the tip, to constant_acceleration",
+  v.value(
+      {"surprise_noise_m_s2_per_sqrt_hz",
+       "process noise of constant_velocity up to which a pose more than four sigma off raises it; 0: never",
+       "docs/reference/reaching.md", chosen, kNotNegative},
+      &t.surprise_noise);
+  v.value({"jerk_noise_m_s3_per_sqrt_hz", "process noise of constant_acceleration: white jerk of the tip",
            "sources/tracking 4", derived, kPositive},
           &t.jerk_noise);
-  v.value({"longest_prediction_ms", "then the prediction slows down to rest", "sources/tracking 5", chosen,
-           kNotNegative},
+  v.value({"longest_prediction_ms", "time without a new pose after which the prediction slows down to rest",
+           "sources/tracking 5", chosen, kNotNegative},
           &t.longest_prediction);
   v.value({"stamp_late_ms",
-           "how much later than the exposure the stamps are believed to be",
+           "assumed delay of the time stamps after the exposure",
            "the lab's calibration",
            assumed,
            {-50.0, 50.0}},
           &t.stamp_late);
-  v.value({"usual_age_ms", "older poses are predicted and flagged", "sources/tracking 3, sources/tracking 5",
-           derived, kPositive},
+  v.value({"usual_age_ms", "age beyond which a pose raises the notice that it is predicted",
+           "sources/tracking 3, sources/tracking 5", derived, kPositive},
           &t.usual_age);
-  v.value({"lost_age_ms", "older poses are lost: hold", "sources/tracking 5", chosen, kPositive},
+  v.value({"lost_age_ms", "age beyond which the tool counts as lost, which means hold", "sources/tracking 5",
+           chosen, kPositive},
           &t.lost_age);
-  v.value({"farthest_m", "distance from C beyond which it is not a tool", "sources/tracking 1", assumed,
+  v.value({"farthest_m", "distance from C beyond which a pose is rejected", "sources/tracking 1", assumed,
            kPositive},
           &t.farthest);
-  v.value({"volume_mm", "sides along W of the box around its origin in which tools are followed",
+  v.value({"volume_mm", "sides, along W's axes, of the box around W's origin in which tools are followed",
            "[VHMR 5] gives the product, 75e-3 m3", assumed, kPositive},
           &t.volume);
   choice(v,
          {"foresight",
-          "where an arm meets a finger that comes: carried_on, where the filter has it; reach, where a "
-          "reaching hand touches",
+          "touch that an arm expects: carried_on, by the filter's extrapolation; reach, by a model of "
+          "reaching movements",
           "docs/reference/reaching.md", chosen},
          t.foresight);
   table_if(v, "reach", t.foresight == TouchPrediction::reach, [&] { describe(v, t.reach); });
@@ -147,71 +160,80 @@ void describe(Visitor& v, TrackerRig& t) {
 
 void describe(Visitor& v, DisplayRig& d) {
   driver(v, d.driver);
-  choice(
-      v,
-      {"tip",
-       "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
-       "docs/notes/synchrony.md", chosen},
-      d.tip);
+  choice(v,
+         {"tip",
+          "tip that displaces the seen surface: tracked (newest pose), predicted, or fused (haptic-tip while "
+          "it presses)",
+          "docs/notes/synchrony.md", chosen},
+         d.tip);
   v.value({"lead_ms",
-           "fused: how far ahead; half a frame and the way back",
+           "fused: lead time, which is half a frame plus the delay of the reported surface",
            "docs/notes/synchrony.md",
            chosen,
            {0.0, 200.0}},
           &d.lead);
-  v.value({"compliance_um_per_N", "fused: believed of tool and haptic-tip where they touch",
+  v.value({"compliance_um_per_N", "fused: assumed compliance of tool and haptic-tip where they touch",
            "docs/notes/synchrony.md", assumed, kNotNegative},
           &d.compliance);
-  v.value({"overdue_ms", "an older visual surface means hold", "[VHMR 3.5]", assumed, kPositive}, &d.overdue);
-  v.value(
-      {"margin_mm", "tolerated between seen and felt surface", "sources/tracking 2", assumed, kNotNegative},
-      &d.margin);
-  v.value({"margin_speed_mm_s", "how fast that margin grows with the surface's age", "[VHMR 2]", assumed,
+  v.value({"overdue_ms", "age of the visual surface beyond which the core holds", "[VHMR 3.5]", assumed,
+           kPositive},
+          &d.overdue);
+  v.value({"margin_mm", "tolerated distance between seen and felt surface", "sources/tracking 2", assumed,
+           kNotNegative},
+          &d.margin);
+  v.value({"margin_speed_mm_s", "growth of margin_mm with the age of the visual surface", "[VHMR 2]", assumed,
            kNotNegative},
           &d.margin_speed);
 }
 
 void describe(Visitor& v, GripperRig& g) {
   driver(v, g.driver);
-  v.value({"force_N", "clamps with this", "sources/force_sensor 4", chosen, kPositive}, &g.force);
+  v.value({"force_N", "clamping force", "sources/force_sensor 4", chosen, kPositive}, &g.force);
 }
 
 void describe(Visitor& v, ContactRig& c) {
-  v.value({"leave_gap_mm", "away: the gap is larger than this", "sources/tracking 2", assumed, kPositive},
+  v.value({"leave_gap_mm", "gap above which a contact can end", "sources/tracking 2", assumed, kPositive},
           &c.leave_gap);
-  v.value({"leave_time_ms", "and no force has been felt for this long", "sources/tracking 3", assumed,
+  v.value({"leave_time_ms", "time without force after which a contact can end", "sources/tracking 3", assumed,
            kNotNegative},
           &c.leave_time);
-  v.value(
-      {"restored_um", "distance from the buffered point that counts as back", "[VHMR 2]", assumed, kPositive},
-      &c.restored);
-  v.value({"hand_stiffness_N_per_mm", "of the person at the loop's limit frequency", "sources/hand 1",
+  v.value({"restored_um", "distance from the buffered first-touch point at which restore ends", "[VHMR 2]",
            assumed, kPositive},
+          &c.restored);
+  v.value({"hand_stiffness_N_per_mm",
+           "stiffness of the person's hand near the frequency at which the loop becomes unstable",
+           "sources/hand 1", assumed, kPositive},
           &c.hand_stiffness);
-  v.value({"hand_damping_Ns_per_m", "likewise", "sources/hand 1", assumed, kNotNegative}, &c.hand_damping);
+  v.value({"hand_damping_Ns_per_m", "damping of the person's hand at that frequency", "sources/hand 1",
+           assumed, kNotNegative},
+          &c.hand_damping);
   v.value({"softest_N_per_mm",
-           "softer objects are refused; unset: what that hand makes unstable; 0: none is refused",
+           "stiffness below which an object is refused; unset: the stability limit with the hand above; 0: "
+           "refuse no object",
            "sources/hexapod 5", chosen, kNotNegative, optional},
           &c.softest);
 }
 
 void describe(Visitor& v, AdmittanceRig& a) {
   const std::string_view source = "docs/reference/model.md (damping)";
-  choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
+  choice(v, {"damping", "damper beside the object: none, or set by the observed oscillation", source, chosen},
          a.damping);
-  choice(v,
-         {"passivity", "what is done about energy that the law gives out: nothing, or it is controlled",
-          "docs/reference/stability.md", chosen},
+  choice(v, {"passivity", "passivity controller: none or controlled", "docs/reference/stability.md", chosen},
          a.passivity);
-  v.value({"margin", "of the damping over what suffices", "sources/hexapod 5", derived, kPositive},
-          &a.margin);
-  v.value({"calm_time_s", "in which damping falls to 1/e when nothing swings", source, chosen, kPositive},
+  v.value(
+      {"margin", "factor of the damping over the sufficient one", "sources/hexapod 5", derived, kPositive},
+      &a.margin);
+  v.value({"calm_time_s", "time in which the damping falls to 1/e without oscillation", source, chosen,
+           kPositive},
           &a.calm_time);
-  v.value({"slowest_hz", "slower changes are the user's own", source, chosen, kPositive}, &a.slowest);
-  v.value({"average_time_s", "over which energies are averaged", source, chosen, kPositive}, &a.average_time);
-  v.value({"least_swing_um", "rms; less does not count as a swing", source, chosen, kPositive},
-          &a.least_swing);
-  v.value({"most_damping_Ns_per_m", "never more than this", source, chosen, kPositive}, &a.most_damping);
+  v.value({"slowest_hz", "frequency below which motion counts as the user's own", source, chosen, kPositive},
+          &a.slowest);
+  v.value({"average_time_s", "averaging time of the oscillation's energies", source, chosen, kPositive},
+          &a.average_time);
+  v.value(
+      {"least_swing_um", "smallest motion, rms, that counts as an oscillation", source, chosen, kPositive},
+      &a.least_swing);
+  v.value({"most_damping_Ns_per_m", "largest damping", source, chosen, kPositive}, &a.most_damping);
 }
 
 }  // namespace
@@ -231,19 +253,38 @@ void describe(Visitor& v, std::string_view name, PoseSpec& p) {
 
 void describe(Visitor& v, HexapodGeometry& g) {
   const std::string_view source = "sources/hexapod 2";
-  v.value({"base_radius_mm", "of the base joints", source, derived, kPositive}, &g.base_radius);
-  v.value({"platform_radius_mm", "of the platform joints", source, derived, kPositive}, &g.platform_radius);
-  v.value({"base_half_angle_deg", "between the two joints of a pair, halved", source, derived, {0.0, 60.0}},
+  v.value({"base_radius_mm", "radius of the circle of base joints", source, derived, kPositive},
+          &g.base_radius);
+  v.value({"platform_radius_mm", "radius of the circle of platform joints", source, derived, kPositive},
+          &g.platform_radius);
+  v.value({"base_half_angle_deg",
+           "half the angle between the two base joints of a pair",
+           source,
+           derived,
+           {0.0, 60.0}},
           &g.base_half_angle);
-  v.value({"platform_half_angle_deg", "likewise on the platform", source, derived, {0.0, 60.0}},
+  v.value({"platform_half_angle_deg",
+           "half the angle between the two platform joints of a pair",
+           source,
+           derived,
+           {0.0, 60.0}},
           &g.platform_half_angle);
-  v.value({"height_mm", "between the joint planes at zero", source, derived, kPositive}, &g.height);
-  v.value({"tip_height_mm", "of H above the platform's joint plane", source, assumed, kPositive},
+  v.value({"height_mm", "distance of the two joint planes at the machine's zero", source, derived, kPositive},
+          &g.height);
+  v.value({"tip_height_mm", "height of H above the platform's joint plane", source, assumed, kPositive},
           &g.tip_height);
-  v.value({"stroke_mm", "of a strut, to either side", source, derived, kPositive}, &g.stroke);
-  v.value({"tilt_limit_deg", "to either side", "sources/hexapod 6", published, {0.0, 90.0, true}},
+  v.value({"stroke_mm", "stroke of a strut, to either side of zero", source, derived, kPositive}, &g.stroke);
+  v.value({"tilt_limit_deg",
+           "largest tilt of the platform, to either side",
+           "sources/hexapod 6",
+           published,
+           {0.0, 90.0, true}},
           &g.tilt_limit);
-  v.value({"yaw_limit_deg", "to either side", "sources/hexapod 6", published, {0.0, 90.0, true}},
+  v.value({"yaw_limit_deg",
+           "largest turn of the platform about z, to either side",
+           "sources/hexapod 6",
+           published,
+           {0.0, 90.0, true}},
           &g.yaw_limit);
 }
 
@@ -257,28 +298,34 @@ void describe(Visitor& v, RigSpec& r) {
            {},
            true},
           &r.format);
-  v.value({"title", "which rig it is, in a line", "rig", chosen}, &r.title);
+  v.value({"title", "name of the rig, one line", "rig", chosen}, &r.title);
   table(v, "loop", [&] {
     // Below 200 Hz a cycle is longer than 5 ms, the longest allowed time step (sources/twin 2).
-    v.value({"rate_hz", "of the haptic loop", "[VHMR 2]", published, {200.0, 1e4}}, &r.loop.rate);
-    v.value({"late_cycles", "missed cycles that mean hold", "sources/twin 2", assumed, {1.0, 1e6}},
+    v.value({"rate_hz", "rate of the haptic loop", "[VHMR 2]", published, {200.0, 1e4}}, &r.loop.rate);
+    v.value({"late_cycles",
+             "number of missed cycles from which on the core holds",
+             "sources/twin 2",
+             assumed,
+             {1.0, 1e6}},
             &r.loop.late_cycles);
   });
   table(v, "calibration", [&] {
     v.value({"file",
-             "of `encounter calibrate rig RIG`, beside the rig's: its date, frames.W_C, rotation of "
-             "frames.H_F and "
-             "force.mass_kg take the place of those here",
+             "file of `encounter calibrate rig RIG`, beside the rig file: replaces date, frames.W_C, "
+             "rotation of frames.H_F and force.mass_kg",
              "the lab's calibration", chosen},
             &r.calibration.file);
-    v.value({"date",
-             "day on which frames, geometry and force sensor were measured; a real machine is not armed "
-             "without it",
-             "the lab's calibration", chosen},
-            &r.calibration.date);
     v.value(
-        {"valid_days", "from that day on; then a real machine is not armed", "rig", chosen, {1.0, 36500.0}},
-        &r.calibration.valid);
+        {"date",
+         "day on which frames, geometry and force sensor were measured; without it no real machine is armed",
+         "the lab's calibration", chosen},
+        &r.calibration.date);
+    v.value({"valid_days",
+             "days after the date for which a real machine can be armed",
+             "rig",
+             chosen,
+             {1.0, 36500.0}},
+            &r.calibration.valid);
   });
   table(v, "frames", [&] {
     describe(v, "W_S", r.frames.W_S);

@@ -12,32 +12,35 @@ constexpr std::array<std::string_view, 2> kTransports{"udp", "tcp"}, kMessages{"
 }  // namespace
 
 void IgtlSettings::declare(Settings& table) {
-  table.value({.name = "address", .meaning = "of the server of tool data"}, address);
-  table.value({.name = "port", .meaning = "of the server; of PLUS it is 18944", .low = 1, .high = 65535},
+  table.value({.name = "address", .meaning = "address of the tool data server"}, address);
+  table.value({.name = "port", .meaning = "port of the server; PLUS has 18944", .low = 1, .high = 65535},
               port);
   table.value({.name = "transport",
-               .meaning = "datagrams to who asks (udp), or the stream of a tracker's own server (tcp)",
+               .meaning = "udp: datagrams on request; tcp: stream of a tracker's own server",
                .words = kTransports},
               transport);
   table.value({.name = "message",
-               .meaning = "of tcp: what is asked for; TRANSFORM and POSITION are taken without a question",
+               .meaning = "message that the driver requests over tcp; TRANSFORM and POSITION need no request",
                .words = kMessages},
               message);
-  table.value({.name = "timeout_ms", .meaning = "for its first answer", .low = 1, .high = 1e4}, timeout);
+  table.value(
+      {.name = "timeout_ms", .meaning = "longest time for the server's first answer", .low = 1, .high = 1e4},
+      timeout);
   table.value({.name = "silent_ms",
-               .meaning = "without any message: the link is lost. While no tool is in view it says so",
+               .meaning = "time without any message after which the link is lost; with no tool in view the "
+                          "server must send a status",
                .low = 1,
                .high = 1e5},
               silent);
-  table.value(
-      {.name = "least_delay_ms",
-       .meaning = "from exposure to arrival, of the quickest message: how its clock is tied to this one",
-       .low = 0,
-       .high = 1e3},
-      least_delay);
+  table.value({.name = "least_delay_ms",
+               .meaning = "delay of the quickest message from exposure to arrival, which relates the "
+                          "tracker's clock to this one",
+               .low = 0,
+               .high = 1e3},
+              least_delay);
   table.value(
       {.name = "suffix",
-       .meaning = "of a device name behind the name of the tool; a device may have the tool's name, too"},
+       .meaning = "suffix of a device name after the tool's name; a device name without it is accepted too"},
       suffix);
 }
 

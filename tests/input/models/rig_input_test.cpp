@@ -111,7 +111,7 @@ TEST_F(DriverInput, RunCheckAndDoctorSayWhatTheDriverSays) {
   EXPECT_THAT(run_program({"doctor"}).out,
               HasSubstr("driver sample: manipulator, force sensor; [driver.sample] address, port"));
   EXPECT_THAT(program("params", table).out,
-              HasSubstr("rig.driver.sample.port,,4712,driver,chosen,\"of the controller, TCP\"\n"));
+              HasSubstr("rig.driver.sample.port,,4712,driver,chosen,TCP port of the controller\n"));
   EXPECT_THAT(run_program({"check", scene_}).out, Not(HasSubstr("device ")));
 }
 

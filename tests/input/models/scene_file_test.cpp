@@ -251,7 +251,7 @@ TEST_F(SceneFile, number_that_is_not_finite_or_out_of_range) {
 TEST_F(SceneFile, unknown_word_or_version) {
   EXPECT_EQ(scene_said("\"sphere\"", "\"spere\""),
             "scenes/ball.toml:5:9: 'shape' is 'spere'; expected 'plane' or 'sphere' or 'mesh' or 'button' or "
-            "'box' (its undeformed surface); did you mean 'sphere'?");
+            "'box' (shape of the undeformed surface); did you mean 'sphere'?");
   EXPECT_THAT(scene_said("format = 1", "format = 2"),
               StartsWith("scenes/ball.toml:1:10: 'format' is 2; expected a whole number that is 1 (version "
                          "of the scene format; "
