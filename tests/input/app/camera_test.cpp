@@ -32,7 +32,7 @@ class Camera : public Program {
   [[nodiscard]] std::string images_rig(const std::string& folder) const {
     std::string text = test::bytes_of(path("models/rigs/vishap.toml"));
     text = replaced(text,
-                    "[camera]                              # of scenes that look through one: STH-MDCS "
+                    "[camera]                              # for scenes with a [camera]: STH-MDCS "
                     "(sources/tracking 7)\ndriver = \"sim\"",
                     "[driver.images]\npath = \"" + folder + "\"\n[camera]\ndriver = \"images\"");
     write("models/rigs/files.toml", text);
