@@ -32,11 +32,10 @@ void check_folder(const std::string& folder) {
 }
 
 void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
-  CLI::App* command = add_command(
-      calibrate, "tracker",
-      "Find a tracker's bias, noise and latency, with intervals, from a log of a tool that the machine "
-      "carries.",
-      "calibrate tracker log.csv --rate-Hz 1000");
+  CLI::App* command = add_command(calibrate, "tracker",
+                                  "Find a tracker's bias, noise and latency, with confidence intervals, from "
+                                  "a log of a tool that the machine carries.",
+                                  "calibrate tracker log.csv --rate-Hz 1000");
   command
       ->add_option("log", options.log,
                    "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes, or a record of run")
@@ -47,9 +46,9 @@ void add_tracker(CLI::App& calibrate, TrackerOptions& options, int& code) {
 }
 
 void add_tip(CLI::App& calibrate, TipOptions& options, int& code) {
-  CLI::App* command =
-      add_command(calibrate, "tip", "Find a tool's tip in its markers from a log of its swing about the tip.",
-                  "calibrate tip poses.csv");
+  CLI::App* command = add_command(
+      calibrate, "tip", "Find a tool's tip in its markers' frame from a log of the tool pivoting about it.",
+      "calibrate tip poses.csv");
   command
       ->add_option("log", options.log,
                    "CSV with time_s, tool_x_mm.., tool_qx.. or, as export writes, with time_s, "
@@ -71,31 +70,29 @@ void check_camera(const CameraOptions& options) {
 }
 
 void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
-  CLI::App* command = add_command(
-      calibrate, "camera",
-      "Find a camera's pose from pairs of points, or from a rig's simulated arm that is driven through the "
-      "camera's view.",
-      "calibrate camera vishap --pairs 8 --out points.csv");
+  CLI::App* command = add_command(calibrate, "camera",
+                                  "Find a camera's pose from pairs of points, or by moving a rig's simulated "
+                                  "arm through the camera's view.",
+                                  "calibrate camera vishap --pairs 8 --out points.csv");
   command
       ->add_option(
           "what", options.what,
           "CSV with camera_x_m.., device_x_m.., pair; or a rig with an arm: a name in models/rigs, or "
           "a file")
       ->required();
-  command->add_option("--pairs", options.pairs, "of a rig: places of the tip; default: 8")
+  command->add_option("--pairs", options.pairs, "rig only: number of tip positions; default: 8")
       ->check(CLI::Range(4, 1000));
-  command->add_option("--frames", options.frames, "of a rig: frames averaged at each place; default: 20")
+  command->add_option("--frames", options.frames, "rig only: frames averaged at each position; default: 20")
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--seed", options.seed,
-                   "of a rig: of the twin's noise; of points: of what is drawn from them; default: 1")
+                   "rig: seed of the twin's noise; points: seed of the random samples of points; default: 1")
       ->check(bad_seed);
-  command->add_option("--set", options.set, "of a rig: override, as for run");
+  command->add_option("--set", options.set, "rig only: override, as for run");
   command->add_flag(
       "--through-images", options.through_images,
-      "of a rig: find a ball at the tip in pictures of the twin's camera; without it the camera "
-      "sees points");
-  command->add_option("--out", options.out, "of a rig: CSV to write the points to")->check(unnamed);
+      "rig only: find a ball at the tip in images of the twin's camera; default: the camera measures points");
+  command->add_option("--out", options.out, "rig only: CSV file to write, with the points")->check(unnamed);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] {
@@ -130,16 +127,17 @@ int run_rig(const RigOptions& options) {
 void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
   CLI::App* command = add_command(
       calibrate, "rig",
-      "Find where a rig's tracker and force sensor are and what the sensor carries, from poses in which the "
+      "Find a rig's tracker pose, force sensor rotation and mass on the sensor, from poses in which the "
       "machine holds a clamped tool. With --armed the machine moves by itself for minutes.",
       "calibrate rig sim --out measured.toml");
   command->add_option("rig", options.rig, "rig with a hexapod: a name in models/rigs, or a file")->required();
   command
-      ->add_option("--scene", options.scene, "whose clamped tool the machine carries; default: clamped_tool")
+      ->add_option("--scene", options.scene,
+                   "scene whose clamped tool the machine carries; default: clamped_tool")
       ->check(unnamed);
-  command->add_option("--poses", options.poses, "in which the machine stands still; default: 24")
+  command->add_option("--poses", options.poses, "number of poses in which the machine stops; default: 24")
       ->check(CLI::Range(12, 500));
-  command->add_option("--seed", options.seed, "of the twin's noise; default: 1")->check(bad_seed);
+  command->add_option("--seed", options.seed, "seed of the twin's noise; default: 1")->check(bad_seed);
   command->add_option("--set", options.set, "override, as for run");
   device_options(command, options);
   command->add_option("--out", options.out, "TOML to write, which the rig's [calibration] reads")
@@ -154,7 +152,7 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
       add_command(calibrate, "stereo", "Calibrate a stereo head from pairs of images of a chessboard.",
                   "calibrate stereo images --square-mm 25 --out head.toml");
   command->add_option("folder", options.folder, "folder with left01.png, right01.png, ...")->required();
-  command->add_option("--square-mm", options.square_mm, "side of the board's squares; measure them");
+  command->add_option("--square-mm", options.square_mm, "side of the board's squares, as measured");
   command->add_option("--corners", options.corners, "inner corners of the board")->capture_default_str();
   command->add_option("--picture", options.picture, "PNG of rectified pairs to write")->check(unnamed);
   command->add_option("--out", options.out, "TOML to write, which a rig's [camera] reads")->check(unnamed);
@@ -168,7 +166,7 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
 
 void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
   CLI::App* command =
-      add_command(calibrate, "skin", "Learn the colour of skin from images of hands and their masks.",
+      add_command(calibrate, "skin", "Fit the colour of skin to images of hands and their masks.",
                   "calibrate skin images --masks masks --out skin.toml");
   command->add_option("folder", options.folder, "folder with images of hands")->required();
   command
@@ -176,7 +174,8 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
                    "folder with a mask for each image, of the same name, white where the hand is")
       ->required()
       ->check(unnamed);
-  command->add_option("--out", options.out, "TOML to write, the lines of a rig's [vision]")->check(unnamed);
+  command->add_option("--out", options.out, "TOML to write, with the lines for a rig's [vision]")
+      ->check(unnamed);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] {
@@ -189,7 +188,7 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
 
 void add_calibrate(CLI::App& app, CalibrateWords& words, int& code) {
   CLI::App* command =
-      add_command(app, "calibrate", "Calibrate one subject: tracker, tip, camera, rig, stereo or skin.",
+      add_command(app, "calibrate", "Calibrate a tracker, tool tip, camera, rig, stereo head or skin colour.",
                   "calibrate tracker log.csv");
   command->require_subcommand(1);
   add_tracker(*command, words.tracker, code);

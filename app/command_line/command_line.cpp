@@ -41,20 +41,19 @@ void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* recor
           ->excludes(record)
           ->excludes(shot);
   command
-      ->add_option("--for-s", options.seconds,
-                   "length of the film, s of experiment; default: until the user or the probe is done")
+      ->add_option(
+          "--for-s", options.seconds,
+          "length of the film, s of simulated time; default: until the simulated user or the probe is done")
       ->needs(video);
-  command->add_option(
-      "--at-s", options.at,
-      "moment of the picture, s of experiment (default: the deepest point of the first press, or 4 s through "
-      "the camera); or start of the film (default: 0)");
+  command->add_option("--at-s", options.at,
+                      "time of the picture, s from the start of the scene (default: the deepest point of the "
+                      "first press, or 4 s through the camera); or start of the film (default: 0)");
   CLI::Option* close_up =
       command->add_flag("--close-up", options.close_up, "show the contact instead of the whole machine");
   command
-      ->add_option(
-          "--through-camera", options.through_camera,
-          "draw the view of the scene's left camera: raw; removed (without the arm); or augmented (with the "
-          "virtual objects in its place)")
+      ->add_option("--through-camera", options.through_camera,
+                   "draw the view of the scene's left camera: raw; removed (without the arm); or augmented "
+                   "(virtual objects in place of the arm)")
       ->check(CLI::IsMember({"raw", "removed", "augmented"}))
       ->excludes(close_up);
 }
@@ -104,11 +103,13 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   CLI::App* command = add_command(app, "run", "Run a scene and report what happened.",
                                   "run tennis_ball --record press.encrec");
   scene_options(command, options);
-  command->add_option("--pace", options.pace, "free, wall, or seconds of experiment per second of wall time")
+  command
+      ->add_option("--pace", options.pace,
+                   "free (as fast as possible), wall (real time), or a factor on real time")
       ->capture_default_str();
-  command->add_option(
-      "--for-s", options.seconds,
-      "length, s of experiment; default: until the user or the probe is done, 10 s if all devices are real");
+  command->add_option("--for-s", options.seconds,
+                      "length of the run, s; default: until the simulated user or the probe is done, or 10 s "
+                      "if all devices are real");
   command->add_option("--record", options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
   command
@@ -116,8 +117,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
                    "write the images of the scene's camera to this new folder (PNG)")
       ->check(unnamed);
   command
-      ->add_option("--hand", options.hand,
-                   "repeat the hand of this record of a view, for as long as it moved")
+      ->add_option("--hand", options.hand, "repeat the hand's motion from this record of `view`, to its end")
       ->check(unnamed);
   json_option(command, options.json);
   device_options(command, options);
@@ -132,17 +132,17 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
       "check tennis_ball --rig laboratory");
   scene_options(command, options);
   CLI::Option* resolved = command->add_flag(
-      "--resolved", options.resolved, "print a scene file that runs alone, with only what the scene builds");
-  CLI::Option* advise = command->add_flag(
-      "--advise", options.advise,
-      "also run the twin at several time steps and integrators (about a minute) and name the "
-      "cheapest whose error is at most --error-N, --error-um");
+      "--resolved", options.resolved,
+      "print one scene file that needs no other file, with only the parts that the scene uses");
+  CLI::Option* advise = command->add_flag("--advise", options.advise,
+                                          "also run the twin with several time steps and integrators (about "
+                                          "a minute) and name the cheapest within --error-N or --error-um");
   advise->excludes(resolved);
   command
       ->add_option("--error-N", options.error_N,
-                   "for --advise: error of the true force, N rms during contact")
+                   "for --advise: largest error of the true force, N rms during contact")
       ->needs(advise);
-  command->add_option("--error-um", options.error_um, "for --advise: error of the tip's path, um rms")
+  command->add_option("--error-um", options.error_um, "for --advise: largest error of the tip's path, um rms")
       ->needs(advise);
   return command;
 }
@@ -154,7 +154,7 @@ CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
   command->add_option("--scene", options.scene, "scene of the simulated world; default: the tennis ball")
       ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
-  command->add_option("--seed", options.seed, "seed of all noise")->check(bad_seed);
+  command->add_option("--seed", options.seed, "seed of all noise; default: 1")->check(bad_seed);
   command->add_flag("--lockstep", options.lockstep,
                     "advance time by one period with each set-point (run --lockstep)");
   command->add_option("--fault", options.faults,
@@ -167,10 +167,10 @@ CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
 
 CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
   CLI::App* command = add_command(
-      app, "devices", "Ask the devices of a rig how often and how late they answer; nothing moves.",
+      app, "devices", "Measure how often and how late the devices of a rig send data; nothing moves.",
       "devices fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
-  command->add_option("--scene", options.scene, "scene whose devices are asked; default: the tennis ball")
+  command->add_option("--scene", options.scene, "scene whose devices are read; default: the tennis ball")
       ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
   command->add_option("--for-s", options.seconds, "time for which each device is read, s")
@@ -179,12 +179,13 @@ CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
 }
 
 CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
-  CLI::App* command = add_command(app, "replay", "Compute a record again; exit code 1 if any output differs.",
-                                  "replay press.encrec");
+  CLI::App* command =
+      add_command(app, "replay", "Run the core again over a record; exit code 1 if any output differs.",
+                  "replay press.encrec");
   command->add_option("record", options.record, "file written by run --record")->required();
   command
       ->add_option("--frames", options.frames,
-                   "folder of run --frames: compute vision again, too; exit code 1 if it differs")
+                   "folder of run --frames: run vision again, too; exit code 1 if it differs")
       ->check(unnamed);
   command->add_flag("--partial", options.partial, "replay the complete part of a cut-off record");
   return command;
@@ -234,11 +235,11 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
   command->add_option("--set", options.set, "override, as for run");
   command->add_flag("--quick", options.quick, "fewer repeats; all benchmarks take some minutes");
   command->add_flag("--full", options.full,
-                    "also the parts that take minutes: share of each part, error against run time");
+                    "also the slow tables: effect of switching each part off, error against run time");
   command
       ->add_option("--rig", options.rig,
-                   "measure over the devices of this rig in place of the twin: a name in models/rigs, or a "
-                   "file; tracking and stiffness can")
+                   "measure on the devices of this rig instead of the twin (a name in models/rigs, or a "
+                   "file); only for tracking and stiffness")
       ->check(unnamed);
   device_options(command, options);
   command->add_flag("--fakes", options.fakes, "start and stop `encounter fake` for the devices of --rig");
@@ -249,22 +250,23 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
 
 CLI::App* add_fit(CLI::App& app, FitOptions& options) {
   CLI::App* command =
-      add_command(app, "fit", "Turn a measured loop (CSV) into a response file, or find the ball behind it.",
+      add_command(app, "fit", "Fit a response file, or the parameters of a ball, to measured presses (CSV).",
                   "fit loop.csv --out models/responses/foam.toml");
   command->add_option("loop", options.loops, "CSV with time_s, deflection_mm, force_N, repeat")->required();
   command->add_option("--out", options.out, "response file to write, models/responses/NAME.toml")
       ->check(unnamed);
   command->add_option("--limit-mm", options.limit_mm, "deflection up to which the response is valid")
       ->capture_default_str();
-  command->add_option("--rig", options.rig, "rig that will render it; sets the minimum stiffness")
+  command->add_option("--rig", options.rig, "rig that will render the response; sets the minimum stiffness")
       ->capture_default_str();
-  command->add_option(
-      "--ceiling-N-per-mm", options.ceiling,
-      "largest stiffness of the stops; a lower one is quieter at rest and less exact where motion turns");
-  command->add_flag("--ball", options.ball,
-                    "find the parameters of the pressed ball, with intervals; takes several loops");
-  command->add_option("--hold", options.hold, "with --ball: hold parameter NAME, or NAME=VALUE");
-  command->add_option("--free", options.free, "with --ball: fit parameter NAME, which is held otherwise");
+  command->add_option("--ceiling-N-per-mm", options.ceiling,
+                      "largest stiffness of the stops; a lower one reduces the force of a tremor at rest, "
+                      "and the accuracy where the motion reverses");
+  command->add_flag(
+      "--ball", options.ball,
+      "find the parameters of the pressed ball, with confidence intervals, from one or more files");
+  command->add_option("--hold", options.hold, "with --ball: keep parameter NAME fixed, or NAME=VALUE");
+  command->add_option("--free", options.free, "with --ball: fit parameter NAME, which is fixed by default");
   command->add_flag("--json", options.json, "with --ball: one JSON object instead of text");
   force_option(command, options.force);
   return command;
@@ -274,18 +276,20 @@ CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
   CLI::App* command = add_command(
       app, "nearest", "Print signed distance, nearest surface point and normal of each point of a CSV file.",
       "nearest models/meshes/hare.glb points.csv");
-  command->add_option("surface", options.what, "mesh file, points in its axes; or SCENE#object, points in W")
+  command
+      ->add_option("surface", options.what,
+                   "mesh file, with points in its axes; or SCENE#object, with points in W")
       ->required();
   command->add_option("points", options.points, "CSV file with the header x_m,y_m,z_m")->required();
   return command;
 }
 
 CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
-  CLI::App* command = add_command(app, "mesh", "Write a closed mesh to try things with (.glb, .obj or .stl).",
+  CLI::App* command = add_command(app, "mesh", "Write a closed example mesh (.glb, .obj or .stl).",
                                   "mesh ball --fine 71 --out ball.glb");
   command->add_option("name", options.name, "ball, cube, hare, knot or turned_part")->required();
-  command->add_option("--out", options.out, "file")->required()->check(unnamed);
-  command->add_option("--fine", options.fine, "3 to 400, fineness; a ball has 20 n^2 triangles");
+  command->add_option("--out", options.out, "file to write")->required()->check(unnamed);
+  command->add_option("--fine", options.fine, "fineness n, 3 to 400; a ball has 20 n^2 triangles");
   force_option(command, options.force);
   return command;
 }
@@ -297,10 +301,8 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
                   "questionnaire vhmr_2020 --store answers.csv");
   command->add_option("form", options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
-  command->add_option("--store", options.store, "CSV file to add the answers to; it keeps its content")
-      ->check(unnamed);
-  command
-      ->add_option("--answers", options.answers, "CSV file with answers of many people, in place of asking")
+  command->add_option("--store", options.store, "CSV file to which the answers are appended")->check(unnamed);
+  command->add_option("--answers", options.answers, "CSV file with answers of many people, instead of asking")
       ->check(unnamed);
   command->add_option("--participant", options.participant, "number or code; default: the next number");
   command->add_option("--out", options.out, "folder for picture and tables")->check(unnamed);
@@ -375,7 +377,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* scenes_command = add_command(app, "scenes", "List the shipped scenes.", "scenes");
   scenes_command->callback([&] { code = scenes(); });
   CLI::App* doctor_command =
-      add_command(app, "doctor", "Report whether this machine is ready, and what to do if not.", "doctor");
+      add_command(app, "doctor", "Report whether this computer is ready, and what to do if not.", "doctor");
   doctor_command->callback([&] { code = doctor(); });
   check_subcommand(app, argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});
