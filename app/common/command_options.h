@@ -24,14 +24,14 @@ template <class Options>
 void device_options(CLI::App* command, Options& options) {
   command->add_flag(
       "--armed", options.armed,
-      "send commands to real devices, so that the machine moves; without it they are only read");
+      "send commands to the devices, so that a real machine moves; default: only read the devices");
   command->add_flag(
       "--lockstep", options.lockstep,
       "run against `encounter fake --lockstep`: each set-point advances time by one period, so runs are "
       "fast and repeatable");
-  command->add_flag("--yes", options.yes, "begin an armed run without the question before its first motion");
+  command->add_flag("--yes", options.yes, "skip the question before the first motion of an armed run");
   command->add_flag("--not-real-time", options.not_real_time,
-                    "move a real machine although the system refuses real-time priority to the loop");
+                    "arm a real machine even if the system denies the loop real-time priority");
 }
 void scene_options(CLI::App* command, SceneOptions& options);
 
