@@ -39,7 +39,7 @@ class Trial {
   TrialResult run();
   // One tick; false when the run is over. run() calls this in a loop.
   bool tick();
-  // The devices are used again from the next tick on; a link that is still lost is lost again.
+  // Commands go to the devices again from the next tick on; a link that is still lost is reported again.
   void resume() noexcept { gate_.resume(); }
   [[nodiscard]] const Gate& gate() const { return gate_; }
   [[nodiscard]] const TrialResult& result() const { return result_; }

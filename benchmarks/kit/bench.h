@@ -31,7 +31,7 @@ struct Figure {
   std::string note;
   double least = kUnset, most = kUnset;  // over seeds or repeats, if there are several
   bool absent = false;  // not measurable here, such as the ground truth of a real machine: no bounds apply
-  bool cost = false;    // a time, a ratio of times or memory: it depends on the machine, and informs
+  bool cost = false;    // a time, a ratio of times or memory: depends on the computer, never fails
   [[nodiscard]] bool ok() const;
 };
 

@@ -64,8 +64,8 @@ struct CostCurve {
 // Both axes are logarithmic. `plot` has everything but the series.
 [[nodiscard]] Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves);
 
-// A fixed piece of work, timed in the run that is judged. A bound on time is a ratio to it, so that a slow or
-// busy machine turns no benchmark red.
+// A fixed piece of work, timed in the run that is judged. A bound on time is a ratio to this work, so that a
+// slow or busy computer fails no benchmark.
 
 class Yardstick {
  public:

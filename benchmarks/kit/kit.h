@@ -86,8 +86,8 @@ class Bench {
               std::string note = {});
   void figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper, Bounds bounds,
               std::string note = {});
-  // A time, a ratio of times or memory. A busy machine decides such a figure, so it has no bounds. Only a
-  // ratio of times of one run that holds on a busy machine with room to spare may have bounds
+  // A time, a ratio of times or memory. Such a figure depends on the load of the computer, so it has no
+  // bounds. Only a ratio of times of one run that holds on a busy machine with room to spare may have bounds
   // (docs/reference/report.md).
   void cost(const std::string& id, const Value& twin, const char* unit, std::string note = {});
   void cost(const std::string& id, const Value& twin, const char* unit, Bounds bounds, std::string note = {});

@@ -11,9 +11,9 @@
 
 namespace enc::bench {
 
-// Largest error of the force, N rms. Chosen: three counts of the hexapod's sensor, and a force that the arm's
-// friction hides anyway. If two converged runs differ by more than half of it, the bound is twice their
-// difference: both of them judge all settings.
+// Largest error of the force, N rms. Chosen: 2.4 quantisation steps of the hexapod's force sensor, and about
+// the arm's friction at the tip. If two converged runs differ by more than half of this value, the bound is
+// twice their difference: both of them judge all settings.
 inline constexpr double kForceAccuracy = 0.06;
 [[nodiscard]] double accuracy_of(const trial::Precision& all, double wanted = kForceAccuracy);
 

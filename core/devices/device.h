@@ -43,7 +43,7 @@ class Manipulator : public Device {
 };
 
 struct PropCommand {
-  double surface_speed = 0.0;  // object's surface against the prop, m/s
+  double surface_speed = 0.0;  // of the object's surface relative to the prop, m/s
   Vec<'R'> facing;             // commanded direction of the prop's front, unit; unset: keep it
 };
 
@@ -52,8 +52,8 @@ class HapticArm : public Device {
  public:
   [[nodiscard]] virtual ArmAbility ability() const = 0;        // called once, before anything moves
   virtual Measurement<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
-  // Commanded force of the tip on its surroundings, including gravity compensation; stays in force until
-  // the next command. The device converts it to joint torques (J^T F) and limits these to its motors.
+  // Commanded force of the tip on its surroundings, including gravity compensation; valid until the next
+  // command. The device converts it to joint torques (J^T F) and limits these to its motors.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
   virtual void stop() noexcept = 0;  // Ends all force and stops every driven part; see Manipulator.
   // Only for a prop with its own motors; other props do nothing.
@@ -70,7 +70,7 @@ class ForceSensor : public Device {
 // Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
 class PoseTracker : public Device {
  public:
-  // Returns true for a new pose; otherwise leaves `newest` alone.
+  // Returns true for a new pose; otherwise does not change `newest`.
   virtual bool poll(Time now, Measurement<TrackedTool>& newest) noexcept = 0;
 };
 
@@ -85,7 +85,7 @@ class StereoCamera : public Device {
  public:
   // Size of each image; empty if it is known only from a frame.
   [[nodiscard]] virtual ImageSize size() const { return {}; }
-  // Returns true for a newer pair, stamped with its exposure time; otherwise leaves `newest` alone.
+  // Returns true for a newer pair, stamped with its exposure time; otherwise does not change `newest`.
   virtual bool poll(Time now, Measurement<StereoFrame>& newest) noexcept = 0;
 };
 
@@ -102,7 +102,7 @@ class Display : public Device {
 class Gripper : public Device {
  public:
   virtual Measurement<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
-  // Stays in force until the next command; the device limits the force to its range.
+  // Valid until the next command; the device limits the force to its range.
   virtual void command(const Grip& grip) noexcept = 0;
   virtual void stop() noexcept = 0;  // Keeps its grip and opens nothing; see Manipulator.
 };

@@ -53,9 +53,9 @@ enum Reason : std::uint32_t {
   kDentWrong = 1U << 7,       // the visual surface names an unknown object or is impossible
   kDentOverdue = 1U << 8,     // the visual surface is too old
   kOutsideObject = 1U << 9,   // the tip is outside the undeformed object
-  kOutsideDent = 1U << 10,    // the tip is outside the deformed surface by more than its age excuses
+  kOutsideDent = 1U << 10,    // the tip is outside the deformed surface by more than its age explains
   kClockLate = 1U << 11,      // cycles were missed
-  kNotFinite = 1U << 12,      // the core's own target is not finite: a caught defect
+  kNotFinite = 1U << 12,      // the core's own target is not finite: a defect of the core
   kToolNotHeld = 1U << 13,    // the gripper has lost its tool or does not report
   kNotFollowing = 1U << 14,   // the machine is not at its commanded position
   kTrackerFault = 1U << 15,   // the tracker reports a fault, or its link is lost
@@ -64,10 +64,10 @@ enum Reason : std::uint32_t {
   kUnreachable = 1U << 17,    // target limited to the machine's reach
   kLimited = 1U << 18,        // target limited by speed or acceleration
   kAtLimit = 1U << 19,        // deflection limit reached
-  kByForce = 1U << 20,        // this contact was found by force, not by gap
+  kByForce = 1U << 20,        // this contact began by force, not by gap
   kTaring = 1U << 21,         // force zero not known yet
   kToolUnseen = 1U << 22,     // no tool in the tracker's view
-  // Pressed harder than the machine can carry: it stays at the deflection limit.
+  // The pressing force exceeds the payload: the tip stays at the deflection limit.
   kOverload = 1U << 24,
   kHot = 1U << 25,  // reduced force: the motors are warm
   // The surface point under the tool jumped: another part of the surface is as near.

@@ -9,7 +9,7 @@
 
 namespace enc {
 
-// Lag of a wall-time clock, counted from one cycle on.
+// Lateness of a wall clock; a lag of less than one cycle does not count.
 struct Lateness {
   std::int64_t times = 0;             // number of late ticks
   double total = 0.0, longest = 0.0;  // s

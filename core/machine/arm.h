@@ -22,7 +22,7 @@ constexpr auto words(JointKind) { return enum_words("hinge", "slide"); }
 
 // Symbols of [VisHap eq. 5], from Cavusoglu, Feygin and Tendick: a forearm, c parallelogram link, be upper
 // arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm from vertical
-// (absolute). R is the centre of the joints' gimbal, where the axes of turret and upper arm meet; x forwards,
+// (absolute). The origin of R is where the axes of turret and upper arm meet; x forwards,
 // z upwards. Defaults: model 1.0A, scaled from the published 1.5 by 2/3 (sources/arm 5, derived).
 struct PhantomGeometry {
   double l1 = 0.1397, l2 = 0.1130, l3 = 0.02167;  // upper arm, forearm, crank, m
@@ -65,9 +65,9 @@ struct ArmMachine {
                                             {-0.506, 3.735, 7.47}}};  // -29 and 214 deg (sources/arm 3)
 };
 
-// The way in which the mass of a prop at the tip enters eq. 5.
+// Form in which the mass of a prop at the tip enters eq. 5.
 enum class Payload : std::uint8_t {
-  // Added to m_a, "by adjusting m_a in equation 5": joint 3 gets half of it.
+  // Added to m_a, "by adjusting m_a in equation 5": joint 3 then gets half of the necessary torque.
   published,
   exact  // acts at the tip
 };
@@ -82,8 +82,8 @@ class Arm {
   [[nodiscard]] PerJoint zero() const { return {}; }  // home: W is the pose of H there
 
   [[nodiscard]] Point<'R'> tip(const PerJoint& q) const noexcept;
-  // d tip / d q, m per rad or m; columns of missing joints are 0. The body Jacobian J^b of eq. 4 is R^T of
-  // it, and its force R^T F, so that J^bT R^T F = J^T F.
+  // d tip / d q, m per rad or m; columns of missing joints are 0. The body Jacobian J^b of eq. 4 is R^T
+  // times this one, and its force is R^T F, so that J^bT R^T F = J^T F.
   [[nodiscard]] Mat3 jacobian(const PerJoint& q) const noexcept;
   // Motor torque against gravity [eq. 5], N m or N; payload at the tip, kg. A chain has no m_a, so its
   // payload is exact.

@@ -11,9 +11,9 @@ namespace enc {
 
 // Base joints at radius base_radius on angles k*120 deg -/+ base_half_angle, platform joints on k*120 + 60
 // +/- platform_half_angle; strut 2k joins base k*120+base_half to platform k*120+60-platform_half. Joint
-// planes are `height` apart at zero; the haptic-tip H is `tip_height` above the platform joint plane. R is
-// the centre of the base joint plane. Source: sources/hexapod 2 (derived from the catalogue travels and the
-// workspace of [VHMR 2]).
+// planes are `height` apart at zero; the haptic-tip H is `tip_height` above the platform joint plane. The
+// origin of R is the centre of the base joint plane. Source: sources/hexapod 2 (derived from the catalogue
+// travels and the workspace of [VHMR 2]).
 struct HexapodGeometry {
   double base_radius = 0.140;
   double platform_radius = 0.098;
@@ -71,7 +71,7 @@ class Hexapod {
 };
 
 // The parts below the haptic-tip: bodies of revolution about H's z axis, each from its depth below H down to
-// the next one. A tool that comes from below meets them first.
+// the next one. They obstruct a tool that comes from below.
 struct Mount {
   double stem_radius = 0.0;                               // starts at H, m
   double gripper_depth = kUnset, gripper_radius = 0.0;    // m
@@ -90,7 +90,7 @@ struct Reach {
 };
 
 // The farthest reachable pose on the straight path to the wanted one, for a device that limits its commands
-// so.
+// in this way.
 [[nodiscard]] inline Pose<'R', 'H'> clamped(const Reach& reach, const Pose<'R', 'H'>& from,
                                             const Pose<'R', 'H'>& wanted) noexcept {
   if (reach.contains(wanted)) return wanted;

@@ -1,5 +1,5 @@
-// Limits of an arm's motors: briefly their peak torque, continuously what their windings bear. Between the
-// two, current fold-back reduces the torque smoothly as a winding warms up, so the force keeps its direction.
+// Limits of an arm's motors: for a short time the peak torque, continuously the torque that the windings
+// withstand. As a winding warms up, current fold-back reduces the torque smoothly from peak to continuous.
 #pragma once
 
 #include "core/machine/arm.h"
@@ -58,7 +58,7 @@ class Motors {
   Motors() = default;  // no motors: no torque
   Motors(const Arm& arm, const MotorRatings& ratings, double dt);
 
-  // Largest share, 0 to 1, of joint torques `wanted` that is available beside `held`, which continues.
+  // Largest share, 0 to 1, of joint torques `wanted` that is available in addition to `held`.
   [[nodiscard]] double share(const Heat& heat, const PerJoint& held, const PerJoint& wanted,
                              MotorLimit& limit) const noexcept;
   void warm(Heat& heat, const PerJoint& torque) const noexcept;
@@ -74,8 +74,8 @@ class Motors {
   [[nodiscard]] double holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held, const Vec<'R'>& way,
                                  double force) const;
 
-  // The press at which a motor gives less than that force, 1 for the first; 0: no press. The motors hold only
-  // gravity in the pauses.
+  // Number of the press, from 1, in which a motor can no longer give that force; 0: no press. The motors hold
+  // only gravity in the pauses.
   struct Presses {
     double pressed = 0.0, pause = 0.0;  // s
     std::int64_t number = 1;

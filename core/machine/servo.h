@@ -1,5 +1,5 @@
-// The position servo of a machine: second order, within the machine's speed and acceleration. The twin moves
-// by it. A driver whose machine reports only its position assumes it.
+// The position servo of a machine: second order, within the machine's speed and acceleration. The twin uses
+// it; a driver whose machine reports only its position assumes it.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct ServoMotion {
   Vec3 p{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};
 };
 
-// Number of steps for a time: at least 40 for each servo period, because in one step a fast servo would be
-// quicker than it is.
+// Number of steps for a time: at least 40 for each servo period, because a single step would make a fast
+// servo too fast.
 [[nodiscard]] inline int servo_steps(const ServoLaw& law, double time) noexcept {
   return static_cast<int>(std::max(1.0, std::ceil(40.0 * law.frequency * time)));
 }

@@ -18,9 +18,9 @@ namespace enc::models {
 //   date = "2026-11-28"
 //
 //   [of]                                       # identity of the rig; any other rig refuses it
-//   manipulator = "gcs 192.168.0.10 50000"     # driver, and address and port if it has them
-//   force = "netft 192.168.0.11"
-//   tracker = "igtl 192.168.0.12"
+//   manipulator = "gcs 192.168.0.20 50000"     # driver, and address and port if it has them
+//   force = "netft 192.168.1.1"
+//   tracker = "igtl 192.168.1.21"
 //   [of.geometry]                              # the machine's, as [manipulator.geometry]
 //
 //   [frames.W_C]                               # tracker camera in the world

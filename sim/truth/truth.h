@@ -19,18 +19,18 @@ enum class Phase : std::uint8_t {
   release,
   retreat,
   change
-};  // change: of tools
+};  // change: the hand changes tools
 
 // Work on a machine since the last tick, J: sums over the steps of the physics (bodies/step_work.h). Unset
 // unless requested (World::ask_for_work).
 struct Work {
   // Work of the body that touches its tip, measured on that body.
   double contact = 0.0;
-  // Hexapod only: that work as an error-free sensor would measure it.
+  // Hexapod only: the same work as measured by an error-free force sensor.
   double sensed = 0.0;
   double motors = 0.0;    // work of an arm's motors
-  double friction = 0.0;  // taken by the joints' dry friction and stops
-  double viscous = 0.0;   // taken by the joints' viscous friction
+  double friction = 0.0;  // dissipated by the joints' dry friction and stops
+  double viscous = 0.0;   // dissipated by the joints' viscous friction
   PerJoint rates{};       // arm's joints at this tick, rad/s or m/s
 };
 
@@ -45,9 +45,9 @@ struct Truth {
   Vec<'W'> hand_force = Vec<'W'>::zero();        // hand on the tool, N
   std::array<double, 6> leg_force{               // N, structural form: force of each leg on the platform.
                                   kUnset, kUnset, kUnset, kUnset, kUnset, kUnset};
-  // Arm only: its joints, motor torques, and winding temperatures (arm_plant.h).
+  // Arm only: joints (rad or m), motor torques (N m), and temperature rises of the windings relative to that
+  // of the continuous torque (arm_plant.h).
   PerJoint joints{kUnset, kUnset, kUnset}, motor_torque{kUnset, kUnset, kUnset},
-      // rad or m; N m; 1: as by the continuous torque.
       warmth{kUnset, kUnset, kUnset};
   bool touching = false;
   double penetration = kUnset;  // probe in the real ball, along their normal, m; negative: gap

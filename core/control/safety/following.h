@@ -9,19 +9,20 @@
 
 namespace enc {
 
-// Time for which something has been off its commanded path. A fast command excuses a larger error, for as
-// long as the machine may lag behind that command.
+// Time for which a machine has been off its commanded path. A fast command allows a larger error, for as long
+// as the machine may lag behind that command.
 struct PathDeviation {
   double fastest = 0.0;  // m/s
   double off = 0.0;      // s
 
-  // Distance that recent commands excuse, m. The machine may be twice as slow as its model.
+  // Deviation allowed after recent commands, m. The machine may be twice as slow as its model.
   [[nodiscard]] double excused(double speed, double lag, double dt) noexcept {
     constexpr double kLags = 2.0;
     fastest = std::max(speed, fastest * std::max(0.0, 1.0 - dt / lag));
     return kLags * lag * fastest;
   }
-  // Call once a tick. `away`: it is off its path in this tick. True once it has been away for `patience`, s.
+  // Call once a tick. `away`: the machine is off its path in this tick. True once it has been away for
+  // `patience`, s.
   [[nodiscard]] bool too_long(bool away, double patience, double dt) noexcept {
     off = away ? off + dt : 0.0;
     return off >= patience;

@@ -11,8 +11,6 @@
 
 namespace enc {
 
-// Speed limits of something that must stop in time.
-
 // Largest speed from which a machine still stops within `distance` (m), in steps of dt.
 [[nodiscard]] inline double braking_speed(double distance, double acceleration, double dt) {
   const double unit = acceleration * dt;
@@ -63,7 +61,7 @@ class Inside {
   // is too thin for such a position, the deepest one found.
   [[nodiscard]] Point<'W'> nearest_to(const Point<'W'>& wanted) noexcept;
   // Velocity of the next tick: `wanted`, or the closest that the acceleration allows and that leaves a
-  // straight way to stop inside. `here`: the current depth.
+  // straight path to stop inside. `here`: the current depth.
   [[nodiscard]] Vec3 velocity(const Brake& brake, double here, const Vec3& wanted) noexcept;
   // True if something that moves at v for this tick can stop inside.
   [[nodiscard]] bool can_stop(const Brake& brake, double here, const Vec3& v) noexcept {

@@ -31,7 +31,7 @@ struct ResponseSpec {
 
 enum class Reversal : std::uint8_t {
   energy_stop,        // the two polynomials of [VHMR 4.2], with a passive blend
-  prandtl_ishlinskii  // ResponseSpec::stops: closer if the direction changes within a press
+  prandtl_ishlinskii  // ResponseSpec::stops: more accurate if the direction changes within a press
 };
 constexpr auto words(Reversal) { return enum_words("energy_stop", "prandtl_ishlinskii"); }
 
@@ -49,8 +49,8 @@ struct ResponseState {
 // deflection alpha is 1 again, which costs no energy: gap and Y are zero there. L = largest gap * kBlend.
 class EnergyStop {
  public:
-  // m. While alpha moves, the object is stiffer by gap^2 / L <= largest gap / kBlend. A resting hand that
-  // trembles by +-30 um must not feel more than 0.2 N of it (sources/ball 6).
+  // m. While alpha moves, the object is stiffer by gap^2 / L <= largest gap / kBlend. A tremor of
+  // +-30 um at rest must not change the force by more than 0.2 N (sources/ball 6).
   static constexpr double kBlend = 1.5e-3;
 
   EnergyStop() = default;  // no force

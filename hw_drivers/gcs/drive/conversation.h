@@ -1,6 +1,6 @@
 // The dialogue with an inspected controller: which bytes to send when, and the meaning of received bytes. It
 // uses neither sockets nor clocks. It queries positions continuously, one query at a time, and sends each new
-// set-point along with a query. It stops the machine if no set-point comes any more.
+// set-point along with a query. It stops the machine when no further set-point comes.
 #pragma once
 
 #include <cstdint>

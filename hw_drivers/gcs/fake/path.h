@@ -19,7 +19,7 @@ class Profile {
  public:
   void reset(const Coordinates& at) noexcept;  // sets it to rest there
   void go(const Coordinates& to) noexcept;
-  // Brakes on its path, `hardness` times as hard as its acceleration limit, and stays where that ends.
+  // Brakes on its path, `hardness` times as hard as its acceleration limit, and stays where it stops.
   void halt(double hardness) noexcept;
   void step(double dt, const ProfileLimits& limits) noexcept;
 

@@ -68,7 +68,7 @@ class NetftSensor final : public ForceSensor {
   std::array<std::byte, 256> datagram_{};  // longer datagrams are not records
   std::size_t size_ = 0;
   Time begun_{}, heard_{}, read_{};
-  // A run without a wall clock always has our fake.
+  // A run without a wall clock always uses Encounter's own fake.
   bool lockstep_, wall_clock_;
   bool reading_ = false, linked_ = true;
   bool agreed_ = false;  // the command interface was queried too

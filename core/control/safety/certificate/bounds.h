@@ -28,13 +28,14 @@ struct Row {
   std::string name;
   std::string formula;
   double bound = kUnset;  // N/m; infinite: no bound; NaN: unknown
-  // Bound over the requested value; the bound holds from 1 on. Below `low`: the requested value over `low`.
+  // Bound over the requested value; 1 or more: the request is within the bound. Below `low`: the requested
+  // value over `low`.
   double margin = kUnset;
   // True if the formula's assumptions hold; otherwise the row is there only to compare.
   bool applies = true;
   std::string source;
-  double low = 0.0;  // N/m: lower end of the stiffnesses that hold
-  // The bound lies at this value, or only somewhere below or above it. That applies to the margin too.
+  double low = 0.0;  // N/m: lower end of the range within the bound
+  // The bound is this value, or is only known to be below or above it. The same applies to the margin.
   enum class Side : std::uint8_t { at, below, above } side = Side::at;
 };
 constexpr auto words(Row::Side) { return enum_words("at", "below", "above"); }
@@ -57,17 +58,17 @@ constexpr auto words(Row::Side) { return enum_words("at", "below", "above"); }
 // infinite: all up to kStiffest.
 [[nodiscard]] double passive_stiffness(const SampledLoop& loop, const Damper& damper);
 
-// min(2b/T, 2 f_c/step) [Abbott and Okamura 2005]; holds for a spring without delay and damper.
+// min(2b/T, 2 f_c/step) [Abbott and Okamura 2005]; valid for a spring without delay and damper.
 [[nodiscard]] double quantised_stiffness(const SampledLoop& loop, const Steps& steps);
-// (b + B) / (T/2 + t_d) [Gil et al. 2004; Hulin et al. 2006]. It holds for B <= b and delays that are short
-// for the device, b (2 T + t_d)/m <= kShort. It is then within 5 % of the boundary
+// (b + B) / (T/2 + t_d) [Gil et al. 2004; Hulin et al. 2006]. It is valid for B <= b and delays that are
+// short for the device, b (2 T + t_d)/m <= kShort. It is then within 5 % of the boundary
 // (docs/reference/stability.md).
 inline constexpr double kShort = 0.1;
 [[nodiscard]] double delayed_stiffness(const SampledLoop& loop, const Damper& damper);
 
 // beta = b/(K T), sigma = f_c/(K step) [Diolaiti et al. 2006]. Below 1/2, sampling (beta) and encoder steps
-// (sigma) make a spring inject more energy than viscous damping and friction dissipate. The plane holds for a
-// spring without delay, damper and filter; any other loop has the region `unknown`.
+// (sigma) make a spring inject more energy than viscous damping and friction dissipate. The plane is valid
+// for a spring without delay, damper and filter; any other loop has the region `unknown`.
 enum class Region : std::uint8_t { passive, limit_cycle, locally_stable, unstable, unknown };
 constexpr auto words(Region) {
   return enum_words("passive", "limit cycle", "locally stable", "globally unstable", "unknown");

@@ -7,8 +7,8 @@
 //
 // Observer: a force held over a period does exactly the work f_{n-1} (x_n - x_{n-1}). So the observer needs
 // no model and sees everything inside the law (filter, rates, late readings). The law may give out the energy
-// that was put in, but never more than its spring holds now. Energy that its dampers took is gone and cannot
-// hide what the law gives out later (reference energy following [Ryu et al. 2005]).
+// that was put in, but never more than its spring holds now. Energy that its dampers took does not count, so
+// it cannot hide a later output (reference energy following [Ryu et al. 2005]).
 //
 // Controller: it looks one period ahead instead of correcting afterwards. It predicts x_{n+1} - x_n as u + g
 // f; u is the free motion of the mass m after it moved by x_n - x_{n-1} under f_{n-1}. So it never divides by

@@ -31,10 +31,9 @@ struct Swing {
 
 // Separates an oscillation from slower motion of force and depth, and averages it.
 struct SwingFilter {
-  double low = 0.0, slow = 0.0,
-         // Coefficients per tick: of the force low-pass, of the user's own motion, of the means.
-      average = 0.0;
-  // One tick of contact. The depth is delayed as the force is, so that the two can be compared.
+  // Coefficients per tick: of the force low-pass, of the user's own motion, of the means.
+  double low = 0.0, slow = 0.0, average = 0.0;
+  // One tick of contact. The depth passes the same low-pass as the force, so that the two can be compared.
   void operator()(Swing& swing, double force, double depth) const noexcept;
 };
 

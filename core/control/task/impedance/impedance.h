@@ -63,9 +63,9 @@ struct ArmLoopAt {
   certificate::Request asked;
 };
 
-// The loop at joints `q`, along `way` (unit, in R), with `stiffness` (N/m) in that direction. A gain makes
-// the stiffness from K_p and scales K_v as much: a damper in proportion [VisHap eq. 2, 7]. Sideways the law
-// is that of a free tip. `kind` matters for `hit` (a flying ball: along the normal a spring without damper
+// The loop at joints `q`, along `way` (unit, in R), with `stiffness` (N/m) in that direction. One gain
+// scales K_p to the stiffness, and K_v by the same factor [VisHap eq. 2, 7]. Sideways the law is that of a
+// free tip. `kind` matters for `hit` (a flying ball: along the normal a spring without damper
 // and filter) and for `passive` (a real object: the gain acts in all directions). Figures of the loop that
 // the rig does not give are NaN.
 [[nodiscard]] ArmLoopAt loop_at(const Impedance& law, const certificate::Hand& hand, double dt,
