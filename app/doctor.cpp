@@ -105,10 +105,10 @@ void say_module(Doctor& doctor, const std::string& name, const std::string& what
 
 void say_vision(Doctor& doctor) {
   say_module(doctor, "vision", "vision, for scenes with a camera", "./encounter run with such a scene");
-  say_module(doctor, "calibration", "OpenCV, for calibrations out of images",
+  say_module(doctor, "calibration", "OpenCV, for calibration from images",
              "./encounter calibrate stereo FOLDER");
   doctor.say(!program_path("ffmpeg").empty(), Need::may, "ffmpeg, for videos as a stereo camera",
-             "apt-get install ffmpeg; folders of images do without");
+             "apt-get install ffmpeg; folders of images need no ffmpeg");
 }
 
 // Looks like ": llvmpipe (LLVM 15.0.6, 256 bits), in software".
@@ -156,7 +156,7 @@ int doctor() {
   doctor.say(problem.empty(), Need::must, "scenes, rigs and responses in " + models::models_dir(), problem);
   const std::vector<std::string> modules = modules_there();
   doctor.say(!modules.empty(), Need::may, fmt::format("modules: {}", fmt::join(modules, ", ")),
-             "none beside the program; pictures and drivers need them");
+             "no module beside the program; pictures and drivers need modules");
   for (const std::string& name : drivers_there()) say_driver(doctor, name);
   doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
   say_renderers(doctor);
@@ -165,7 +165,7 @@ int doctor() {
              "./encounter bench installs it");
   say_real_time(doctor);
   doctor.say(std::thread::hardware_concurrency() >= 2, Need::may,
-             fmt::format("{} cores", std::thread::hardware_concurrency()), "two are wanted for hardware");
+             fmt::format("{} cores", std::thread::hardware_concurrency()), "real devices need two");
   fmt::print("{}\n", doctor.ready ? "ready" : "not ready");
   return doctor.ready ? 0 : 1;
 }

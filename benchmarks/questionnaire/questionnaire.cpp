@@ -42,8 +42,8 @@ void list(Visitor& v, std::string_view name, std::vector<T>& entries, Walk walk)
   entries.resize(v.open_list(name, entries.size()));
   for (std::size_t i = 0; i < entries.size(); ++i) {
     v.open_entry(name, i, entries[i].name);
-    v.value(key("name", "what tables and columns call it"), &entries[i].name);
-    v.value(key("text", "as people read it"), &entries[i].text);
+    v.value(key("name", "name in tables and columns"), &entries[i].name);
+    v.value(key("text", "text that people read"), &entries[i].text);
     walk(entries[i]);
     v.close();
   }
@@ -54,8 +54,8 @@ void describe(Visitor& v, Form& f) {
   Key format = key("format", "version of the form's format; this program reads version 1");
   format.range = {1.0, 1.0};
   v.value(format, &f.format);
-  v.value(key("title", "what is asked about"), &f.title);
-  v.value(key("source", "where the wording comes from"), &f.source);
+  v.value(key("title", "topic of the form"), &f.title);
+  v.value(key("source", "source of the wording"), &f.source);
   v.value(key("reference", "file in benchmarks/reference with published means", Presence::defaulted),
           &f.reference);
   list(v, "step", f.steps, no_more);
@@ -63,7 +63,7 @@ void describe(Visitor& v, Form& f) {
   list(v, "group", f.groups, no_more);
   list(v, "item", f.items, [&](Item& item) {
     v.value(key("group", "an entry of [[group]]"), &item.group);
-    v.value(key("figures", "ids of figures that measure what it asks about", Presence::defaulted),
+    v.value(key("figures", "ids of figures that measure the topic of the item", Presence::defaulted),
             &item.figures);
   });
 }

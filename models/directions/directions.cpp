@@ -34,13 +34,12 @@ void describe(Visitor& v, std::int64_t& format, std::vector<Direction>& directio
   for (std::size_t i = 0; i < directions.size(); ++i) {
     Direction& d = directions[i];
     v.open_entry("direction", i, d.name);
-    v.value(key("name", "which push it was", kAny), &d.name);
+    v.value(key("name", "name of the push", kAny), &d.name);
     v.value(key("response", "file in models/responses without .toml, fitted to these pushes", kAny),
             &d.response);
-    v.value(key("location_deg", "between the surface normal where they met the object, and the vertical",
-                kQuarter),
+    v.value(key("location_deg", "angle between the surface normal at the touch and the vertical", kQuarter),
             &d.location);
-    v.value(key("slant_deg", "between their axis and that normal", kQuarter), &d.slant);
+    v.value(key("slant_deg", "angle between the push axis and that normal", kQuarter), &d.slant);
     v.close();
   }
 }

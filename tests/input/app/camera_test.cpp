@@ -288,7 +288,7 @@ TEST_F(Camera, ATrueLensHasFiveNumbers) {
 TEST_F(Camera, DoctorSaysWhatVisionNeeds) {
   const Result there = run_program({"doctor"}), bare = run_program({"doctor"}, {{"PATH", "/nowhere"}});
   EXPECT_THAT(there.out, AllOf(HasSubstr("\nok      vision, for scenes with a camera (module vision)\n"),
-                               HasSubstr("OpenCV, for calibrations out of images (module calibration)")));
+                               HasSubstr("OpenCV, for calibration from images (module calibration)")));
   EXPECT_THAT(bare.out, HasSubstr("\nnote    ffmpeg, for videos as a stereo camera: apt-get install ffmpeg"));
 }
 
