@@ -205,8 +205,8 @@ TEST_F(SceneFile, wrong_type) {
 
 TEST_F(SceneFile, wrong_array_length) {
   EXPECT_EQ(scene_said("[0, 0, -20]", "[0, 0]"),
-            "scenes/ball.toml:7:15: 'position_mm' has 2 elements; expected 3 numbers in mm (where its origin "
-            "O is in W); "
+            "scenes/ball.toml:7:15: 'position_mm' has 2 elements; expected 3 numbers in mm (position of its "
+            "origin O in W); "
             "write it like 'position_mm = [0, 0, 1]'");
   EXPECT_THAT(scene_said("[52, 0, 0]", "[52, 0]"),
               StartsWith("scenes/ball.toml:11:14: 'markers_mm[1]' has 2 elements; expected 3"));
