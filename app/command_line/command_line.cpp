@@ -134,9 +134,10 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
   CLI::Option* resolved = command->add_flag(
       "--resolved", options.resolved,
       "print one scene file that needs no other file, with only the parts that the scene uses");
-  CLI::Option* advise = command->add_flag("--advise", options.advise,
-                                          "also run the twin with several time steps and integrators (about "
-                                          "a minute) and name the cheapest within --error-N or --error-um");
+  CLI::Option* advise =
+      command->add_flag("--advise", options.advise,
+                        "also run the twin with several time steps and integrators (about "
+                        "a minute) and name the cheapest within --error-N, --error-um or both");
   advise->excludes(resolved);
   command
       ->add_option("--error-N", options.error_N,

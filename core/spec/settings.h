@@ -4,8 +4,8 @@
 //   struct Wire { std::string address = "127.0.0.1"; double timeout = 0.1; };
 //   void declare(Settings& table, Wire& wire) {
 //     table.value({.name = "address", .meaning = "address of the controller"}, wire.address);
-//     table.value({.name = "timeout_ms", .meaning = "for an answer, at most", .low = 1, .high = 1e3},
-//     wire.timeout);
+//     table.value({.name = "timeout_ms", .meaning = "longest time for an answer", .low = 1, .high = 1e3},
+//                 wire.timeout);
 //   }
 #pragma once
 
