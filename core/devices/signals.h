@@ -38,23 +38,14 @@ struct Inputs {
 // Part of a machine that takes positions; unset for others.
 struct ManipulatorOutputs {
   Pose<'R', 'H'> tip;  // set-point for the coming period
-  Mode mode = Mode::away;
-  std::uint32_t why = 0;      // bits of Why
-  std::int32_t object = -1;   // nearest object, or the one in contact
-  std::int32_t contacts = 0;  // contacts since the start
-  double gap = kUnset;        // tracked tool's tip to the surface, m; negative inside
-  Vec<'N'> force;             // on the tip, N, filtered; z along the outward normal
-  Vec<'W'> felt;              // `force` before the low-pass, in W, N
-  // Deflection along -z of N, m: commanded; for a probe: measured, negative before the first touch.
-  double deflection = 0.0;
-  Point<'W'> first_touch;  // Buffered point of the current or last contact, tip centre.
-  View view;
-  Grip grip;
-  // Arm only [VisHap 2.3]: commanded tip force including gravity compensation; target tip position; gain
-  // along the normal. `force` and `felt` are then -Lambda f: the force on the finger, without gravity.
-  Vec<'R'> arm_force;
-  Point<'W'> wanted;
-  double gain = kUnset;
+  Grip grip;           // command to its gripper
+};
+
+// Part of an arm [VisHap 2.3]; unset for other machines.
+struct ArmOutputs {
+  Vec<'R'> force;           // commanded tip force, N, including gravity compensation
+  Point<'W'> target;        // commanded tip position
+  double gain = kUnset;     // along the normal
   double prop_speed = 0.0;  // of a driven prop's surface relative to the prop, m/s
   Vec<'R'> prop_facing;     // commanded direction of a prop's front, unit; unset: keep it
 };
