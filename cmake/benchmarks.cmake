@@ -1,10 +1,13 @@
 # Benchmarks are a module of their own: nothing of them is in the program. The library under it is there for their tests.
 file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true RELATIVE ${PROJECT_SOURCE_DIR} benchmarks/*)
-list(FILTER folders EXCLUDE REGEX "(peers|reference|\\.cpp)$")
+list(FILTER folders EXCLUDE REGEX "(kit|peers|reference|\\.cpp)$")
 if(NOT TARGET enc_vision OR NOT PNG_FOUND)
   list(FILTER folders EXCLUDE REGEX "/(staged|segmentation|fingertip|registration_images|rendering|vishap)$")
 endif()
-enc_library(enc_bench "${folders}" enc_trial enc_fit enc_wires nlohmann_json::nlohmann_json fmt::fmt)
+# What benchmarks are written with. The benchmarks of somebody else link it, too (kit.cmake).
+enc_library(enc_kit "benchmarks/kit" enc_trial enc_child fmt::fmt)
+enc_precompile_as(enc_kit enc_precompiled)
+enc_library(enc_bench "${folders}" enc_kit enc_fit enc_wires nlohmann_json::nlohmann_json fmt::fmt)
 if(TARGET enc_vision AND PNG_FOUND)
   target_link_libraries(enc_bench PUBLIC enc_vision enc_picture)
 endif()

@@ -1,5 +1,6 @@
 # `cmake --install build/release --prefix DIR` gives a folder that runs anywhere on a machine with the same packages:
-#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/; and the core for others (package.cmake)
+#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/;
+#   and the core and the kit for others (package.cmake, kit.cmake)
 # What was not built (a view without ./encounter view) is not missed.
 install(TARGETS encounter RUNTIME DESTINATION bin)
 get_property(modules GLOBAL PROPERTY enc_modules)
@@ -14,9 +15,9 @@ set_target_properties(encounter ${modules} PROPERTIES BUILD_WITH_INSTALL_RPATH O
 set_target_properties(encounter PROPERTIES INSTALL_RPATH "$ORIGIN/../lib;${mujoco_folder}")
 set_target_properties(${modules} PROPERTIES INSTALL_RPATH "$ORIGIN/../../lib;${mujoco_folder}")
 
-install(FILES ${mujoco_library} DESTINATION lib)
+install(FILES ${mujoco_library} DESTINATION lib COMPONENT benchmark) # a benchmark of somebody else links it, too
 file(GLOB licences ${mujoco_folder}/../LICENSE*)
-install(FILES ${licences} DESTINATION lib)
+install(FILES ${licences} DESTINATION lib COMPONENT benchmark)
 install(DIRECTORY models/ DESTINATION models FILES_MATCHING PATTERN "*.toml" PATTERN "*.xml" PATTERN "*.glb" PATTERN "*.obj"
         PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(directions|identify|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
 install(DIRECTORY benchmarks/reference/ DESTINATION benchmarks/reference)

@@ -1,5 +1,5 @@
 # The door for other people's code: `find_package(Encounter)` gives Encounter::core, the haptic core with Eigen alone, and
-# encounter_driver() (cmake/EncounterConfig.cmake). examples/ uses it.
+# encounter_driver() (cmake/EncounterConfig.cmake). examples/ uses it. kit.cmake adds encounter_benchmark().
 #   cmake --install build/release --prefix DIR                      the program and the core
 #   cmake --install build/release --prefix DIR --component core     the core alone
 include(CMakePackageConfigHelpers)

@@ -117,7 +117,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     add_dependencies(test_${kind} program fit view vision calibration)
   endif()
   if(kind STREQUAL "hygiene")
-    add_dependencies(test_${kind} examples encounter_core)
+    add_dependencies(test_${kind} examples encounter_core encounter_kit)
   endif()
   set(labels ${kind})
   foreach(group sanitized optimised)

@@ -32,7 +32,9 @@ using ModuleFinder = std::function<const ModuleInfo*(const std::string&)>;
 
 // Each function is a subcommand: it prints its results, returns the exit code, and throws Error.
 struct BenchModule {
-  int (*bench)(const BenchOptions& options, const ModuleFinder& modules) = nullptr;
+  // `others`: names of the benchmarks that have a module of their own, "press" for encounter_bench_press.so.
+  int (*bench)(const BenchOptions& options, const ModuleFinder& modules,
+               const std::vector<std::string>& others) = nullptr;
   int (*questionnaire)(const QuestionnaireOptions& options) = nullptr;
 };
 

@@ -143,8 +143,17 @@ bool module_there(const std::string& name) {
 
 std::vector<std::string> drivers_there() {
   std::vector<std::string> names = modules_there();
-  std::erase_if(names,
-                [](const std::string& name) { return ours(name) || name == "view" || name == "window"; });
+  std::erase_if(names, [](const std::string& name) {
+    return ours(name) || name == "view" || name == "window" || name.starts_with(kBenchmarkPrefix);
+  });
+  return names;
+}
+
+std::vector<std::string> benchmarks_there() {
+  const std::string_view prefix = kBenchmarkPrefix;
+  std::vector<std::string> names;
+  for (const std::string& name : modules_there())
+    if (name.size() > prefix.size() && name.starts_with(prefix)) names.push_back(name.substr(prefix.size()));
   return names;
 }
 
@@ -266,7 +275,9 @@ const ModuleInfo& module_for_pictures(const std::string& name) {
   return own_module(name, "calibrate camera RIG --through-images");
 }
 
-int bench(const BenchOptions& options) { return benchmarks().bench(options, module_if_there); }
+int bench(const BenchOptions& options) {
+  return benchmarks().bench(options, module_if_there, benchmarks_there());
+}
 
 int fit(const FitOptions& options) { return fit_module().fit(options); }
 

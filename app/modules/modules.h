@@ -29,6 +29,8 @@ namespace enc::app {
 
 // The available drivers, without the other modules of the program.
 [[nodiscard]] std::vector<std::string> drivers_there();
+// "press" for each encounter_bench_press.so: benchmarks of somebody else. Loads no module.
+[[nodiscard]] std::vector<std::string> benchmarks_there();
 // Returns the options, with the scene of the tennis ball if they name no scene.
 [[nodiscard]] SceneOptions with_scene(const SceneOptions& options);
 // A set-up with the tables of its drivers read, as far as their modules are available. Throws Error (kind

@@ -21,7 +21,8 @@
 #include <unistd.h>
 
 #include "benchmarks/commands/committed_results.h"
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/commands/others.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/questionnaire/opinion.h"
 #include "benchmarks/report/choice.h"
 #include "benchmarks/report/plot.h"
@@ -550,7 +551,9 @@ int questionnaire_command(const trial::QuestionnaireOptions& options) {
   return 0;
 }
 
-int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules) {
+int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules,
+                  const std::vector<std::string>& others) {
+  register_others(options, modules, others);
   if (options.list) return list_benchmarks();
   if (options.repeats < 0 || options.repeats > 1'000'000)
     throw Error("--repeats: expected a whole number from 1 to 1000000");

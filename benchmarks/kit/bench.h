@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -91,29 +90,5 @@ struct BenchContext {
     return quick ? if_quick : own;
   }
 };
-
-// The table of benchmarks. Each benchmark registers itself by one line in its own file:
-//   const Entry kEntry{"speed", "tennis_ball", "step(), times real time", run};
-
-class Bench;
-
-struct Benchmark {
-  const char* name;   // name of its folder and first token of its figures' ids
-  const char* scene;  // file in models/scenes or models/rigs, without ".toml"; else the measured object: no
-                      // --set
-  const char* what;   // one line
-  void (*run)(Bench&);
-  void (*over_rig)(Bench&) = nullptr;  // runs over the devices of a rig; null: the twin alone
-};
-
-class Entry {
- public:
-  Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&),
-        void (*over_rig)(Bench&) = nullptr);
-};
-
-[[nodiscard]] std::span<const Benchmark> benchmarks();  // by name
-// Runs in the twin, or over the devices of the context's rig.
-[[nodiscard]] BenchResult result_of(const Benchmark& benchmark, const BenchContext& context);
 
 }  // namespace enc::bench

@@ -18,7 +18,11 @@ std::vector<Benchmark>& table() {
 
 Entry::Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&),
              void (*over_rig)(Bench&)) {
-  table().push_back({name, scene, what, run, over_rig});
+  register_benchmark({name, scene, what, run, over_rig});
+}
+
+void register_benchmark(const Benchmark& benchmark) {
+  table().push_back(benchmark);
   std::sort(table().begin(), table().end(), [](const Benchmark& a, const Benchmark& b) {
     return std::string_view(a.name) < std::string_view(b.name);
   });
@@ -27,6 +31,11 @@ Entry::Entry(const char* name, const char* scene, const char* what, void (*run)(
 std::span<const Benchmark> benchmarks() { return table(); }
 
 BenchResult result_of(const Benchmark& benchmark, const BenchContext& context) {
+  if (const BenchmarkModule* module = benchmark.elsewhere; module != nullptr) {
+    Benchmark there = benchmark;
+    there.elsewhere = nullptr;
+    return module->result_of(there, context);
+  }
   Bench bench(benchmark, context);
   (context.rig.empty() ? benchmark.run : benchmark.over_rig)(bench);
   return std::move(bench.result);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/kit/scenes.h"
 #include "benchmarks/kit/statistics.h"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/staged/staged.h"
 
 namespace enc::bench::rendering {

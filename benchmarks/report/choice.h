@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 
 namespace enc::bench {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/questionnaire/questionnaire.h"
 #include "benchmarks/report/plot.h"
 #include "sim/bodies/mujoco.h"

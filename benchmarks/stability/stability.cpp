@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"

@@ -1,7 +1,7 @@
 // Parts of the benchmark `stiffness` [VHMR Fig 3].
 #pragma once
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/stiffness/push_study.h"
 
 namespace enc::bench::stiffness {

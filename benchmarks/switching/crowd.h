@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "core/control/scene/scene.h"
 
 namespace enc::bench::switching {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/verdict/reference.h"
 #include "models/setup/scene_file.h"
 #include "trial/measure/programme_measures.h"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/kit/scenes.h"
 #include "benchmarks/reaching/reach_runs.h"

@@ -37,12 +37,15 @@ struct ModuleInfo {
   const void* frames = nullptr;       // FrameFiles, images module only
   const void* peers = nullptr;        // bench::PeersModule, peers module only
   const void* bench = nullptr;        // trial::BenchModule, bench module only
+  const void* benchmark = nullptr;    // bench::BenchmarkModule, modules of encounter_benchmark() only
   const void* fit = nullptr;          // app::FitModule, fit module only
   const void* calibration = nullptr;  // app::CalibrationModule, calibration module only
 };
 
 // The only exported symbol: extern "C" const enc::ModuleInfo* encounter_module();
 inline constexpr const char* kModuleSymbol = "encounter_module";
+// The module "bench_press" holds the benchmark "press" of somebody else, and no driver.
+inline constexpr const char* kBenchmarkPrefix = "bench_";
 using ModuleEntry = const ModuleInfo* (*)();
 
 }  // namespace enc

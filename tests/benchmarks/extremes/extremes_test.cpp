@@ -8,7 +8,7 @@
 
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/entry.h"
 #include "tests/support/built.h"
 #include "tests/support/twin.h"
 
