@@ -1,5 +1,5 @@
 # `cmake --install build/release --prefix DIR` gives a folder that runs anywhere on a machine with the same packages:
-#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/;
+#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/  share/ (manual page, completion);
 #   and the core and the kit for others (package.cmake, kit.cmake)
 # What was not built (a view without ./encounter view) is not missed.
 install(TARGETS encounter RUNTIME DESTINATION bin)
@@ -22,3 +22,16 @@ install(DIRECTORY models/ DESTINATION models FILES_MATCHING PATTERN "*.toml" PAT
         PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(directions|identify|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
 install(DIRECTORY benchmarks/reference/ DESTINATION benchmarks/reference)
 install(FILES LICENSE DESTINATION .)
+
+# The program itself writes its manual page and its completion for bash, from the table behind --help.
+install(CODE [[
+  function(write_help folder name option)
+    set(file "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share/${folder}/${name}")
+    message(STATUS "Installing: ${file}")
+    cmake_path(GET file PARENT_PATH folder)
+    file(MAKE_DIRECTORY ${folder})
+    execute_process(COMMAND "$<TARGET_FILE:encounter>" help ${option} OUTPUT_FILE ${file} COMMAND_ERROR_IS_FATAL ANY)
+  endfunction()
+  write_help(man/man1 encounter.1 --man)
+  write_help(bash-completion/completions encounter --bash)
+]])

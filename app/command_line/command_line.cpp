@@ -7,7 +7,6 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/calibrate/calibrate.h"
+#include "app/command_line/help.h"
 #include "app/common/command_options.h"
 #include "app/common/options.h"
 #include "app/laboratory/fakes.h"
@@ -317,29 +317,6 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
   return command;
 }
 
-// A line of help, broken at 80 columns; the rest stands under the first word of its column.
-std::string wrapped_line(const std::string& line) {
-  constexpr std::size_t kWidth = 80, kColumn = 30;  // CLI11's column of descriptions
-  const std::size_t start = line.find_first_not_of(' ');
-  if (line.size() <= kWidth || start == std::string::npos) return line + "\n";
-  const bool described =
-      start > 0 && line.size() > kColumn && line[kColumn] != ' ' && line[kColumn - 1] == ' ';
-  const std::size_t indent = described ? kColumn : start;
-  const std::size_t space = line.rfind(' ', kWidth);
-  if (space == std::string::npos || space <= indent) return line + "\n";
-  return line.substr(0, space) + "\n" + wrapped_line(std::string(indent, ' ') + line.substr(space + 1));
-}
-
-class Help final : public CLI::Formatter {
- public:
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
-    std::string text;
-    for (std::string line; std::getline(lines, line);) text += wrapped_line(line);
-    return text;
-  }
-};
-
 // Adds a subcommand with its options, which live as long as the command line.
 template <class Options>
 void add(CLI::App& app, CLI::App* (*adds)(CLI::App&, Options&), int (*does)(const Options&), int& code) {
@@ -380,6 +357,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* doctor_command =
       add_command(app, "doctor", "Report whether this computer is ready, and what to do if not.", "doctor");
   doctor_command->callback([&] { code = doctor(); });
+  add_help(app);
   check_subcommand(app, argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});
   app.parse(argc, argv);
