@@ -25,10 +25,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
   # Those that are off see ghosts in std::string, where a precompiled header hides that it is the system's.
   add_compile_options(-Wduplicated-cond -Wlogical-op -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
-  # Only with the compiler we test with: a newer one has new warnings, which must not keep a newcomer from building.
-  if(ENCOUNTER_WERROR AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    add_compile_options(-Werror)
-  endif()
+endif()
+# Only with the compilers we test with: a newer one has new warnings, which must not keep a newcomer from building.
+set(tested_GNU 13)
+set(tested_Clang 15)
+if(ENCOUNTER_WERROR AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS "${tested_${CMAKE_CXX_COMPILER_ID}}")
+  add_compile_options(-Werror)
 endif()
 
 if(ENCOUNTER_SANITIZE)

@@ -69,7 +69,6 @@ class RunWatch {
   LatestValue<RunStatus> statuses_;
   Queue<RunEvent, 128> events_;
   std::int64_t ticks_ = 0;
-  Mode mode_ = Mode::away;
   std::uint32_t why_ = 0;
   std::int32_t contacts_ = 0;
   bool in_contact_ = false;

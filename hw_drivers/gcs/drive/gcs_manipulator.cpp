@@ -249,7 +249,6 @@ std::string_view LockstepManipulator::hear() noexcept {
     heard_.remove_prefix(reader_.take(heard_));
     if (reader_.complete()) return reader_.answer();
     if (reader_.overflown() || link.closed() || link.now() > until) return {};
-    constexpr Duration kTurn{1'000'000};
     link.wait(kTurn);
     heard_ = {bytes_.data(), link.receive(bytes_)};
   }

@@ -42,7 +42,7 @@ class Box {
   ForceSensor& sensor_;
   Configuration of_;
   double counter_rate_ = kNetBoxRate;
-  bool streams_ = false, biased_ = false;
+  bool streams_ = false;
   std::uint32_t number_ = 0, left_ = 0, sample_ = 0, failure_ = 0;
   std::array<double, 6> bias_{}, counts_{};
   Time before_{};
