@@ -464,14 +464,14 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, HandFinding& 
 
 // px, median disparity of some blocks of skin; NaN if too few match.
 double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
-  constexpr int kAround = 2, kStep = 6, kFewest = 4;  // blocks to each side; px; blocks
-  constexpr int kFar = kAround * kStep;
+  constexpr int kAround = 2, kStride = 6, kFewest = 4;  // blocks to each side; px; blocks
+  constexpr int kFar = kAround * kStride;
   const auto x = static_cast<int>(at.column), y = static_cast<int>(at.row);
   make_ready(frame, Region{x - kFar, y - kFar, x + kFar + 1, y + kFar + 1}.cut(this->frame()));
   std::array<double, (2 * kAround + 1) * (2 * kAround + 1)> found{};
   std::size_t count = 0;
-  for (int dy = -kFar; dy <= kFar; dy += kStep)
-    for (int dx = -kFar; dx <= kFar; dx += kStep) {
+  for (int dy = -kFar; dy <= kFar; dy += kStride)
+    for (int dx = -kFar; dx <= kFar; dx += kStride) {
       const float there = matcher_.at(grey_left_, grey_right_, x + dx, y + dy, &skin_).pixels;
       if (there > 0.0F) found[count++] = static_cast<double>(there);
     }

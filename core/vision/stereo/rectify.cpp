@@ -33,11 +33,11 @@ Pixel project(const Lens& lens, const Ray& ray) {
 }
 
 Ray ray_of(const Lens& lens, const Pixel& pixel) {
-  constexpr int kSteps = 30;
+  constexpr int kRounds = 30;
   constexpr double kExact = 1e-12;
   const Ray wanted{(pixel.column - lens.centre_x) / lens.focal_x, (pixel.row - lens.centre_y) / lens.focal_y};
   Ray ray = wanted;
-  for (int i = 0; i < kSteps; ++i) {  // Newton
+  for (int i = 0; i < kRounds; ++i) {  // Newton
     const RayDerivatives now = bend(lens, ray);
     const double dx = wanted.x - now.ray.x, dy = wanted.y - now.ray.y;
     if (std::abs(dx) + std::abs(dy) < kExact) return ray;
