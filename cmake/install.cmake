@@ -5,6 +5,8 @@
 install(TARGETS encounter RUNTIME DESTINATION bin)
 get_property(modules GLOBAL PROPERTY enc_modules)
 install(TARGETS ${modules} LIBRARY DESTINATION bin/modules OPTIONAL)
+get_property(vendor_fakes GLOBAL PROPERTY enc_vendor_fakes)
+install(TARGETS ${vendor_fakes} LIBRARY DESTINATION bin/modules/fakes OPTIONAL)
 
 # One run path for here and there: beside the program, else where MuJoCo was found. CMake's own way would pad it with an
 # empty entry, and that means: whatever folder one stands in.

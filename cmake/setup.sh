@@ -189,6 +189,11 @@ setup_pyigtl() {
   setup_judge pyigtl pyigtl==0.3.4 80cdefca7f98ee93c4c42ff1560a914244963df45495dde1784720ac9f28fe29 "0.1 MB" "import pyigtl"
 }
 
+# pyOpenHaptics is a client of OpenHaptics HD. It loads libHD.so with its first import, so only its test can do that.
+setup_pyopenhaptics() {
+  setup_judge pyopenhaptics pyOpenHaptics==1.0.1 13975e926723dd54b5def5038e29f0b23ca9b4b6d5f7b22962d70c55178c14ef "10 kB" pass
+}
+
 # mcap is the reader of MCAP files of those who made the format. It needs lz4 and zstandard only for chunks that are compressed.
 setup_mcap() {
   setup_judge mcap mcap==1.6.0 7cd37fba2cf51d033f2139ca837d2ed3024dcec3cd9f8ecdf3d4d15930df6e17 "20 kB" "import mcap.reader"

@@ -33,6 +33,15 @@ function(enc_module name group sources) # enc_module(name target "sources" libra
   set_property(GLOBAL APPEND PROPERTY enc_modules encounter_${name})
 endfunction()
 
+# A stand-in for a vendor's library, lib<NAME>.so in the folder `fakes` beside the modules, where the vendor's is loaded by name.
+function(enc_vendor_fake name source) # enc_vendor_fake(NAME source libraries...)
+  add_library(encounter_fake_${name} SHARED ${source})
+  target_link_libraries(encounter_fake_${name} PRIVATE ${ARGN})
+  set_target_properties(encounter_fake_${name} PROPERTIES OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${module_dir}/fakes)
+  add_dependencies(program encounter_fake_${name})
+  set_property(GLOBAL APPEND PROPERTY enc_vendor_fakes encounter_fake_${name})
+endfunction()
+
 # Headers that are not ours, compiled once for a library: the front end spends most of its time in them. Sources still
 # include what they use, so each also compiles alone.
 set(enc_standard_headers

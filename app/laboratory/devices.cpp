@@ -102,6 +102,10 @@ std::string words_of(const Measurement<Wrench>& said) {
 std::string words_of(const Measurement<TrackedTool>& tool) {
   return words_of(tool.value.X_CT.p(), kMillimetre) + fmt::format(" mm, of tool {} in C", tool.value.tool);
 }
+std::string words_of(const Stamped<ArmSample>& arm) {
+  return words_of(arm.value.tip.e(), kMillimetre) + " mm, of its tip in R" +
+         (arm.health == Health::ok ? "" : fmt::format(", {}", word_of(arm.health)));
+}
 template <class Sample>
 std::string words_of(const Measurement<Sample>&) {
   return "";

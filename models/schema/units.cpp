@@ -22,6 +22,7 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"_um_per_N", "um/N", -6},
                                              {"_N_per_mm", "N/mm", 3},
                                              {"_N_per_m", "N/m"},
+                                             {"_N_per_s", "N/s"},
                                              {"_mm_s2", "mm/s^2", -3},
                                              {"_m_s2", "m/s^2"},
                                              {"_mm_s", "mm/s", -3},
