@@ -199,6 +199,12 @@ setup_mcap() {
   setup_judge mcap mcap==1.6.0 7cd37fba2cf51d033f2139ca837d2ed3024dcec3cd9f8ecdf3d4d15930df6e17 "20 kB" "import mcap.reader"
 }
 
+# pymodbus is a client and a server of Modbus TCP.
+setup_pymodbus() {
+  setup_judge pymodbus pymodbus==3.16.1 bb433f7417280bdea1190d95495aa6fb8e1fa8e0d720c436922b270bc378024c "0.2 MB" \
+    "import pymodbus.client, pymodbus.server, pymodbus.simulator"
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system
