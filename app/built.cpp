@@ -71,6 +71,9 @@ std::vector<Part> parts_of(const models::Setup& setup) {
   part("prop", scene.prop.has_value(), !scene.prop ? "" : prop_name(*scene.prop));
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
+  if (scene.hand_tracker)
+    part("hand_tracker", true,
+         fmt::format("{:g} Hz, {}", setup.twin.hand_tracker.rate, driver(setup.rig.hand_tracker.driver)));
   return parts;
 }
 

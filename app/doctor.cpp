@@ -70,7 +70,7 @@ void say_driver(Doctor& doctor, const std::string& name) {
     const ModuleInfo& module = load_module(name);
     if (module.driver == nullptr) return;
     std::vector<std::string_view> roles;
-    each_role([&](const auto& role) {
+    each_device([&](const auto& role) {
       if (module.driver->*role.make != nullptr) roles.emplace_back(role.name);
     });
     if (module.driver->camera != nullptr) roles.emplace_back("stereo camera");

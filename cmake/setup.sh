@@ -205,6 +205,12 @@ setup_pymodbus() {
     "import pymodbus.client, pymodbus.server, pymodbus.simulator"
 }
 
+# hand-tracking-sdk receives and parses hands of a headset.
+setup_hand_sdk() {
+  setup_judge hand_tracking_sdk hand-tracking-sdk==1.1.0 2f0118023c964b7f2b650956bb1b4881145363bc28e9fc4d48a9bbe63eb3c364 "50 kB" \
+    "import hand_tracking_sdk"
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system

@@ -110,6 +110,11 @@ World::World(const WorldSpec& spec)
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
   if (user_) programme_time_ = user_->duration();
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
+  if (spec.scene.hand_tracker)
+    hand.emplace(spec.twin.hand_tracker,
+                 pose_of<'W', 'S'>(spec.rig.frames.W_S) * Pose<'S', 'G'>::shift(0, 0, 0) *
+                     pose_of<'G', 'L'>(spec.rig.frames.G_L),
+                 spec.seed);
   next_.dt = from_seconds(dt_);
   if (user_) find_tools(spec.scene);
   (this->*steps_.set_up)(spec);
@@ -262,6 +267,9 @@ void World::sense(Time t) {
     tracker->advance(t, clamped_, true_tip() * X_HT_);
   }
   if (gripper) gripper->advance(t, dt_);
+  if (hand)
+    hand->advance(
+        t, in_hand_ == nullptr ? HandPlace{} : holding(truth_.tool_tip, pointing(), in_hand_->tip_T.norm()));
   if (display) display->advance(t);
 }
 
@@ -344,6 +352,7 @@ std::vector<std::byte> World::save() const {
   if (ball) saver.put(ball->state());
   if (pusher) saver.put(pusher->state());
   if (gripper) saver.put(gripper->state());
+  if (hand) saver.put(hand->state());
   if (user_) saver.put(user_->state());
   saver.put(next_);
   saver.put(truth_);
@@ -363,6 +372,7 @@ void World::restore(const std::vector<std::byte>& saved) {
   if (ball) ball->restore(from.take<BallContact::State>());
   if (pusher) pusher->restore(from.take<Pusher::State>());
   if (gripper) gripper->restore(from.take<GripperPlant::State>());
+  if (hand) hand->restore(from.take<HandPlant::State>());
   if (user_) user_->restore(from.take<User::State>());
   next_ = from.take<Tick>();
   truth_ = from.take<Truth>();
@@ -460,6 +470,15 @@ class SimGripper final : public Gripper {
   World& world_;
 };
 
+class SimHandTracker final : public HandTracker {
+ public:
+  explicit SimHandTracker(World& world) : world_(world) {}
+  bool poll(Time, Measurement<HandSample>& newest) noexcept override { return world_.hand->poll(newest); }
+
+ private:
+  World& world_;
+};
+
 }  // namespace
 
 Rig World::rig() {
@@ -471,6 +490,7 @@ Rig World::rig() {
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);
   if (display) rig.display = std::make_unique<SimDisplay>(*this);
   if (gripper) rig.gripper = std::make_unique<SimGripper>(*this);
+  if (hand) rig.hand_tracker = std::make_unique<SimHandTracker>(*this);
   return rig;
 }
 

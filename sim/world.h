@@ -17,6 +17,7 @@
 #include "sim/hand/user.h"
 #include "sim/plants/arm_plant.h"
 #include "sim/plants/device_plants.h"
+#include "sim/plants/hand_plant.h"
 #include "sim/plants/hexapod_plant.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/truth/truth.h"
@@ -60,6 +61,7 @@ class World {
   std::optional<BallContact> ball;  // set if the scene presses one with a probe
   std::optional<Pusher> pusher;
   std::optional<GripperPlant> gripper;
+  std::optional<HandPlant> hand;
   std::optional<Legs> legs;  // structural form only
 
  private:

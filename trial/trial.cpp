@@ -239,6 +239,7 @@ bool Trial::tick() {
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);
+  if (rig_.hand_tracker) rig_.hand_tracker->poll(now_.t, hand_);
   faults_.apply(in_);
   if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
@@ -295,7 +296,7 @@ TrialResult Trial::run() {
 
 std::vector<std::string> Trial::said() const {
   std::vector<std::string> lines = log_.lines();
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if (const auto& device = rig_.*role.slot)
       for (const std::string& line : device->remarks()) lines.push_back(models::printable(line));
   });

@@ -50,6 +50,7 @@ class Trial {
   [[nodiscard]] Rig& rig() { return rig_; }
   [[nodiscard]] Inputs& inputs() { return in_; }
   [[nodiscard]] const Inputs& inputs() const { return in_; }
+  [[nodiscard]] const Measurement<HandSample>& hand() const { return hand_; }  // the hand tracker's newest
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] Outputs& outputs() { return out_; }
   [[nodiscard]] const Outputs& outputs() const { return out_; }
@@ -81,7 +82,8 @@ class Trial {
   Gate gate_;
   Tick now_;
   Inputs in_;
-  Faults faults_;  // between devices and core
+  Measurement<HandSample> hand_;  // not an input: the core does not see it
+  Faults faults_;                 // between devices and core
   Outputs out_;
   State state_;
   StateHash hash_;

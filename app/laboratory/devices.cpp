@@ -102,20 +102,24 @@ std::string words_of(const Measurement<Wrench>& said) {
 std::string words_of(const Measurement<TrackedTool>& tool) {
   return words_of(tool.value.X_CT.p(), kMillimetre) + fmt::format(" mm, of tool {} in C", tool.value.tool);
 }
-std::string words_of(const Stamped<ArmSample>& arm) {
+std::string words_of(const Measurement<ArmSample>& arm) {
   return words_of(arm.value.tip.e(), kMillimetre) + " mm, of its tip in R" +
          (arm.health == Health::ok ? "" : fmt::format(", {}", word_of(arm.health)));
+}
+std::string words_of(const Measurement<HandSample>& hand) {
+  return words_of(hand.value.wrist.p(), kMillimetre) +
+         fmt::format(" mm, of the {} wrist in L", hand.value.side == HandSide::left ? "left" : "right");
 }
 template <class Sample>
 std::string words_of(const Measurement<Sample>&) {
   return "";
 }
 
-// Index of each role in `all`; all.size() or kRoles: none.
-std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<DeviceCheck>& all) {
-  std::array<std::size_t, kRoles> place{};
-  place.fill(kRoles);
-  each_role([&](const auto& role) {
+// Index of each device in `all`; all.size() or kDevices: none.
+std::array<std::size_t, kDevices> places_of(const Rig& rig, const std::vector<DeviceCheck>& all) {
+  std::array<std::size_t, kDevices> place{};
+  place.fill(all.size());
+  each_device([&](const auto& role) {
     if (rig.*role.slot == nullptr) return;
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const DeviceCheck& one) { return one.role == role.table; });
@@ -124,22 +128,27 @@ std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Devi
   return place;
 }
 
-// Collects the new sample of each role in a reading at `now`, and its faults.
+// Collects a new sample in a reading at `now`, and its fault.
+template <class Sample>
+void listen(const Measurement<Sample>& before, const Measurement<Sample>& said, Time now, Series& of) {
+  if (said.health == Health::absent) return;
+  of.health = said.health;
+  if (of.any && said.t <= of.last) return;
+  if (said.health == Health::fault) ++of.faults;
+  if (of.any && repeats(before, said)) {
+    ++of.repeated, ++of.equal;
+  } else {
+    of.equal = 0, of.differed = now;
+  }
+  of.add(said.t, now);
+}
+
+// The new samples of all roles of the loop.
 void listen(const Rig& rig, const Inputs& before, const Inputs& in, Time now,
-            std::array<Series, kRoles>& series) {
+            std::array<Series, kDevices>& series) {
   each_role([&](const auto& role) {
-    const auto& said = in.*role.said;
-    Series& of = series[static_cast<std::size_t>(role.id)];
-    if (!(rig.*role.slot) || said.health == Health::absent) return;
-    of.health = said.health;
-    if (of.any && said.t <= of.last) return;
-    if (said.health == Health::fault) ++of.faults;
-    if (of.any && repeats(before.*role.said, said)) {
-      ++of.repeated, ++of.equal;
-    } else {
-      of.equal = 0, of.differed = now;
-    }
-    of.add(said.t, now);
+    if (rig.*role.slot)
+      listen(before.*role.said, in.*role.said, now, series[static_cast<std::size_t>(role.id)]);
   });
 }
 
@@ -148,6 +157,12 @@ void tell_times(const Series& of, double seconds, DeviceCheck& device) {
   device.rate = static_cast<double>(device.samples) / seconds;
   device.age = percentiles_of(of.ages);
   device.interval = percentiles_of(of.intervals);
+}
+
+void judge(const Device& device, Time end, Series& of, DeviceCheck& probed) {
+  probed.remarks = device.remarks();
+  of.linked = device.linked();
+  probed.unusable = unusable(of, end, device.refused());
 }
 
 // Makes every real device, reads each for this time at the loop's rate, and releases it. Sends no command:
@@ -160,9 +175,10 @@ std::vector<DeviceCheck> probe_devices(const models::Setup& setup, const trial::
   trial::DeviceLog log;
   for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
     all.push_back({words.role, words.words, words.there});
-  const std::array<std::size_t, kRoles> place = places_of(rig, all);
-  std::array<Series, kRoles> series;
+  const std::array<std::size_t, kDevices> place = places_of(rig, all);
+  std::array<Series, kDevices> series;
   Inputs in;
+  Measurement<HandSample> hand;
   Time end{};
   using Wall = std::chrono::steady_clock;
   const auto period = std::chrono::nanoseconds(from_seconds(1.0 / setup.rig.loop.rate));
@@ -176,17 +192,19 @@ std::vector<DeviceCheck> probe_devices(const models::Setup& setup, const trial::
     end = now;
     rig.read(now, in);
     listen(rig, before, in, now, series);
+    if (rig.hand_tracker && rig.hand_tracker->poll(now, hand))
+      listen({}, hand, now, series[static_cast<std::size_t>(RoleId::hand_tracker)]);
   }
-  each_role([&](const auto& role) {
-    const std::size_t at = place[static_cast<std::size_t>(role.id)];
-    if (at >= all.size()) return;
-    all[at].last = words_of(in.*role.said);
-    all[at].remarks = (rig.*role.slot)->remarks();
-    Series& of = series[static_cast<std::size_t>(role.id)];
-    of.linked = (rig.*role.slot)->linked();
-    all[at].unusable = unusable(of, end, (rig.*role.slot)->refused());
+  each_device([&](const auto& role) {
+    const auto id = static_cast<std::size_t>(role.id);
+    if (place[id] >= all.size()) return;
+    if constexpr (requires { role.said; })
+      all[place[id]].last = words_of(in.*role.said);
+    else
+      all[place[id]].last = words_of(hand);
+    judge(*(rig.*role.slot), end, series[id], all[place[id]]);
   });
-  for (std::size_t i = 0; i < kRoles; ++i)
+  for (std::size_t i = 0; i < kDevices; ++i)
     if (place[i] < all.size() && series[i].any) tell_times(series[i], seconds, all[place[i]]);
   return all;
 }

@@ -3,7 +3,8 @@
 // The letters are those of the papers [VHMR Fig 4]:
 //   fixed: W world, R base of the machine, S headset server, O object, C tracker camera or left camera of a
 //     stereo head, D right camera of a stereo head
-//   moving: G headset, L hand tracker, H haptic-tip, F force sensor, N nearest surface point, T tool markers
+//   moving: G headset, L hand tracker, H haptic-tip, F force sensor, N nearest surface point, T tool markers,
+//     K wrist of the tracked hand
 // Variables keep the monogram: X_WR is the pose of R in W, p_WT a point in W, f_N a force in N.
 // Everything is SI. An unset number is NaN, never zero and never identity.
 #pragma once
@@ -24,7 +25,7 @@ using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
 inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
-inline constexpr std::string_view kFrames = "WRSOCDGLHFNT";
+inline constexpr std::string_view kFrames = "WRSOCDGLHFNTK";
 template <char A>
 concept Frame = kFrames.find(A) != std::string_view::npos;
 

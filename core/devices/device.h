@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/hand_sample.h"
 #include "core/base/image.h"
 #include "core/base/sample.h"
 #include "core/devices/signals.h"
@@ -105,6 +106,13 @@ class Gripper : public Device {
   // Valid until the next command; the device limits the force to its range.
   virtual void command(const Grip& grip) noexcept = 0;
   virtual void stop() noexcept = 0;  // Keeps its grip and opens nothing; see Manipulator.
+};
+
+// A tracker of the user's hand, for what is drawn of it [VHMR 3.2]. The core never sees it.
+class HandTracker : public Device {
+ public:
+  // Returns true for a newer sample, stamped with its exposure; otherwise leaves `newest` alone.
+  virtual bool poll(Time now, Measurement<HandSample>& newest) noexcept = 0;
 };
 
 }  // namespace enc

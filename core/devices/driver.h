@@ -57,6 +57,7 @@ struct DriverModule {
   Maker<PoseTracker> tracker = nullptr;
   Maker<Display> display = nullptr;
   Maker<Gripper> gripper = nullptr;
+  Maker<HandTracker> hand_tracker = nullptr;
   // A camera for a tracker, which reads it; it is not a role of the loop.
   Maker<StereoCamera> camera = nullptr;
   bool plays = false;     // its devices replay recordings and need no wall clock

@@ -38,6 +38,7 @@ struct Rig {
   std::unique_ptr<PoseTracker> tracker;
   std::unique_ptr<Display> display;
   std::unique_ptr<Gripper> gripper;
+  std::unique_ptr<HandTracker> hand_tracker;  // not of the loop: no Inputs, no hold
 
   // Reads the devices' data for this cycle. A device without its own clock stamps with `now`.
   void read(Time now, Inputs& in) noexcept {

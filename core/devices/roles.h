@@ -9,8 +9,9 @@
 
 namespace enc {
 
-enum class RoleId : std::uint8_t { manipulator, arm, force, tracker, display, gripper };
-inline constexpr std::size_t kRoles = 6;
+enum class RoleId : std::uint8_t { manipulator, arm, force, tracker, display, gripper, hand_tracker };
+inline constexpr std::size_t kRoles = 6;    // of the loop
+inline constexpr std::size_t kDevices = 7;  // of a rig
 
 template <class Device, class SceneTable, class RigTable, class Reading>
 struct Role {
@@ -43,6 +44,29 @@ void each_role(F f) {
          &DriverModule::display, &Rig::display, &Inputs::dent});
   f(Role{RoleId::gripper, "gripper", "gripper", &SceneSpec::gripper, &RigSpec::gripper,
          &DriverModule::gripper, &Rig::gripper, &Inputs::grip});
+}
+
+// A device of the rig that is not of the loop: the core neither sees it nor holds because of it.
+template <class Device, class SceneTable, class RigTable>
+struct SideRole {
+  RoleId id;
+  const char *table, *name;
+  std::optional<SceneTable> SceneSpec::*scene;
+  RigTable RigSpec::*rig;
+  Maker<Device> DriverModule::*make;
+  std::unique_ptr<Device> Rig::*slot;
+};
+template <class Device, class SceneTable, class RigTable>
+SideRole(RoleId, const char*, const char*, std::optional<SceneTable> SceneSpec::*, RigTable RigSpec::*,
+         Maker<Device> DriverModule::*, std::unique_ptr<Device> Rig::*)
+    -> SideRole<Device, SceneTable, RigTable>;
+
+// The roles of the loop, then the others.
+template <class F>
+void each_device(F f) {
+  each_role([&f](const auto& role) { f(role); });
+  f(SideRole{RoleId::hand_tracker, "hand_tracker", "hand tracker", &SceneSpec::hand_tracker,
+             &RigSpec::hand_tracker, &DriverModule::hand_tracker, &Rig::hand_tracker});
 }
 
 }  // namespace enc

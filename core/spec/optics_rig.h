@@ -102,4 +102,9 @@ struct DisplayRig {
   double margin_speed = 0.050;  // m/s: growth of that margin with the surface's age
 };
 
+// A tracker of the user's hand, for what is drawn of it [VHMR 3.2].
+struct HandTrackerRig {
+  std::string driver = "none";  // in a rig file without its table
+};
+
 }  // namespace enc

@@ -108,6 +108,7 @@ struct RigSpec {
   VisionRig vision;
   DisplayRig display;
   GripperRig gripper;
+  HandTrackerRig hand_tracker;
   ContactRig contact;
   AdmittanceRig admittance;
   std::vector<DriverTable> drivers;  // sorted by name

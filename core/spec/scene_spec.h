@@ -57,6 +57,7 @@ struct ForceSpec {};
 struct TrackerSpec {};
 struct CameraSpec {};  // the tracker uses the rig's stereo camera
 struct DisplaySpec {};
+struct HandTrackerSpec {};
 struct GripperSpec {
   // Clamped, its tip at H and its shaft upwards; empty: the first.
   std::string tool;
@@ -83,6 +84,7 @@ struct SceneSpec : ProbePart, TravelPart {
   std::optional<CameraSpec> camera;
   std::optional<DisplaySpec> display;
   std::optional<GripperSpec> gripper;
+  std::optional<HandTrackerSpec> hand_tracker;
   std::optional<UserSpec> user;
   std::optional<PusherSpec> pusher;
   std::optional<QuestionnaireSpec> questionnaire;

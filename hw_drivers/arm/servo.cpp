@@ -70,7 +70,7 @@ Vec<'R'> Servo::turn(const ArmReading& reading) noexcept {
   return lost_ ? Vec<'R'>::zero() : force;
 }
 
-Stamped<ArmSample> Servo::read(Time now) noexcept {
+Measurement<ArmSample> Servo::read(Time now) noexcept {
   tick_ = net::steady_now();
   if (reports_.read(report_) || !read_) {
     // Subtract the reading's age once, when it is new. A reading never comes from the future.

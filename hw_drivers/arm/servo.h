@@ -50,7 +50,7 @@ class Servo {
   void lose(const std::string& why) noexcept;
 
   // ---- the loop
-  Stamped<ArmSample> read(Time now) noexcept;
+  Measurement<ArmSample> read(Time now) noexcept;
   void command(const Vec<'R'>& force) noexcept;
   void stop() noexcept;
   [[nodiscard]] bool linked() const noexcept { return !lost_.load(std::memory_order_relaxed); }
@@ -86,8 +86,8 @@ class Servo {
   bool read_ = false, refused_ = false;
 
   // Shared by both.
-  Latest<ForceOrder> orders_;
-  Latest<Report> reports_;
+  LatestValue<ForceOrder> orders_;
+  LatestValue<Report> reports_;
   std::atomic<Duration::rep> turned_ = 0, longest_ = 0;  // ns: the last turn; longest time between two
   std::atomic<std::int64_t> turns_ = 0, errors_ = 0, opened_ = 0;
   std::atomic<int> error_ = 0;        // the last one

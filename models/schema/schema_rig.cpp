@@ -342,6 +342,9 @@ void describe(Visitor& v, RigSpec& r) {
   table_if(v, "vision", r.camera.driver != "none", [&] { describe(v, r.vision); });
   table(v, "display", [&] { describe(v, r.display); });
   table(v, "gripper", [&] { describe(v, r.gripper); });
+  if (!table_if(v, "hand_tracker", r.hand_tracker.driver != "none",
+                [&] { driver(v, r.hand_tracker.driver); }))
+    r.hand_tracker.driver = "none";
   table(v, "contact", [&] { describe(v, r.contact); });
   table(v, "admittance", [&] { describe(v, r.admittance); });
   v.drivers("driver", r.drivers);

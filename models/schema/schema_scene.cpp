@@ -213,6 +213,7 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "gripper", s.gripper, [&](GripperSpec& g) {
     v.value({"tool", "name of the clamped tool; empty: the first", "[VHMR 4.1]", chosen}, &g.tool);
   });
+  part(v, "hand_tracker", s.hand_tracker, [](HandTrackerSpec&) {});
   part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
   part(v, "pusher", s.pusher, [&](PusherSpec& p) { describe(v, p); });

@@ -114,6 +114,16 @@ void describe(Visitor& v, sim::GripperTruth& g) {
       &g.width);
 }
 
+void describe(Visitor& v, sim::HandTrackerTruth& h) {
+  const std::string_view source = "sources/hand 7";
+  v.value({"rate_hz", "frames", "[VHMR 2]", published, kRates}, &h.rate);
+  v.value({"latency_ms", "from exposure to arrival", source, published, kNotNegative}, &h.latency);
+  v.value({"noise_mm", "rms, each frame, axis and joint", source, published, kNotNegative}, &h.noise);
+  v.value({"turn_noise_deg", "rms, each frame, of the wrist", source, assumed, kNotNegative}, &h.turn_noise);
+  v.value({"skin_mm", "thickness from a joint to the skin", source, assumed, kPositive}, &h.skin);
+  v.value({"loss", "share of frames lost", "injected", chosen, {0.0, 1.0}}, &h.loss);
+}
+
 void describe(Visitor& v, sim::ForceTruth& f) {
   v.value({"quantum_N", "quantisation step of a force reading", "[VHMR 2], sources/force_sensor 1", published,
            kNotNegative},
@@ -417,6 +427,8 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "tracker", [&] { describe(v, t.tracker); });
   table(v, "camera", [&] { describe(v, t.camera); });
   table(v, "display", [&] { describe(v, t.display); });
+  t.hand_tracker.there =
+      table_if(v, "hand_tracker", t.hand_tracker.there, [&] { describe(v, t.hand_tracker); });
   table(v, "contact", [&] { describe(v, t.contact); });
   table(v, "hand", [&] { describe(v, t.hand); });
   table(v, "ball", [&] { describe(v, t.ball); });

@@ -23,7 +23,7 @@ std::string near_driver(const Setup& setup, const std::string& near) {
   const auto look = [&](const char* table, const std::string& driver) {
     if (at.empty() && driver == near) at = place_of(setup, fmt::format("rig.{}.driver", table));
   };
-  each_role([&](const auto& role) { look(role.table, (setup.rig.*role.rig).driver); });
+  each_device([&](const auto& role) { look(role.table, (setup.rig.*role.rig).driver); });
   look("camera", setup.rig.camera.driver);
   return fmt::format("did you mean {}, as {} says?", quoted(near), at);
 }
@@ -44,7 +44,7 @@ std::string driverless(const Setup& setup, const std::string& name) {
 
 std::set<std::string> drivers_of(const RigSpec& rig) {
   std::set<std::string> names;
-  each_role([&](const auto& role) { names.insert((rig.*role.rig).driver); });
+  each_device([&](const auto& role) { names.insert((rig.*role.rig).driver); });
   names.insert(rig.camera.driver);
   names.erase("sim");
   names.erase("none");
@@ -112,7 +112,7 @@ void DriverTableReader::finish() const {
   if (missing_.empty()) return;
   std::string at = path_of(driver_);
   if (!setup_.places.contains(at))  // without a table: the place that names the driver
-    each_role([&, first = true](const auto& role) mutable {
+    each_device([&, first = true](const auto& role) mutable {
       if (!first || (setup_.rig.*role.rig).driver != driver_) return;
       at = fmt::format("rig.{}.driver", role.table);
       first = false;

@@ -221,6 +221,7 @@ std::vector<std::string> unread(const Setup& setup) {
   if (s.camera) tables.emplace_back("truth.tracker");
   without(s.display.has_value(), {"rig.display", "truth.display", "rig.frames.W_S", "rig.frames.G_L"});
   without(s.gripper.has_value(), {"rig.gripper", "truth.gripper"});
+  without(s.hand_tracker.has_value(), {"rig.hand_tracker", "truth.hand_tracker"});
   without(s.user.has_value(), {"truth.hand", "truth.contact"});
   without(s.probe.has_value(), {"truth.ball"});
   without(s.pusher.has_value(), {"truth.pusher"});

@@ -454,7 +454,7 @@ void check_rig(const Setup& setup) {
   check_driver(setup, s.camera.has_value(), "camera", r.camera.driver);
   check_camera(setup);
   check_calibration(setup);
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     check_driver(setup, (s.*role.scene).has_value(), role.table, (r.*role.rig).driver);
   });
   if (r.tracker.lost_age < r.tracker.usual_age) {

@@ -69,7 +69,7 @@ bool has_rig(const Setup& setup) { return setup.places.contains("rig"); }
 
 // A role whose table is missing has no driver; the struct's default is for rigs made in code.
 void clear_absent_drivers(Setup& setup) {
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if (!setup.places.contains(fmt::format("rig.{}", role.table))) (setup.rig.*role.rig).driver = "none";
   });
 }

@@ -104,4 +104,15 @@ struct DisplayTruth {
   double latency = 0.010;  // s, frame to the surface's return at the core
 };
 
+// The hand tracker on the headset, which stands still at S (sources/hand 7).
+struct HandTrackerTruth {
+  double rate = 120.0;      // Hz [VHMR 2]
+  double latency = 0.030;   // s, exposure to arrival
+  double noise = 0.4e-3;    // m rms, each frame, axis and joint
+  double turn_noise = 0.0;  // rad rms, each frame, of the wrist
+  double skin = 0.008;      // m
+  double loss = 0.0;        // share of frames lost
+  bool there = false;       // the rig file has its table
+};
+
 }  // namespace enc::sim

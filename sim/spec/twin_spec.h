@@ -88,6 +88,7 @@ struct TwinSpec {
   TrackerTruth tracker;
   CameraTruth camera;
   DisplayTruth display;
+  HandTrackerTruth hand_tracker;
   ContactTruth contact;
   HandTruth hand;
   BallTruth ball;

@@ -62,7 +62,7 @@ class SilentLog final : public Log {
 
 Slots slots_of(const models::Setup& setup) {
   Slots slots;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if (!(setup.scene.*role.scene)) return;
     const bool real = !driver_of(setup, role).empty();
     slots.simulated = slots.simulated || !real;
@@ -74,7 +74,7 @@ Slots slots_of(const models::Setup& setup) {
 
 bool meets_person(const models::Setup& setup) {
   bool real = false;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if (role.id == RoleId::force || role.id == RoleId::tracker)
       real = real || !driver_of(setup, role).empty();
   });
@@ -83,7 +83,7 @@ bool meets_person(const models::Setup& setup) {
 
 bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
   bool any = false;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     try {
@@ -122,7 +122,7 @@ std::vector<std::string> tool_names(const models::Setup& setup) {
 
 std::vector<DrivenRole> driven_roles(const models::Setup& setup) {
   std::vector<DrivenRole> all;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     if (sees(setup, role)) {
@@ -148,7 +148,7 @@ void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Lo
   const std::set<std::string> used = drivers_used(setup);
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if (driver_of(setup, role).empty() || sees(setup, role)) return;
     try {
       rig.*role.slot = make(role, setup, drivers, log, keeping);
@@ -160,7 +160,7 @@ void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Lo
 
 std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup) {
   std::vector<DeviceWords> all;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     all.push_back(words_of(role.table, driver, *(rig.*role.slot)));
@@ -170,7 +170,7 @@ std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& s
 
 std::string real_machine(const Rig& rig, const models::Setup& setup) {
   std::string key;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     if constexpr (requires { (Rig{}.*role.slot)->stop(); })
       if (key.empty() && !driver_of(setup, role).empty() && !(rig.*role.slot)->is_fake())
         key = fmt::format("rig.{}.driver", role.table);
@@ -184,7 +184,7 @@ std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, c
       "not asked, as the machine does not answer: a run that has it would lose this one, too";
   std::vector<DeviceWords> all;
   bool machine_absent = false;
-  each_role([&](const auto& role) {
+  each_device([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     auto& device = rig.*role.slot;

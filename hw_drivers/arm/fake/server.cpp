@@ -116,7 +116,7 @@ void ArmServer::publish(Time now) {
 }
 
 void ArmServer::send(Time now) {
-  const Stamped<ArmSample> sample = arm_.read(now);
+  const Measurement<ArmSample> sample = arm_.read(now);
   ++state_.number;
   state_.joints = sample.value.joints;
   state_.tip = sample.value.tip.xyz;

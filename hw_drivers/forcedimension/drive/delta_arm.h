@@ -94,7 +94,7 @@ class DeltaArm final : public HapticArm {
     return loop_->servo().remarks(describe());
   }
   [[nodiscard]] ArmAbility ability() const override { return loop_->device().ability(); }
-  Stamped<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
+  Measurement<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
   void command(const Vec<'R'>& force) noexcept override { loop_->servo().command(force); }
   void stop() noexcept override { loop_->servo().stop(); }
 

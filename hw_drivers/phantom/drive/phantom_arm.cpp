@@ -119,7 +119,7 @@ LockstepArm::LockstepArm(const Offer& offer, const PhantomSettings& settings)
   device_.calibrate();
 }
 
-Stamped<ArmSample> LockstepArm::read(Time now) noexcept {
+Measurement<ArmSample> LockstepArm::read(Time now) noexcept {
   arm::ArmReading reading;
   try {
     if (linked_) reading = device_.look(net::steady_now(), period_);

@@ -55,7 +55,7 @@ class PhantomArm final : public HapticArm {
     return loop_->servo().remarks(describe());
   }
   [[nodiscard]] ArmAbility ability() const override { return loop_->device().ability(); }
-  Stamped<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
+  Measurement<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
   void command(const Vec<'R'>& force) noexcept override { loop_->servo().command(force); }
   void stop() noexcept override { loop_->servo().stop(); }
 
@@ -73,7 +73,7 @@ class LockstepArm final : public HapticArm {
   [[nodiscard]] bool is_fake() const override { return device_.is_fake(); }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] ArmAbility ability() const override { return device_.ability(); }
-  Stamped<ArmSample> read(Time now) noexcept override;
+  Measurement<ArmSample> read(Time now) noexcept override;
   void command(const Vec<'R'>& force) noexcept override;
   void stop() noexcept override;
 

@@ -69,7 +69,7 @@ class ArmBench {
   trial::DeviceLog log;
   StillArm arm;
   arm::ArmServer server;
-  Stamped<ArmSample> sample;
+  Measurement<ArmSample> sample;
   std::atomic<bool> publishes = true;         // false: the device's scheduler makes no calls
   std::atomic<Duration::rep> zero_since = 0;  // steady clock, ns: since when the force is zero; 0: it is not
 

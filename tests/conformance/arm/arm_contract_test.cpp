@@ -71,7 +71,7 @@ class HapticArmTest : public testing::TestWithParam<ArmEntry> {
   std::unique_ptr<ArmSupport> support_ = GetParam().make();
   Vec<'R'> push_{0.2, -0.1, 0.3};
   Time now_{};
-  Stamped<ArmSample> sample_;
+  Measurement<ArmSample> sample_;
 };
 
 TEST_P(HapticArmTest, TimeNeverGoesBackAndAdvances) {

@@ -13,7 +13,7 @@ namespace enc::test {
 // An arm that stands at its joints, whatever the force.
 struct StillArm final : HapticArm {
   [[nodiscard]] ArmAbility ability() const override { return {arm.machine(), 8.5, 1.4}; }
-  Stamped<ArmSample> read(Time now) noexcept override {
+  Measurement<ArmSample> read(Time now) noexcept override {
     ArmSample sample;
     sample.joints = joints;
     sample.tip = arm.tip(joints);

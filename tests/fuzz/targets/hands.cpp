@@ -1,0 +1,71 @@
+// The driver's input from a headset that streams hands: lines in any pieces.
+#include <algorithm>
+#include <string>
+
+#include "hw_drivers/hand/drive/reception.h"
+#include "hw_drivers/hand/fake/server.h"
+#include "hw_drivers/hand/wire/line.h"
+#include "tests/fuzz/machine/fuzzing.h"
+
+namespace enc::fuzz {
+namespace {
+
+HandSample any_hand() {
+  HandSample hand;
+  hand.wrist = Pose<'L', 'K'>::shift(0.1, -0.2, 0.3);
+  for (std::size_t i = 0; i < kHandJoints; ++i)
+    hand.joints[i] = Point<'L'>(0.01 * static_cast<double>(i), 0.25, 0.3);
+  return hand;
+}
+
+// The first byte gives the length of the pieces. What is taken is a hand, no older than the one before; what
+// is read is written and read again unchanged.
+Target lines() {
+  Target target;
+  const Measurement<HandSample> first{any_hand(), Time(Duration(5'000'000'000)), Health::ok};
+  const Measurement<HandSample> second{any_hand(), Time(Duration(5'008'333'333)), Health::ok};
+  target.seeds = {"\x40" + hand::lines_of(first, 7, true) + hand::lines_of(second, 8, true),
+                  "\x07Right wrist: 1,2,3,0,0,0,1\nHead pose: 0,0,0,0,0,0,1\n",
+                  "\x09" + std::string(5000, 'x') + "\n" + hand::lines_of(first, 9, true)};
+  target.tokens = {
+      "Right wrist",          "Right landmarks",     "Left", " | f=", " | t=", ": ", ", ", "\n", "1e300",
+      "-9223372036854775808", "9223372036854775807", "nan",  "1e-400"};
+  target.run = [](const std::string& input) {
+    hand::Lines lines;
+    hand::Reception reception{hand::HandSettings{}};
+    Measurement<HandSample> newest;
+    const std::size_t piece = input.empty() ? 1 : static_cast<unsigned char>(input.front()) + 1U;
+    std::int64_t time = 0;
+    for (std::size_t at = 1; at < input.size();) {
+      const std::span<std::byte> room = lines.room();
+      expect(!room.empty(), "no room");
+      const std::size_t part = std::min({piece, input.size() - at, room.size()});
+      std::transform(input.begin() + static_cast<std::ptrdiff_t>(at),
+                     input.begin() + static_cast<std::ptrdiff_t>(at + part), room.begin(),
+                     [](char c) { return static_cast<std::byte>(c); });
+      lines.came(part);
+      at += part;
+      for (auto line = lines.next(); line; line = lines.next()) {
+        const Time before = newest.t;
+        const bool any = newest.health != Health::absent;
+        const bool news = reception.take(*line, Time(Duration(time += 1'000'000)), newest);
+        expect(!news || newest.value.wrist.valid(), "what was taken is no hand");
+        expect(!news || !any || newest.t >= before, "time goes back");
+        for (const Point<'L'>& joint : newest.value.joints)
+          expect(!news || joint.finite(), "a joint is no number");
+        hand::Packet packet, again;
+        if (hand::read(*line, packet) != hand::Wrong::nothing) continue;
+        const std::string written = hand::line_of(packet);
+        expect(hand::read(written, again) == hand::Wrong::nothing && hand::line_of(again) == written,
+               "what is written of it is read as another");
+      }
+    }
+    return reception.counts().hands > 0;
+  };
+  return target;
+}
+
+const Offer kLines("hand_lines", &lines);
+
+}  // namespace
+}  // namespace enc::fuzz
