@@ -10,7 +10,7 @@ if(ENCOUNTER_VISION)
 endif()
 add_library(enc_test_support STATIC ${generated}/pch.cpp ${sources})
 target_link_libraries(enc_test_support PUBLIC enc_app enc_fit enc_forcedimension enc_gcs enc_hand enc_igtl enc_net enc_netft enc_phantom enc_trial GTest::gmock GTest::gtest)
-foreach(part enc_gripper enc_vision enc_camera enc_images enc_picture enc_calibration)
+foreach(part enc_gripper enc_vision enc_camera enc_images enc_v4l2 enc_picture enc_calibration)
   if(TARGET ${part})
     target_link_libraries(enc_test_support PUBLIC ${part})
   endif()
@@ -58,7 +58,7 @@ set(long_loops unit/core/control/safety/certificate/)
 set(slow ${draws} ${runs_scenes} ${long_loops})
 list(TRANSFORM slow PREPEND "/tests/")
 list(JOIN slow "|" slow)
-set(needs_vision "/tests/.*(/(vision|images)/|/(app|benchmarks|sim|trial)/camera/|camera_test)") # what is not built without it
+set(needs_vision "/tests/.*(/(vision|images|v4l2)/|/(app|benchmarks|sim|trial)/camera/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)

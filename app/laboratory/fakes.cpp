@@ -23,6 +23,7 @@
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
 #include "trial/assemble/assemble.h"
+#include "trial/assemble/vision.h"
 #include "trial/operator/signals.h"
 
 namespace enc::app {
@@ -207,6 +208,8 @@ Fakes::Fakes(models::Setup setup, FakesOptions options)
   world_ = trial::make_world(setup_, scene_, options_.seed);
   rig_ = world_->rig();
   first_ = world_->save();
+  if (setup_.scene.camera && setup_.rig.camera.driver != "sim")
+    camera_ = trial::make_drawn_camera(setup_, options_.drivers, *world_, options_.seed);
   const std::vector<std::string> tools = trial::tool_names(setup_);
   for (const std::string& name : drivers) {
     const ModuleInfo& module = options_.drivers(name);
@@ -218,8 +221,8 @@ Fakes::Fakes(models::Setup setup, FakesOptions options)
     models::DriverTableReader table(setup_, name);
     const auto go_on =
         options_.lockstep ? std::function<void()>([this] { advance(); }) : std::function<void()>();
-    fakes_.push_back(module.driver->fake(
-        {table, rig_, setup_.rig, log_, go_on, tools, [this] { begin(); }, options_.seed + fakes_.size()}));
+    fakes_.push_back(module.driver->fake({table, rig_, setup_.rig, log_, go_on, tools, [this] { begin(); },
+                                          options_.seed + fakes_.size(), camera_.get()}));
     names_.push_back(name);
   }
   for (const Fault& fault : options_.faults) plans_.push_back(planned(fault, "--fault"));

@@ -80,6 +80,7 @@ class Fakes {
   std::vector<std::byte> first_;  // the world before its first tick
   trial::DeviceLog log_;
   Rig rig_;
+  std::unique_ptr<StereoCamera> camera_;  // the twin's, for a fake of the rig's
   std::vector<std::unique_ptr<Fake>> fakes_;
   std::vector<std::string> names_;  // names of their drivers
   std::vector<FaultPlan> plans_;

@@ -66,6 +66,7 @@ struct FakeOffer {
   std::span<const std::string> tools{};  // the scene's tools: names by index; valid during the call
   std::function<void()> begin{};         // a client connected to command the machine: restart the world
   std::uint64_t seed = 1;                // seed of losses, delays and noise
+  StereoCamera* camera = nullptr;        // the twin's, of a scene with a camera; lives until the fake is gone
 };
 
 }  // namespace enc

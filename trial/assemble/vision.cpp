@@ -7,6 +7,7 @@
 #include "sim/camera/camera_scene.h"
 #include "sim/camera/stage.h"
 #include "trial/assemble/driver_device.h"
+#include "trial/camera/drawn_camera.h"
 #include "trial/camera/kept_frames.h"
 #include "trial/trackers/threaded_tracker.h"
 
@@ -102,6 +103,12 @@ std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const Driv
 }
 
 }  // namespace
+
+std::unique_ptr<StereoCamera> make_drawn_camera(const models::Setup& setup, const DriverSource& modules,
+                                                const sim::World& world, std::uint64_t seed) {
+  const auto& module = *static_cast<const sim::CameraModule*>(modules("camera").camera);
+  return std::make_unique<DrawnCamera>(module, stage_of(setup.twin.camera, seed), show(setup, world));
+}
 
 std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const DriverSource& modules,
                                          const VisionOffer& offer) {

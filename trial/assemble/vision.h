@@ -62,4 +62,10 @@ struct VisionOffer {
 [[nodiscard]] std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup,
                                                        const DriverSource& modules, const VisionOffer& offer);
 
+// The twin's camera for fakes on the wall clock (drawn_camera.h). `world` outlives it. Throws Error as
+// make_vision() does.
+[[nodiscard]] std::unique_ptr<StereoCamera> make_drawn_camera(const models::Setup& setup,
+                                                              const DriverSource& modules,
+                                                              const sim::World& world, std::uint64_t seed);
+
 }  // namespace enc::trial

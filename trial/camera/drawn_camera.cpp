@@ -1,0 +1,76 @@
+#include "trial/camera/drawn_camera.h"
+
+#include <utility>
+
+namespace enc::trial {
+
+DrawnCamera::DrawnCamera(const sim::CameraModule& module, const sim::StageSpec& stage, sim::Show show)
+    : size_(stage.camera.size()), show_(std::move(show)), exposures_{stage.camera.rate} {
+  thread_ = std::thread([this, &module, stage] { work(module, stage); });
+  std::unique_lock lock(changes_);
+  change_.wait(lock, [this] { return phase_ != Phase::drawing || failure_; });
+  if (!failure_) return;
+  lock.unlock();
+  thread_.join();
+  std::rethrow_exception(failure_);
+}
+
+DrawnCamera::~DrawnCamera() {
+  {
+    const std::lock_guard lock(changes_);
+    stop_ = true;
+  }
+  change_.notify_all();
+  thread_.join();
+}
+
+// An OpenGL context belongs to the thread that made it.
+void DrawnCamera::work(const sim::CameraModule& module, const sim::StageSpec& spec) noexcept {
+  try {
+    const std::unique_ptr<sim::Stage> stage = module.stage(spec);
+    std::unique_lock lock(changes_);
+    phase_ = Phase::idle;
+    change_.notify_all();
+    while (true) {
+      change_.wait(lock, [this] { return stop_ || phase_ == Phase::drawing; });
+      if (stop_) return;
+      lock.unlock();
+      stage->draw(shown_, frame_, left_, right_);
+      lock.lock();
+      phase_ = Phase::drawn;
+    }
+  } catch (...) {
+    const std::lock_guard lock(changes_);
+    failure_ = std::current_exception();
+    change_.notify_all();
+  }
+}
+
+bool DrawnCamera::due(Time now) noexcept {
+  if (now < last_) exposures_.n = 0;  // the world begins again
+  last_ = now;
+  bool is = false;
+  while (exposures_.due(now)) is = true;
+  return is;
+}
+
+bool DrawnCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
+  const bool is_due = due(now);
+  if (phase_ == Phase::drawn) {
+    phase_ = Phase::idle;
+    newest = {{left_.view(), right_.view()}, exposed_, Health::ok};
+    if (exposed_ <= now) return true;  // else from before the world began again
+  }
+  if (!is_due || phase_ != Phase::idle) return false;
+  shown_ = show_(now);
+  exposed_ = now;
+  frame_ = static_cast<std::uint64_t>(exposures_.n);  // as the twin counts them
+  {
+    const std::lock_guard lock(changes_);
+    phase_ = Phase::drawing;
+  }
+  change_.notify_all();
+  return false;
+}
+
+}  // namespace enc::trial

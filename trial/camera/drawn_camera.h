@@ -1,0 +1,56 @@
+// The twin's stereo camera for fakes, which keep the wall clock: a thread of its own draws each picture,
+// which takes many periods. Meanwhile the world goes on.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "core/base/image.h"
+#include "core/devices/device.h"
+#include "sim/camera/stage.h"
+
+namespace enc::trial {
+
+class DrawnCamera final : public StereoCamera {
+ public:
+  // Throws Error as Stage does. `module` and whatever `show` reads outlive the camera.
+  DrawnCamera(const sim::CameraModule& module, const sim::StageSpec& stage, sim::Show show);
+  ~DrawnCamera() override;
+  DrawnCamera(const DrawnCamera&) = delete;
+  DrawnCamera& operator=(const DrawnCamera&) = delete;
+
+  [[nodiscard]] ImageSize size() const override { return size_; }
+  // At a due exposure it takes what `show` shows, and returns that picture at a later call, with the stamp of
+  // the exposure. An exposure that comes while the thread draws is left out. Time may begin again.
+  bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
+
+ private:
+  enum class Phase : std::uint8_t { idle, drawing, drawn };
+  void work(const sim::CameraModule& module, const sim::StageSpec& stage) noexcept;
+  [[nodiscard]] bool due(Time now) noexcept;
+
+  ImageSize size_;
+  sim::Show show_;
+  DueTimes exposures_;
+  Time last_{};
+
+  // The thread's while it draws, else the caller's.
+  sim::Shown shown_;
+  Image left_, right_;
+  Time exposed_{};
+  std::uint64_t frame_ = 0;
+
+  std::mutex changes_;
+  std::condition_variable change_;
+  std::atomic<Phase> phase_ = Phase::drawing;  // the thread begins with its stage
+  bool stop_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+}  // namespace enc::trial
