@@ -18,7 +18,7 @@ namespace enc::test {
 
 // Jaws that take 50 ms for a stroke, and keep a list of what they were told.
 struct SeenJaws final : Gripper {
-  struct Told {
+  struct GripCommand {
     char what;  // 'c' close, 'o' open, 's' stop
     Duration at;
   };
@@ -48,12 +48,12 @@ struct SeenJaws final : Gripper {
   [[nodiscard]] std::string words() {
     const std::lock_guard lock(mutex);
     std::string all;
-    for (const Told& one : told) all += one.what;
+    for (const GripCommand& one : told) all += one.what;
     return all;
   }
   std::mutex mutex;
   GripSample sample{};
-  std::vector<Told> told;
+  std::vector<GripCommand> told;
   Duration begun{};
   bool moving = false, closing = false;
   std::atomic<bool> tool = true, jammed = false;

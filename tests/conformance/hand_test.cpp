@@ -68,33 +68,33 @@ void expect_same(const HandSample& hand, const HandSample& other) {
 TEST(HandLine, IsReadAndWrittenToTheLastBit) {
   hand::Packet packet;
   ASSERT_EQ(hand::read("Right wrist | f=12 | t=1500000000: 0.1, -2e-3,3 ,+4,5,6.5,7\r", packet),
-            hand::MessageFault::nothing);
+            hand::LineFault::nothing);
   EXPECT_EQ(packet.side, hand::Side::right);
   EXPECT_EQ(packet.frame, 12);
   EXPECT_EQ(packet.stamp_ns, 1'500'000'000);
   EXPECT_EQ(packet.values[1], -2e-3);
   packet.values[0] = 1.0 / 3.0;
   hand::Packet again;
-  ASSERT_EQ(hand::read(hand::line_of(packet), again), hand::MessageFault::nothing);
+  ASSERT_EQ(hand::read(hand::line_of(packet), again), hand::LineFault::nothing);
   EXPECT_EQ(again.values, packet.values);
   EXPECT_EQ(hand::line_of(again), hand::line_of(packet));
 }
 
 TEST(HandLine, WhatIsWrongIsSaid) {
-  using hand::MessageFault;
-  const std::pair<const char*, MessageFault> lines[] = {
-      {"", MessageFault::empty},
-      {"  \t", MessageFault::empty},
-      {"Right wrist 1,2,3", MessageFault::colon},
-      {"right wrist: 1,2,3,4,5,6,7", MessageFault::label},
-      {"Right wrist too: 1,2,3,4,5,6,7", MessageFault::label},
-      {"Right wrist | f=x: 1,2,3,4,5,6,7", MessageFault::metadata},
-      {"Right wrist: 1,2,3,4,5,6,x", MessageFault::number},
-      {"Right wrist: 1,2,3,4,5,6,nan", MessageFault::number},
-      {"Right wrist: 1,2,3,4,5,6,1e999", MessageFault::number},
-      {"Right wrist: 1,2,3,4,5,6", MessageFault::count},
-      {"Right wrist: 1,2,3,4,5,6,7,8", MessageFault::count},
-      {"Right landmarks: 1,2,3,4,5,6,7", MessageFault::count}};
+  using hand::LineFault;
+  const std::pair<const char*, LineFault> lines[] = {
+      {"", LineFault::empty},
+      {"  \t", LineFault::empty},
+      {"Right wrist 1,2,3", LineFault::colon},
+      {"right wrist: 1,2,3,4,5,6,7", LineFault::label},
+      {"Right wrist too: 1,2,3,4,5,6,7", LineFault::label},
+      {"Right wrist | f=x: 1,2,3,4,5,6,7", LineFault::metadata},
+      {"Right wrist: 1,2,3,4,5,6,x", LineFault::number},
+      {"Right wrist: 1,2,3,4,5,6,nan", LineFault::number},
+      {"Right wrist: 1,2,3,4,5,6,1e999", LineFault::number},
+      {"Right wrist: 1,2,3,4,5,6", LineFault::count},
+      {"Right wrist: 1,2,3,4,5,6,7,8", LineFault::count},
+      {"Right landmarks: 1,2,3,4,5,6,7", LineFault::count}};
   hand::Packet packet;
   for (const auto& [line, wrong] : lines) EXPECT_EQ(hand::read(line, packet), wrong) << line;
 }
@@ -397,7 +397,7 @@ void expect_agreement(const std::string& line, const std::string& theirs) {
   constexpr const char* kSides[] = {"left", "right", "head"};
   constexpr const char* kKinds[] = {"wrist", "landmarks", "pose"};
   hand::Packet packet;
-  const bool ours = hand::read(line, packet) == hand::MessageFault::nothing;
+  const bool ours = hand::read(line, packet) == hand::LineFault::nothing;
   // Beyond the range of a double theirs is 0 or infinite, and ours refused.
   if (!ours && (theirs.find("inf") != std::string::npos || theirs.find("nan") != std::string::npos)) return;
   ASSERT_EQ(ours, theirs != "no") << line << " | " << theirs;

@@ -35,7 +35,7 @@ void DrawnCamera::work(const sim::CameraModule& module, const sim::StageSpec& sp
       change_.wait(lock, [this] { return stop_ || phase_ == Phase::drawing; });
       if (stop_) return;
       lock.unlock();
-      stage->draw(shown_, frame_, left_, right_);
+      stage->draw(scene_, frame_, left_, right_);
       lock.lock();
       phase_ = Phase::drawn;
     }
@@ -62,7 +62,7 @@ bool DrawnCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
     if (exposed_ <= now) return true;  // else from before the world began again
   }
   if (!is_due || phase_ != Phase::idle) return false;
-  shown_ = show_(now);
+  scene_ = show_(now);
   exposed_ = now;
   frame_ = static_cast<std::uint64_t>(exposures_.n);  // as the twin counts them
   {

@@ -40,7 +40,7 @@ class DrawnCamera final : public StereoCamera {
   Time last_{};
 
   // The thread's while it draws, else the caller's.
-  sim::Shown shown_;
+  sim::CameraScene scene_;
   Image left_, right_;
   Time exposed_{};
   std::uint64_t frame_ = 0;

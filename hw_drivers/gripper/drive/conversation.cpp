@@ -126,12 +126,12 @@ bool Conversation::did(Outcome outcome) noexcept {
 
 bool Conversation::prepare() noexcept {
   const auto ms = static_cast<std::uint16_t>(std::lround(1e3 * settings_.watchdog));
-  struct Wanted {
+  struct RegisterValue {
     int at;
     std::uint16_t value;
   };
-  for (const Wanted& one :
-       {Wanted{kWatchdogTime, ms}, {kWatchdogType, kAnyTelegram}, {kFallbackType, kAllOff}}) {
+  for (const RegisterValue& one :
+       {RegisterValue{kWatchdogTime, ms}, {kWatchdogType, kAnyTelegram}, {kFallbackType, kAllOff}}) {
     std::array<std::uint16_t, 1> value{};
     if (!did(coupler_.read_registers(one.at, value))) return false;
     if (value[0] == one.value) continue;

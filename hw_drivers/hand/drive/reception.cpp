@@ -25,8 +25,8 @@ bool Reception::is_newer(const Packet& packet) noexcept {
 
 // True if the line belongs to a newer hand of the side that is asked for.
 bool Reception::believed(std::string_view line, Packet& packet) noexcept {
-  if (const Wrong wrong = read(line, packet); wrong != Wrong::nothing) {
-    counts_.wrong += wrong == Wrong::empty ? 0 : 1;
+  if (const LineFault wrong = read(line, packet); wrong != LineFault::nothing) {
+    counts_.wrong += wrong == LineFault::empty ? 0 : 1;
     return false;
   }
   fake_ = fake_ || packet.fake;

@@ -48,22 +48,22 @@ bool number_of(std::string_view text, Number& number) {
 }
 
 // What is not "letters = something" is not for us.
-Wrong take_metadata(std::string_view part, Packet& packet) {
+LineFault take_metadata(std::string_view part, Packet& packet) {
   packet.fake = packet.fake || part == kFakeName;
   std::string_view value = part;
   while (!value.empty() && is_letter(value.front())) value.remove_prefix(1);
   const std::string_view key = part.substr(0, part.size() - value.size());
   value = stripped(value);
-  if (key.empty() || !value.starts_with('=') || value.size() < 2) return Wrong::nothing;
+  if (key.empty() || !value.starts_with('=') || value.size() < 2) return LineFault::nothing;
   std::int64_t number = 0;
-  if (!number_of(value.substr(1), number)) return Wrong::metadata;
+  if (!number_of(value.substr(1), number)) return LineFault::metadata;
   if (equal(key, "f") || equal(key, "frame")) packet.frame = number;
   if (equal(key, "t") || equal(key, "ts") || equal(key, "timestamp")) packet.stamp_ns = number;
-  return Wrong::nothing;
+  return LineFault::nothing;
 }
 
 // Two words with space between them.
-Wrong take_label(std::string_view label, Packet& packet) {
+LineFault take_label(std::string_view label, Packet& packet) {
   const auto* const gap = std::find_if(label.begin(), label.end(), is_space);
   const auto first = static_cast<std::size_t>(gap - label.begin());
   const std::string_view side = label.substr(0, first), kind = stripped(label.substr(first));
@@ -74,7 +74,7 @@ Wrong take_label(std::string_view label, Packet& packet) {
   } else if (side == "Head") {
     packet.side = Side::head;
   } else {
-    return Wrong::label;
+    return LineFault::label;
   }
   if (equal(kind, "wrist")) {
     packet.kind = Kind::wrist;
@@ -83,42 +83,43 @@ Wrong take_label(std::string_view label, Packet& packet) {
   } else if (equal(kind, "pose")) {
     packet.kind = Kind::pose;
   } else {
-    return Wrong::label;
+    return LineFault::label;
   }
-  return Wrong::nothing;
+  return LineFault::nothing;
 }
 
-Wrong take_head(std::string_view head, Packet& packet) {
+LineFault take_head(std::string_view head, Packet& packet) {
   bool more = true;
   const std::string_view label = stripped(cut(head, '|', more));
   while (more)
-    if (const Wrong wrong = take_metadata(stripped(cut(head, '|', more)), packet); wrong != Wrong::nothing)
+    if (const LineFault wrong = take_metadata(stripped(cut(head, '|', more)), packet);
+        wrong != LineFault::nothing)
       return wrong;
   return take_label(label, packet);
 }
 
 }  // namespace
 
-Wrong read(std::string_view line, Packet& packet) noexcept {
+LineFault read(std::string_view line, Packet& packet) noexcept {
   packet = Packet{};
   line = stripped(line);
-  if (line.empty()) return Wrong::empty;
+  if (line.empty()) return LineFault::empty;
   if (!std::all_of(line.begin(), line.end(), [](char c) { return static_cast<signed char>(c) > 0; }))
-    return Wrong::label;
+    return LineFault::label;
   bool more = false;
   const std::string_view head = cut(line, ':', more);
-  if (!more) return Wrong::colon;
-  if (const Wrong wrong = take_head(head, packet); wrong != Wrong::nothing) return wrong;
+  if (!more) return LineFault::colon;
+  if (const LineFault wrong = take_head(head, packet); wrong != LineFault::nothing) return wrong;
   const std::size_t wanted = packet.kind == Kind::landmarks ? kLandmarkValues : kPoseValues;
   for (more = true; more;) {
     const std::string_view part = stripped(cut(line, ',', more));
     if (part.empty()) continue;
     double value = 0.0;
-    if (!number_of(part, value) || !std::isfinite(value)) return Wrong::number;
+    if (!number_of(part, value) || !std::isfinite(value)) return LineFault::number;
     if (packet.count < wanted) packet.values[packet.count] = value;
-    if (++packet.count > wanted) return Wrong::count;
+    if (++packet.count > wanted) return LineFault::count;
   }
-  return packet.count == wanted ? Wrong::nothing : Wrong::count;
+  return packet.count == wanted ? LineFault::nothing : LineFault::count;
 }
 
 std::string line_of(const Packet& packet) {

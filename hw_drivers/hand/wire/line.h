@@ -28,10 +28,10 @@ struct Packet {
   bool fake = false;  // a fake says so in its metadata
 };
 
-enum class Wrong : std::uint8_t { nothing, empty, colon, label, metadata, number, count };
+enum class LineFault : std::uint8_t { nothing, empty, colon, label, metadata, number, count };
 
 // False positives of the SDK are refused: a number that is not finite or has '_', text that is not ASCII.
-[[nodiscard]] Wrong read(std::string_view line, Packet& packet) noexcept;
+[[nodiscard]] LineFault read(std::string_view line, Packet& packet) noexcept;
 
 // The line of a packet, with a line feed. Numbers come back to the last bit.
 [[nodiscard]] std::string line_of(const Packet& packet);

@@ -171,7 +171,7 @@ void HdDevice::find_velocities(arm::ArmReading& reading, double dt) {
   ArmSample& sample = reading.sample;
   kept_[static_cast<std::size_t>(frames_ % kRing)] = {sample.joints, reading.at};
   const std::int64_t back = std::min(window_, frames_);
-  const Kept& before = kept_[static_cast<std::size_t>((frames_ - back) % kRing)];
+  const JointSample& before = kept_[static_cast<std::size_t>((frames_ - back) % kRing)];
   const double time = std::isnan(dt) ? seconds(reading.at - before.at) : static_cast<double>(back) * dt;
   for (std::size_t i = 0; back > 0 && time > 0.0 && i < kMostJoints; ++i)
     sample.joint_velocities[i] = (sample.joints[i] - before.joints[i]) / time;

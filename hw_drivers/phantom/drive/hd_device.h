@@ -69,7 +69,7 @@ class HdDevice {
 
   // Joints of the last frames, a ring.
   static constexpr std::size_t kLongest = 64;
-  struct Kept {
+  struct JointSample {
     PerJoint joints{};
     Duration at{};
   };
@@ -84,7 +84,7 @@ class HdDevice {
   ArmAbility ability_;
   Point<'R'> origin_;
   Vec3 reported_mm_ = Vec3::Zero();  // position of the last frame, in the device's coordinates
-  std::array<Kept, kLongest> kept_{};
+  std::array<JointSample, kLongest> kept_{};
   std::int64_t frames_ = 0;
   int error_ = 0;
 };

@@ -36,8 +36,8 @@ Capture::Capture(System& system, const V4l2Settings& settings, ImageSize each, d
 }
 
 void Capture::open() {
-  Wanted wanted{settings_.pixels(), two() ? each_.width : 2 * each_.width, each_.height, rate_,
-                static_cast<int>(settings_.buffers)};
+  StreamRequest wanted{settings_.pixels(), two() ? each_.width : 2 * each_.width, each_.height, rate_,
+                       static_cast<int>(settings_.buffers)};
   if (wanted.pixels == Pixels::yuyv && each_.width % 2 != 0)
     throw Error(fmt::format("{}: an image of {} px cannot be YUYV, whose colour is for two columns; expected "
                             "an even width; set format",
@@ -82,14 +82,14 @@ void Capture::drain(std::size_t side) {
   for (int i = 0; i < kMost; ++i) {
     Side& of = sides_[side];
     RawFrame& frame = of.frames[of.next];
-    const VideoDevice::Taken taken = device.take(frame);
-    if (taken == VideoDevice::Taken::nothing) return;
-    if (taken == VideoDevice::Taken::damaged) {
+    const VideoDevice::TakeResult taken = device.take(frame);
+    if (taken == VideoDevice::TakeResult::nothing) return;
+    if (taken == VideoDevice::TakeResult::damaged) {
       ++counts_.damaged;
       ++damaged_in_a_row_;
     }
-    if (taken == VideoDevice::Taken::gone || damaged_in_a_row_ >= kMostDamaged) return close();
-    if (taken != VideoDevice::Taken::frame) continue;
+    if (taken == VideoDevice::TakeResult::gone || damaged_in_a_row_ >= kMostDamaged) return close();
+    if (taken != VideoDevice::TakeResult::frame) continue;
     damaged_in_a_row_ = 0;
     const Shot shot{frame.stamp, of.next};
     of.next = (of.next + 1) % kSlots;

@@ -10,14 +10,14 @@ Duration distance(Duration a, Duration b) noexcept { return a > b ? a - b : b - 
 
 }  // namespace
 
-std::int64_t Pairs::Held::add(const Shot& shot) noexcept {
+std::int64_t Pairs::FrameQueue::add(const Shot& shot) noexcept {
   const bool full = count == kHeld;
   if (full) drop(1);
   shots[count++] = shot;
   return full ? 1 : 0;
 }
 
-void Pairs::Held::drop(std::size_t oldest) noexcept {
+void Pairs::FrameQueue::drop(std::size_t oldest) noexcept {
   std::copy(shots.begin() + static_cast<std::ptrdiff_t>(oldest),
             shots.begin() + static_cast<std::ptrdiff_t>(count), shots.begin());
   count -= oldest;

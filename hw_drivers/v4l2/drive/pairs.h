@@ -47,7 +47,7 @@ class Pairs {
 
  private:
   // The newest frames of a side, oldest first.
-  struct Held {
+  struct FrameQueue {
     std::array<Shot, kHeld> shots{};
     std::size_t count = 0;
     std::int64_t add(const Shot& shot) noexcept;  // number of frames that fell out
@@ -57,7 +57,7 @@ class Pairs {
   void count(const ShotPair& pair) noexcept;
 
   Duration half_, apart_;
-  Held lefts_, rights_;
+  FrameQueue lefts_, rights_;
   PairErrors errors_;
   std::int64_t unpaired_ = 0;
 };

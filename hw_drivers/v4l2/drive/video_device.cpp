@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kMostSeconds = 4'000'000'000;  // of a stamp: more would overflow as nanoseconds
 
 // Largest frame that memory is kept for. Drivers round up, and a JPEG is smaller than its pixels.
-std::size_t most_bytes(const Wanted& wanted) {
+std::size_t most_bytes(const StreamRequest& wanted) {
   return 4 * static_cast<std::size_t>(wanted.width) * static_cast<std::size_t>(wanted.height) + (1U << 20U);
 }
 
@@ -58,7 +58,7 @@ std::string text_in(const unsigned char (&field)[N]) {
 
 }  // namespace
 
-VideoDevice::VideoDevice(System& system, const std::string& path, const Wanted& wanted)
+VideoDevice::VideoDevice(System& system, const std::string& path, const StreamRequest& wanted)
     : system_(system), path_(path) {
   open();
   try {
@@ -107,7 +107,7 @@ void VideoDevice::identify() {
                               card_));
 }
 
-void VideoDevice::set_format(const Wanted& wanted) {
+void VideoDevice::set_format(const StreamRequest& wanted) {
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   v4l2_pix_format& pixels = format.fmt.pix;
@@ -136,7 +136,7 @@ void VideoDevice::set_format(const Wanted& wanted) {
 }
 
 // Not every device can report or change its rate.
-void VideoDevice::set_rate(const Wanted& wanted) {
+void VideoDevice::set_rate(const StreamRequest& wanted) {
   v4l2_streamparm stream{};
   stream.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (system_.control(descriptor_, VIDIOC_G_PARM, &stream) != 0) return;
@@ -156,7 +156,7 @@ void VideoDevice::set_rate(const Wanted& wanted) {
                             rate_, wanted.rate, offers.empty() ? "" : "; it offers ", offers));
 }
 
-void VideoDevice::share_buffers(const Wanted& wanted) {
+void VideoDevice::share_buffers(const StreamRequest& wanted) {
   v4l2_requestbuffers request{};
   request.count = static_cast<std::uint32_t>(wanted.buffers);
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -204,14 +204,14 @@ bool VideoDevice::queue(std::uint32_t index) noexcept {
   return system_.control(descriptor_, VIDIOC_QBUF, &buffer) == 0;
 }
 
-VideoDevice::Taken VideoDevice::take(RawFrame& into) noexcept {
+VideoDevice::TakeResult VideoDevice::take(RawFrame& into) noexcept {
   v4l2_buffer buffer{};
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
   const int result = system_.control(descriptor_, VIDIOC_DQBUF, &buffer);
-  if (result == -EAGAIN) return Taken::nothing;
-  if (result == -EIO) return Taken::damaged;  // a transient fault; the buffer stays with the kernel
-  if (result != 0 || buffer.index >= buffers_.size()) return Taken::gone;
+  if (result == -EAGAIN) return TakeResult::nothing;
+  if (result == -EIO) return TakeResult::damaged;  // a transient fault; the buffer stays with the kernel
+  if (result != 0 || buffer.index >= buffers_.size()) return TakeResult::gone;
   if (const std::uint32_t gap = buffer.sequence - sequence_ - 1; any_ && gap < 1U << 31U) lost_ += gap;
   any_ = true;
   sequence_ = buffer.sequence;
@@ -225,8 +225,8 @@ VideoDevice::Taken VideoDevice::take(RawFrame& into) noexcept {
   into.used = std::min({std::size_t{buffer.bytesused}, from.size, into.bytes.size()});
   std::copy_n(from.memory, into.used, into.bytes.begin());
   const bool damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || into.used == 0;
-  if (!queue(buffer.index)) return Taken::gone;
-  return damaged ? Taken::damaged : Taken::frame;
+  if (!queue(buffer.index)) return TakeResult::gone;
+  return damaged ? TakeResult::damaged : TakeResult::frame;
 }
 
 std::string VideoDevice::name() const {

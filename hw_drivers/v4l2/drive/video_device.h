@@ -13,7 +13,7 @@
 namespace enc::v4l2 {
 
 // The format that a rig needs.
-struct Wanted {
+struct StreamRequest {
   Pixels pixels = Pixels::yuyv;
   int width = 0, height = 0;  // px, of the device
   double rate = 20.0;         // Hz
@@ -31,14 +31,14 @@ struct RawFrame {
 class VideoDevice {
  public:
   // Opens the device and begins to stream. Throws Error (kind device) with the path and a remedy.
-  VideoDevice(System& system, const std::string& path, const Wanted& wanted);
+  VideoDevice(System& system, const std::string& path, const StreamRequest& wanted);
   ~VideoDevice();
   VideoDevice(const VideoDevice&) = delete;
   VideoDevice& operator=(const VideoDevice&) = delete;
 
-  enum class Taken : std::uint8_t { frame, damaged, nothing, gone };
+  enum class TakeResult : std::uint8_t { frame, damaged, nothing, gone };
   // The oldest frame that waits. gone: the device was unplugged, or its driver gave up.
-  [[nodiscard]] Taken take(RawFrame& into) noexcept;
+  [[nodiscard]] TakeResult take(RawFrame& into) noexcept;
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] const Raster& raster() const { return raster_; }
@@ -60,9 +60,9 @@ class VideoDevice {
   void open();
   void close() noexcept;
   void identify();
-  void set_format(const Wanted& wanted);
-  void set_rate(const Wanted& wanted);
-  void share_buffers(const Wanted& wanted);
+  void set_format(const StreamRequest& wanted);
+  void set_rate(const StreamRequest& wanted);
+  void share_buffers(const StreamRequest& wanted);
   void begin();
   [[nodiscard]] bool queue(std::uint32_t index) noexcept;
 

@@ -120,7 +120,7 @@ class Recorder final : public v4l2::System {
   std::vector<std::uint8_t> memory_ = std::vector<std::uint8_t>(8192);
 };
 
-const v4l2::Wanted kWanted{Pixels::grey, kWide, kHigh, 20.0, 2};
+const v4l2::StreamRequest kWanted{Pixels::grey, kWide, kHigh, 20.0, 2};
 
 Recorder& conversation() {
   static Recorder recorder;
@@ -131,7 +131,7 @@ Recorder& conversation() {
   const std::vector<std::uint8_t> grey(static_cast<std::size_t>(kWide) * kHigh, 7);
   for (const std::uint32_t number : {4U, 6U}) {
     recorder.node_.put(number, Duration(number), grey);
-    expect(device.take(frame) == v4l2::VideoDevice::Taken::frame, "the fake sends no frame");
+    expect(device.take(frame) == v4l2::VideoDevice::TakeResult::frame, "the fake sends no frame");
   }
   return recorder;
 }

@@ -54,9 +54,9 @@ Target lines() {
         for (const Point<'L'>& joint : newest.value.joints)
           expect(!news || joint.finite(), "a joint is no number");
         hand::Packet packet, again;
-        if (hand::read(*line, packet) != hand::Wrong::nothing) continue;
+        if (hand::read(*line, packet) != hand::LineFault::nothing) continue;
         const std::string written = hand::line_of(packet);
-        expect(hand::read(written, again) == hand::Wrong::nothing && hand::line_of(again) == written,
+        expect(hand::read(written, again) == hand::LineFault::nothing && hand::line_of(again) == written,
                "what is written of it is read as another");
       }
     }

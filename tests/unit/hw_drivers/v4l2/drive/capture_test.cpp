@@ -35,14 +35,14 @@ V4l2Settings one() {
   return settings;
 }
 
-struct Watched {
+struct CaptureErrors {
   std::int64_t pairs = 0;
   double worst_pairing = 0.0, worst_stamp = 0.0, worst_age = 0.0;  // s, against ground truth
 };
 // Runs for so many seconds, and compares each pair with the ground truth.
-Watched watch(VirtualVideo& video, Capture& capture, const VirtualCamera& left, const VirtualCamera& right,
-              double until) {
-  Watched seen;
+CaptureErrors watch(VirtualVideo& video, Capture& capture, const VirtualCamera& left,
+                    const VirtualCamera& right, double until) {
+  CaptureErrors seen;
   StereoPicture picture;
   while (seconds(video.now()) < until) {
     if (!capture.turn(Duration(50'000'000), picture)) continue;
@@ -67,7 +67,7 @@ TEST(V4l2Capture, TwoDriftingCamerasArePairedForTenMinutes) {
   video.add("/dev/video0", left);
   video.add("/dev/video2", right);
   Capture capture(video, two(), kEach, kRate);
-  Watched seen = watch(video, capture, left, right, 3.0);
+  CaptureErrors seen = watch(video, capture, left, right, 3.0);
   const std::size_t heap = mallinfo2().uordblks;
   const double length = 600.0;
   const std::int64_t before = capture.counts().pairs;
@@ -93,7 +93,7 @@ TEST(V4l2Capture, JitterOfTheStampsCostsNoPair) {
   video.add("/dev/video0", left);
   video.add("/dev/video2", right);
   Capture capture(video, two(), kEach, kRate);
-  const Watched seen = watch(video, capture, left, right, 101.0);
+  const CaptureErrors seen = watch(video, capture, left, right, 101.0);
   EXPECT_GE(seen.pairs, 1998);
   EXPECT_EQ(capture.counts().unpaired, 0);
   EXPECT_LE(seen.worst_pairing, 0.5 * kFrame + 0.3e-3);
@@ -109,7 +109,7 @@ TEST(V4l2Capture, CountsLostAndDamagedFrames) {
   video.add("/dev/video0", left);
   video.add("/dev/video2", right);
   Capture capture(video, two(), kEach, kRate);
-  const Watched seen = watch(video, capture, left, right, 6.02);
+  const CaptureErrors seen = watch(video, capture, left, right, 6.02);
   EXPECT_EQ(capture.counts().lost, 4);
   EXPECT_EQ(capture.counts().damaged, 1);
   EXPECT_EQ(capture.counts().unpaired, 1);  // whose partner was lost
@@ -154,7 +154,7 @@ TEST(V4l2Capture, ACameraThatIsPluggedInAgainIsOpenedWithFreshStamps) {
   }
   EXPECT_NEAR(seconds(video.now()), 7.0, 0.3);
   const double back = seconds(video.now());
-  const Watched seen = watch(video, capture, left, right, back + 5.02);
+  const CaptureErrors seen = watch(video, capture, left, right, back + 5.02);
   EXPECT_GE(seen.pairs, 98);
   EXPECT_LE(seen.worst_stamp, 1e-6);
   EXPECT_GT(capture.counts().errors.pairs, 150);

@@ -43,7 +43,7 @@ struct VirtualCamera {
 class VirtualVideo final : public System {
  public:
   VirtualCamera& add(const std::string& path, VirtualCamera camera) {
-    cameras_.push_back(std::make_unique<Running>(path, std::move(camera)));
+    cameras_.push_back(std::make_unique<CameraRun>(path, std::move(camera)));
     return cameras_.back()->camera;
   }
   void refuse(const std::string& path, int error) { refused_[path] = error; }
@@ -64,7 +64,7 @@ class VirtualVideo final : public System {
   }
   void close(int descriptor) noexcept override { of(descriptor).node.leave(descriptor); }
   int control(int descriptor, unsigned long request, void* data) noexcept override {
-    Running& camera = of(descriptor);
+    CameraRun& camera = of(descriptor);
     if (!plugged(camera)) return -ENODEV;
     return camera.node.control(descriptor, static_cast<std::uint32_t>(request),
                                {static_cast<std::byte*>(data), _IOC_SIZE(request)});
@@ -77,7 +77,7 @@ class VirtualVideo final : public System {
   void unmap(void* memory, std::size_t size) noexcept override { ::munmap(memory, size); }
   void wait(std::span<const int> descriptors, Duration most) noexcept override {
     for (const int descriptor : descriptors) {
-      Running& camera = of(descriptor);
+      CameraRun& camera = of(descriptor);
       pollfd ready{camera.node.event(), POLLIN, 0};
       if (!plugged(camera) || ::poll(&ready, 1, 0) > 0) return;
     }
@@ -86,8 +86,8 @@ class VirtualVideo final : public System {
   Duration now() noexcept override { return now_; }
 
  private:
-  struct Running {
-    Running(std::string name, VirtualCamera of)
+  struct CameraRun {
+    CameraRun(std::string name, VirtualCamera of)
         : path(std::move(name)), camera(std::move(of)), node(camera.spec) {}
     std::string path;
     VirtualCamera camera;
@@ -96,16 +96,16 @@ class VirtualVideo final : public System {
     double after = 0.0;  // s: earliest time of the next frame, as frames stay in order
     std::mt19937_64 random{7};
   };
-  Running& of(int descriptor) { return *cameras_[static_cast<std::size_t>(descriptor % 100)]; }
-  [[nodiscard]] bool plugged(const Running& camera) const {
+  CameraRun& of(int descriptor) { return *cameras_[static_cast<std::size_t>(descriptor % 100)]; }
+  [[nodiscard]] bool plugged(const CameraRun& camera) const {
     const double now = seconds(now_);
     return now < camera.camera.unplugged_from || now >= camera.camera.unplugged_to;
   }
-  double uniform(Running& camera) { return std::generate_canonical<double, 53>(camera.random); }
+  double uniform(CameraRun& camera) { return std::generate_canonical<double, 53>(camera.random); }
   // Delivers frames up to `until`, or up to the first one.
   void run_to(Duration until, bool first) {
     while (true) {
-      Running* due = nullptr;
+      CameraRun* due = nullptr;
       double when = seconds(until);
       for (const auto& camera : cameras_) {
         const double at =
@@ -118,7 +118,7 @@ class VirtualVideo final : public System {
     }
     now_ = until;
   }
-  bool deliver(Running& of) {
+  bool deliver(CameraRun& of) {
     const std::int64_t n = of.next++;
     of.after = seconds(now_) + of.camera.jitter * uniform(of);
     if (!plugged(of)) return true;  // wakes the waiting driver
@@ -132,7 +132,7 @@ class VirtualVideo final : public System {
                        of.camera.damaged.contains(n));
   }
 
-  std::vector<std::unique_ptr<Running>> cameras_;
+  std::vector<std::unique_ptr<CameraRun>> cameras_;
   std::map<std::string, int> refused_;
   Duration now_{1'000'000'000};  // CLOCK_MONOTONIC is above 0
   int opened_ = 0;
