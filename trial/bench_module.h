@@ -20,6 +20,7 @@ struct BenchOptions {
   bool armed = false, lockstep = false;     // arguments as for a run over those devices
   bool yes = false, not_real_time = false;  // arguments as for a run over those devices
   bool fakes = false;                       // `encounter fake` replaces those devices
+  bool mutate = false, json = false;        // turn each bound red by a change; as one JSON object
 };
 struct QuestionnaireOptions {
   std::string form = "vhmr_2020";

@@ -245,6 +245,10 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
   device_options(command, options);
   command->add_flag("--fakes", options.fakes, "start and stop `encounter fake` for the devices of --rig");
   command->add_flag("--list", options.list, "only list the benchmarks");
+  command->add_flag("--mutate", options.mutate,
+                    "test the bounds: run each benchmark clean and with each of its mutants, such as `bench "
+                    "--mutate deformation`; exit code 1 if a bound stays green under all of them");
+  command->add_flag("--json", options.json, "with --mutate: one JSON object instead of text");
   force_option(command, options.force);
   return command;
 }

@@ -20,6 +20,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "core/record/record.h"
 #include "core/record/state_hash.h"
@@ -128,7 +129,9 @@ std::vector<Part> left_out(const BenchContext& context, const std::string& scene
 Form::Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with,
            double seconds)
     : parts_(with), setup_(load_scene(context, scene, {}, soon_touched(scene))) {
-  trial::TrialOptions options{.seed = context.seed, .seconds = seconds, .drivers = modules_of(context)};
+  const bool other = context.mutated("other_seed") && !with.empty();
+  trial::TrialOptions options{
+      .seed = context.seed + (other ? 1 : 0), .seconds = seconds, .drivers = modules_of(context)};
   if (among(with, Part::display)) setup_.scene.display = DisplaySpec{};
   options.draw_all = among(with, Part::pictures);
   if (among(with, Part::counts)) counts_ = std::make_unique<trial::RunMeasures>(setup_, options);
@@ -137,7 +140,7 @@ Form::Form(const BenchContext& context, const std::string& scene, const std::vec
   if (among(with, Part::features)) world().physics().model()->opt.disableflags &= ~kFeatures;
   if (among(with, Part::camera))
     vision_ = trial::make_vision(setup_, options.drivers, {&world(), context.seed, log_});
-  if (!among(with, Part::record)) return;
+  if (!among(with, Part::record) || context.mutated("no_record")) return;
   file_ = memfd_create("record", 0);
   if (file_ < 0) throw Error("no file in memory could be made");
   record_ = std::make_unique<RecordWriter>(fmt::format("/proc/self/fd/{}", file_),
@@ -400,6 +403,7 @@ void run(Bench& bench) {
   bench.table(std::move(table));
 }
 
+const Reads kReads{"ablation", {.scenes = {"*"}}};
 const Entry kEntry{"ablation", "all", "what each scene leaves out: same results, and what it would have cost",
                    run};
 

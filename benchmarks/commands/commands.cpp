@@ -360,11 +360,11 @@ void check_folder(const std::string& path, bool force) {
 std::vector<Choice> choices_of(const trial::BenchOptions& options) {
   std::vector<Choice> all = chosen(options.names);
   if (!options.rig.empty()) all = over_devices(std::move(all), !options.names.empty());
-  if (options.set.empty()) return all;
+  if (options.set.empty() || !options.rig.empty()) return all;
   std::vector<std::string> left;
-  all = settable(std::move(all), !options.names.empty(), models::models_dir(), left);
+  all = settable(std::move(all), options.set, !options.names.empty(), models::models_dir(), left);
   if (!left.empty())
-    fmt::print(stderr, "encounter: left out: {}; they read no scene that --set could change\n",
+    fmt::print(stderr, "encounter: left out: {}; they do not read what --set changes\n",
                fmt::join(left, ", "));
   return all;
 }
@@ -389,7 +389,7 @@ class Session {
     context_.repeats = options.repeats;
     context_.quick = options.quick;
     context_.full = options.full;
-    context_.set = options.set;
+    context_.set = UserSettings(options.set);
     context_.module = modules;
     context_.rig = options.rig;
     context_.armed = options.armed;
@@ -555,6 +555,8 @@ int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder&
                   const std::vector<std::string>& others) {
   register_others(options, modules, others);
   if (options.list) return list_benchmarks();
+  if (options.mutate) return mutate_command(options, modules);
+  if (options.json) throw Error("--json: only the mutation run has it; expected --mutate, too; add it");
   if (options.repeats < 0 || options.repeats > 1'000'000)
     throw Error("--repeats: expected a whole number from 1 to 1000000");
   for (const auto& [given, name] :

@@ -10,6 +10,7 @@ namespace enc::bench {
 
 int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules,
                   const std::vector<std::string>& others);
+int mutate_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules);
 int questionnaire_command(const trial::QuestionnaireOptions& options);
 
 }  // namespace enc::bench

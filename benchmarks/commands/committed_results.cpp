@@ -39,7 +39,15 @@ CommittedResults CommittedResults::parse(std::string_view text, const std::strin
 void CommittedResults::take(const Reference& table) {
   for (std::size_t row = 0; row < table.rows(); ++row)
     all_[table.text(row, "id")] = {number_or_unset(table, row, "value"), number_or_unset(table, row, "least"),
-                                   number_or_unset(table, row, "most"), table.text(row, "commit")};
+                                   number_or_unset(table, row, "most"), table.text(row, "commit"),
+                                   !table.text(row, "low").empty() || !table.text(row, "high").empty()};
+}
+
+std::vector<std::string> CommittedResults::bounded(const std::string& benchmark) const {
+  std::vector<std::string> ids;
+  for (const auto& [id, figure] : all_)
+    if (figure.bounded && id.starts_with(benchmark + ".")) ids.push_back(id);
+  return ids;
 }
 
 const CommittedFigure* CommittedResults::find(const std::string& id) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/verdict/reference.h"
@@ -14,6 +15,7 @@ namespace enc::bench {
 struct CommittedFigure {
   double value = kUnset, least = kUnset, most = kUnset;
   std::string commit;  // that measured it
+  bool bounded = false;
 };
 
 class CommittedResults {
@@ -25,6 +27,8 @@ class CommittedResults {
 
   // Null if this file does not have the figure.
   [[nodiscard]] const CommittedFigure* find(const std::string& id) const;
+  // Ids of the benchmark's figures that have bounds.
+  [[nodiscard]] std::vector<std::string> bounded(const std::string& benchmark) const;
   // Reports whether the figure exists and differs: it lies outside the spread of either run over seeds or
   // repeats, by more than the four stored digits. A cost depends on the machine, so it never differs.
   [[nodiscard]] bool differs(const Figure& figure) const;

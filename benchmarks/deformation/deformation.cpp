@@ -11,6 +11,7 @@
 
 #include "benchmarks/deformation/contour.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/settings.h"
 #include "core/base/units.h"
 #include "core/control/scene/scene.h"
 #include "core/shape/deformation/dent.h"
@@ -147,14 +148,15 @@ void add_search(BenchResult& result, const Surface& ball, const Fig11Contours& r
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;
-  const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  const models::Setup setup = bench.setup();
   const Scene scene = prepare(setup.scene, setup.rig);
   const Surface& ball = scene.objects.front().surface;
   const double radius = ball.bound().radius;
   const double probe_radius = sim::BallParameters{}.probe_radius;
   const Fig11Contours reference = load_fig11(context.models);
+  const double share = context.mutated("shallow") ? 0.7 : 1.0;
   const auto seen = [&](double tip_radius, double depth, const Contour& pressed) {
-    const Contour contour = seen_contour(ball, tip_radius, depth);
+    const Contour contour = seen_contour(ball, tip_radius, share * depth);
     return ContourComparison{contour, contour_gap(contour, pressed, radius),
                              overlap(contour, pressed, radius)};
   };
@@ -174,6 +176,7 @@ void run(Bench& bench) {
 
 }  // namespace
 
+const Reads kReads{"deformation", {.only = {"object.ball.radius_mm"}}};
 const Entry kEntry{"deformation", "tennis_ball",
                    "the seen ball's contour against that of a pressed ball (VHMR Fig 11)", run};
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/mutants.h"
 #include "benchmarks/kit/precision.h"
 #include "core/base/units.h"
 #include "trial/measure/press_measure.h"
@@ -79,6 +80,10 @@ void run(Bench& bench) {
                               "user.hold_s=0.1", "user.release_s=0.8", "user.depth_mm=2"});
 }
 
+const Mutants kMutants{"encounter",
+                       {{.what = "machine 15 mm beside where it is believed",
+                         .set = {"truth.hexapod.misplaced_mm=[15,0,0]"},
+                         .kills = {"miss.*.median", "miss.*.max"}}}};
 const Entry kEntry{"encounter", "tennis_ball",
                    "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
                    run};

@@ -9,6 +9,7 @@
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/entry.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 
@@ -344,6 +345,7 @@ void run(Bench& bench) {
   add_error_over_time(bench);
 }
 
+const Reads kReads{"extremes", {.scenes = {"*"}}};
 const Entry kEntry{"extremes", "wall", "what should not happen: extreme cases, each with its criterion", run};
 
 }  // namespace

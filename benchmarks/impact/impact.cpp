@@ -8,6 +8,7 @@
 #include "benchmarks/impact/touch.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/settings.h"
 #include "models/order_statistics.h"
 
 namespace enc::bench::impact {
@@ -91,7 +92,9 @@ std::vector<TouchComparison> compare_all(Bench& bench, const std::string& scene,
   return bench.each(runs, [&](const auto& run) {
     std::vector<std::string> own{kStill};
     own.insert(own.end(), all[run.first].set.begin(), all[run.first].set.end());
-    return compare(load_scene(bench.context, scene, own), run.second);
+    TouchComparison found = compare(load_scene(bench.context, scene, own), run.second);
+    if (bench.context.mutated("contact_for_grip")) found.touch.grip = found.touch.peak;
+    return found;
   });
 }
 
@@ -211,7 +214,10 @@ void add_law(Bench& bench) {
               median(breaks), fixed(1e3 * median(push), 2));
     return median(grip);
   };
-  const double soft = felt(law_of(setup, 1e4), kFine, "1e4"), middle = felt(law_of(setup, 1e5), kFine, "1e5");
+  const double softest = bench.context.mutated("softer_law") ? 1e3 : 1e4;
+  const double step = bench.context.mutated("coarse_step") ? 5e-4 : kFine;
+  const double soft = felt(law_of(setup, softest), kFine, "1e4"),
+               middle = felt(law_of(setup, 1e5), step, "1e5");
   const double hard = felt(law_of(setup, 1e6), kFine, "1e6"), fine = felt(law_of(setup, 1e5), 1e-6, "1e5");
   Law smooth = law_of(setup, 1e5);
   smooth.friction = 0.0;
@@ -358,6 +364,7 @@ void run(Bench& bench) {
   add_speeds(bench);
 }
 
+const Reads kReads{"impact", {.scenes = {"session", "training", "tennis_ball", "wall"}}};
 const Entry kEntry{"impact", "a first contact",
                    "force and bounces over solver, time step, speed and stiffness, and what is felt of them",
                    run};

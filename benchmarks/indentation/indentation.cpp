@@ -14,6 +14,7 @@
 #include "benchmarks/indentation/indent_run.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/control/stages/step_context.h"
 #include "sim/truth/random.h"
@@ -533,6 +534,7 @@ IndentRuns IndentStudy::all(const Words& own, std::size_t count) const {
   return every;
 }
 
+const Reads kReads{"indentation", {.scenes = {"indentation", "rig_A", "stiffness"}}};
 const Entry kEntry{"indentation", "indentation",
                    "a hand replicates indentations A, B, C on the virtual ball (VHMR Figs 8 and 10, Table "
                    "2); directions, lag",

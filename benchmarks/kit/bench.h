@@ -3,17 +3,15 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/context.h"
 #include "benchmarks/kit/plot_data.h"
 #include "core/base/frames.h"
-#include "core/devices/module.h"
 
 namespace enc::bench {
 
@@ -65,30 +63,6 @@ struct BenchResult {
   std::vector<Plot> plots{};
   std::vector<Table> tables{};
   std::vector<Picture> pictures{};
-};
-
-struct BenchContext {
-  std::string models;  // folder
-  std::uint64_t seed = 1;
-  std::int64_t repeats = 0;  // 0: the benchmark's own
-  bool quick = false;
-  bool full = false;  // also the parts that take minutes: switch-off tables, work-precision
-  std::vector<std::string> set;
-  std::function<void(double)> progress;  // receives the share done; any thread may call it
-  // Loads a module of the program by name; null if it was not built.
-  std::function<const ModuleInfo*(const std::string&)> module{};
-  // Rig whose devices run (scenes.h); empty: in the twin.
-  std::string rig{};
-  bool armed = false, lockstep = false, fakes = false;
-  bool not_real_time = false;  // a machine moves although the system refuses real-time scheduling
-  // Called before an attended machine moves for the first time. Throws Error if it must not move.
-  std::function<void(const std::string& question)> confirm{};
-  std::function<bool()> stop{};  // polled by code that runs over devices: true ends it
-  // Number of seeds or laps: the user's value, else the benchmark's own.
-  [[nodiscard]] std::size_t count(std::size_t own, std::size_t if_quick) const {
-    if (repeats > 0) return static_cast<std::size_t>(repeats);
-    return quick ? if_quick : own;
-  }
 };
 
 }  // namespace enc::bench

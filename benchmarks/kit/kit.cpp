@@ -1,9 +1,14 @@
 #include "benchmarks/kit/kit.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
+
+#include "benchmarks/kit/mutants.h"
+#include "core/base/error.h"
 
 namespace enc::bench {
 namespace {
@@ -11,6 +16,12 @@ namespace {
 // The first entry creates the table, because the order of initialisation between files is not specified.
 std::vector<Benchmark>& table() {
   static std::vector<Benchmark> all;
+  return all;
+}
+
+// The first table creates the map, because the order of initialisation between files is not specified.
+std::map<std::string, std::vector<Mutant>, std::less<>>& all_mutants() {
+  static std::map<std::string, std::vector<Mutant>, std::less<>> all;
   return all;
 }
 
@@ -36,9 +47,33 @@ BenchResult result_of(const Benchmark& benchmark, const BenchContext& context) {
     there.elsewhere = nullptr;
     return module->result_of(there, context);
   }
-  Bench bench(benchmark, context);
-  (context.rig.empty() ? benchmark.run : benchmark.over_rig)(bench);
+  BenchContext own = context;
+  own.benchmark = benchmark.name;
+  own.set = UserSettings(context.set.all());
+  Bench bench(benchmark, own);
+  (own.rig.empty() ? benchmark.run : benchmark.over_rig)(bench);
+  if (const std::vector<std::string> unused = own.set.unused(); !unused.empty() && own.rig.empty())
+    throw Error(fmt::format("--set {}: no run of {} uses this parameter, or each run holds it; leave it out",
+                            unused.front(), benchmark.name));
   return std::move(bench.result);
+}
+
+Mutants::Mutants(const char* benchmark, std::vector<Mutant> mutants) {
+  std::vector<Mutant>& all = all_mutants()[benchmark];
+  for (Mutant& mutant : mutants) all.push_back(std::move(mutant));
+}
+
+std::span<const Mutant> mutants_of(std::string_view benchmark) {
+  const auto at = all_mutants().find(benchmark);
+  return at == all_mutants().end() ? std::span<const Mutant>{} : std::span<const Mutant>(at->second);
+}
+
+bool matches(std::string_view pattern, std::string_view id) {
+  const std::size_t in_pattern = pattern.find('.'), in_id = id.find('.');
+  const std::string_view token = pattern.substr(0, in_pattern);
+  if (token != "*" && token != id.substr(0, in_id)) return false;
+  if (in_pattern == std::string_view::npos || in_id == std::string_view::npos) return in_pattern == in_id;
+  return matches(pattern.substr(in_pattern + 1), id.substr(in_id + 1));
 }
 
 std::vector<std::uint64_t> Bench::seeds(std::size_t count) const {

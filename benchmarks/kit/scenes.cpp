@@ -5,11 +5,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "core/devices/mode.h"
 #include "trial/operator/operator.h"
 
 namespace enc::bench {
+
+models::Setup load_scene(const BenchContext& context, const std::string& name, std::vector<std::string> own,
+                         const std::vector<std::string>& held) {
+  const std::vector<std::string> users = settings_for(context, name, held);
+  own.insert(own.end(), users.begin(), users.end());
+  own.insert(own.end(), held.begin(), held.end());
+  return models::load(context.models + "/scenes/" + name + ".toml", {}, own);
+}
 
 RigScene on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
                 const std::vector<std::string>& held) {

@@ -18,13 +18,10 @@ namespace enc::bench {
 
 // Loads models/scenes/<name>.toml on the simulated rig that it names. A later setting overrides an earlier
 // one: first `own`, the benchmark's; then the user's; then those that a comparison must hold.
-[[nodiscard]] inline models::Setup load_scene(const BenchContext& context, const std::string& name,
-                                              std::vector<std::string> own = {},
-                                              const std::vector<std::string>& held = {}) {
-  own.insert(own.end(), context.set.begin(), context.set.end());
-  own.insert(own.end(), held.begin(), held.end());
-  return models::load(context.models + "/scenes/" + name + ".toml", {}, own);
-}
+// Settings for another scene of the benchmark stay out (settings.h).
+[[nodiscard]] models::Setup load_scene(const BenchContext& context, const std::string& name,
+                                       std::vector<std::string> own = {},
+                                       const std::vector<std::string>& held = {});
 
 // The modules of the program, for TrialOptions::drivers; `context` must outlive it.
 [[nodiscard]] inline trial::DriverSource modules_of(const BenchContext& context) {

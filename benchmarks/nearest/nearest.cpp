@@ -108,12 +108,13 @@ void tail_figure(Bench& bench, const std::string& id, const Race& race, std::siz
 struct Jumps {
   double point = 0.0, normal = 0.0;  // m, beyond the motion of the query; rad
 };
-Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
+Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path, double share) {
   Jumps most;
   SurfacePoint before = tree.nearest(path.front());
   for (std::size_t i = 1; i < path.size(); ++i) {
     const SurfacePoint at = tree.nearest(path[i], before.feature);
-    most.point = std::max(most.point, (at.point - before.point).norm() - (path[i] - path[i - 1]).norm());
+    most.point =
+        std::max(most.point, (at.point - before.point).norm() - share * (path[i] - path[i - 1]).norm());
     const double sine = at.normal.e().cross(before.normal.e()).norm();
     most.normal = std::max(most.normal, std::atan2(sine, dot(at.normal, before.normal)));
     before = at;
@@ -130,13 +131,16 @@ void against_peer(Bench& bench, const MeshTree& tree, NearestPeer* peer, const s
   if (peer != nullptr) ways.push_back(answering(path, theirs, RadiusHint{*peer}));
   const Race raced = race(laps, ways);
   if (peer != nullptr) {
-    bench.cost("ball_100k.ratio_to_embree.median", raced.ratio(2, 0), "x", at_least(2.0),
+    bench.cost("ball_100k.ratio_to_embree.median",
+               bench.context.mutated("exchange_race") ? raced.ratio(0, 2) : raced.ratio(2, 0), "x",
+               at_least(2.0),
                "Embree's point query, radius hint, over our signed query, warm; chunks of 500 interleaved");
     bench.cost("ball_100k.embree.p50", nanoseconds(raced, 2, 0.5), "ns", "a query, over chunks");
     tail_figure(bench, "ball_100k.embree", raced, 2);
     double apart = 0.0;
-    for (std::size_t i = 0; i < kQueries; ++i)
-      apart = std::max(apart, std::abs(std::abs(ours[i]) - theirs[i]));
+    const std::size_t later = bench.context.mutated("next_query") ? 1 : 0;
+    for (std::size_t i = 0; i + later < kQueries; ++i)
+      apart = std::max(apart, std::abs(std::abs(ours[i + later]) - theirs[i]));
     bench.figure("ball_100k.apart_from_embree.max", apart, "m", at_most(1e-6),
                  "distances; Embree computes in float");
   }
@@ -154,15 +158,19 @@ void growth(Bench& bench, const std::vector<Point<'O'>>& path, std::size_t laps)
   for (int i = 0; i < 64; ++i) yardstick.measure();
   const double start = thread_seconds();
   const MeshTree large(ball);
+  const int work = bench.context.mutated("four_times") ? 4 : 1;
+  for (int i = 1; i < work; ++i) (void)MeshTree(ball);
   const double built = thread_seconds() - start;
   for (int i = 0; i < 64; ++i) yardstick.measure();
   bench.progress(0.8);
   std::vector<double> distances(kQueries);
-  const auto alone = [&](const MeshTree& tree) {
-    const auto way = answering(path, distances, WarmStart{tree});
+  const auto alone = [&](const MeshTree& tree, int times) {
+    const auto way = [ask = answering(path, distances, WarmStart{tree}), times] {
+      for (int i = 0; i < times; ++i) ask();
+    };
     return race(laps, {way, way});
   };
-  const Race few = alone(small), many = alone(large);
+  const Race few = alone(small, 1), many = alone(large, work);
   bench.cost("ball_1k.p50", nanoseconds(few, 0, 0.5), "ns", "980 triangles");
   bench.cost("ball_1M.p50", nanoseconds(many, 0, 0.5), "ns", "1,003,520 triangles");
   tail_figure(bench, "ball_1M", many, 0);
@@ -171,7 +179,8 @@ void growth(Bench& bench, const std::vector<Point<'O'>>& path, std::size_t laps)
   bench.cost("ball_1M.build_over_yardstick.total", built / yardstick.seconds(), "x", at_most(kBuild),
              "the same over a fixed piece of work of the same run (kit/cost.h)");
   bench.figure("ball_1M.memory",
-               static_cast<double>(large.memory_bytes()) / static_cast<double>(ball.triangles.size()),
+               (bench.context.mutated("kept_twice") ? 2.0 : 1.0) * static_cast<double>(large.memory_bytes()) /
+                   static_cast<double>(ball.triangles.size()),
                "B/tri", at_most(150.0), "the mesh included");
 }
 
@@ -189,7 +198,7 @@ void run(Bench& bench) {
     bench.result.note = "no race: Embree was not there when this was built (./encounter bench installs it)";
   against_peer(bench, tree, embree.get(), path, laps);
   bench.progress(0.4);
-  const Jumps jumps = largest_jumps(tree, path);
+  const Jumps jumps = largest_jumps(tree, path, bench.context.mutated("way_left") ? 0.0 : 1.0);
   bench.figure("ball_100k.point_jump.max", jumps.point * kMmPerM, "mm", at_most(0.1),
                "of the point between ticks, beyond the hand's way");
   bench.figure("ball_100k.normal_jump.max", jumps.normal * 180.0 / M_PI, "deg",

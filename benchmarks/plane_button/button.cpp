@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -441,8 +442,13 @@ void Report::figure(const std::string& id, double value, const char* unit, const
 }
 
 void measure_button(const BenchContext& context, const Report& report) {
-  const ButtonRuns runs = button_runs(context);
-  const Law law = law_of(context, "button");
+  ButtonRuns runs = button_runs(context);
+  if (context.mutated("exchange_changes")) std::swap(runs.gradual, runs.sudden);
+  Law law = law_of(context, "button");
+  if (context.mutated("other_law"))
+    for (double* number :
+         {&law.stiffness, &law.does.trigger, &law.does.bottom, &law.does.after, &law.does.floor})
+      *number *= 1.1;
   slow_figures(runs.slow, law.does, law.stiffness, report);
   vision_figures(runs.late, law.does, law.stiffness, report);
   if (runs.sudden.size() > 0) sudden_figures(runs, report);

@@ -9,6 +9,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/settings.h"
 #include "core/control/scene/scene.h"
 
 namespace enc::bench::plane_button {
@@ -155,6 +156,7 @@ WallRuns wall_runs(const BenchContext& context) {
   std::vector<std::string> alone = press;
   alone.emplace_back("rig.contact.leave_gap_mm=0.001");
   WallRuns runs;
+  if (context.mutated("stuck")) sliding.emplace_back("truth.arm.friction_Nm=[0.2,0.2,0.2]");
   const std::array<std::function<void()>, 4> all{
       [&] { runs.live = press_trace(context, "wall", live(press)); },
       [&] { runs.late = press_trace(context, "wall", press); },
@@ -219,8 +221,10 @@ void speed_figures(const BenchContext& context, const Report& report) {
     trial::Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
     const double start = thread_seconds();
     const trial::TrialResult run = trial.run();
-    times.push_back(run.simulated / (thread_seconds() - start));
+    const double cpu = thread_seconds() - start;
+    times.push_back(run.simulated / cpu);
     ns.insert(ns.end(), run.step_ns.begin(), run.step_ns.end());
+    if (context.mutated("whole_tick")) ns = {1e9 * cpu / static_cast<double>(run.ticks)};
   }
   report.cost("arm.times_real_time", median(times), "x",
               "the whole scene: the twin, its finger, hand, tracker, step() and the bench's own accounts; "
@@ -291,7 +295,7 @@ void wall_plots(const WallRuns& runs, double law, const Report& report) {
 
 void measure_wall(const BenchContext& context, const Report& report) {
   const WallRuns runs = wall_runs(context);
-  const double law = law_of(context, "wall").stiffness;
+  const double law = (context.mutated("other_law") ? 1.1 : 1.0) * law_of(context, "wall").stiffness;
   speed_figures(context, report);
   live_figures(runs, law, report);
   vision_figures(runs, law, report);
@@ -309,7 +313,7 @@ void measure_step(const BenchContext& context, const Report& report) {
                 1.0);
   report.figure("step.overshoot_heavy", overshoot(leap(context, {}, kHeavy)), "%",
                 "the same 30 mm behind home and along y, where the tip is half as heavy again", 0.0, 1.0);
-  report.figure("step.damping_ratio", step.ratio, "",
+  report.figure("step.damping_ratio", (context.mutated("heavier_tip") ? 0.8 : 1.0) * step.ratio, "",
                 "K_v / (2 sqrt(K_p m)), with the greatest mass that is felt at the tip at home", 1.0);
   Plot plot{"plane_button_step", "Step response in free space", "time (s)", "tip along x (mm)"};
   Series wanted{"target"}, tip{"tip"};
@@ -334,7 +338,9 @@ void measure_step(const BenchContext& context, const Report& report) {
 
 // Error over run time. Runs alone on one core, because it measures time.
 void measure_precision(const BenchContext& context, const Report& report) {
-  const Curve reference = sampled(pressed(context, "rk4", 31.25));
+  const bool coarse = context.mutated("coarse_reference");
+  const Curve reference =
+      coarse ? sampled(pressed(context, "euler", 1000.0)) : sampled(pressed(context, "rk4", 31.25));
   Plot plot{"plane_button_precision",
             "Error of the wall's curve over run time",
             "run time (us a tick)",
@@ -382,6 +388,7 @@ void run(Bench& bench) {
 
 }  // namespace
 
+const Reads kReads{"plane_button", {.scenes = {"wall", "button"}}};
 const Entry kEntry{"plane_button", "wall",
                    "force over distance, wall and button (VisHap Figs 4, 5); late finger, step, limits", run};
 

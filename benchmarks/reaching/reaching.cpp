@@ -8,6 +8,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/reaching/ideal.h"
 #include "benchmarks/reaching/reach_runs.h"
 
@@ -554,6 +555,7 @@ void run(Bench& bench) {
   bench.progress(1.0);
 }
 
+const Reads kReads{"reaching", {.scenes = {"*"}}};
 const Entry kEntry{
     "reaching", "wall",
     "is the prop there before the finger, how far beside it and how hard do they meet (VisHap 2.2)", run};

@@ -86,7 +86,7 @@ std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig, const tria
   return all;
 }
 
-double exact_error(std::size_t count, std::uint64_t seed) {
+double exact_error(std::size_t count, std::uint64_t seed, double off) {
   sim::Stream random(seed, "registration.exact");
   double worst = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +95,7 @@ double exact_error(std::size_t count, std::uint64_t seed) {
     std::vector<models::PointPair> pairs;
     for (std::size_t k = 0; k < 4 + i % 17; ++k) {
       const Point<'C'> p(Vec3(0.1 * random.normal3()));
-      pairs.push_back({p, truth * p});
+      pairs.push_back({p, truth * p + Vec<'W'>(off, 0.0, 0.0)});
     }
     const models::Registration found = models::register_points(pairs);
     worst = std::max({worst, (found.X_WC.p() - truth.p()).norm(),

@@ -40,6 +40,6 @@ struct AccuracyStudy {
                                                  const std::function<void(double)>& progress = {});
 
 // Largest errors over random transforms, without noise: position in m and rotation (of its matrix).
-[[nodiscard]] double exact_error(std::size_t count, std::uint64_t seed);
+[[nodiscard]] double exact_error(std::size_t count, std::uint64_t seed, double off = 0.0);
 
 }  // namespace enc::bench::registration

@@ -1,11 +1,12 @@
 #include "benchmarks/report/choice.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 
@@ -78,21 +79,32 @@ std::vector<Choice> chosen(const std::vector<std::string>& words) {
   return list;
 }
 
-std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
-                             std::vector<std::string>& left) {
-  const auto scene = [&](const Choice& choice) {
-    const std::string file = std::string(choice.benchmark->scene) + ".toml";
-    return std::filesystem::exists(models + "/scenes/" + file) ||
-           std::filesystem::exists(models + "/rigs/" + file);
+std::vector<Choice> settable(std::vector<Choice> choices, const std::vector<std::string>& set, bool named,
+                             const std::string& models, std::vector<std::string>& left) {
+  std::vector<std::string> sceneless;
+  const auto takes = [&](const Choice& choice) {
+    if (scenes_read(*choice.benchmark, models).empty()) {
+      sceneless.emplace_back(choice.benchmark->name);
+      left.emplace_back(choice.benchmark->name);
+      return false;
+    }
+    try {
+      check_settings(*choice.benchmark, models, set);
+    } catch (const Error&) {
+      if (named) throw;
+      left.emplace_back(choice.benchmark->name);
+      return false;
+    }
+    return true;
   };
-  for (const Choice& choice : choices)
-    if (!scene(choice)) left.emplace_back(choice.benchmark->name);
-  if (named && !left.empty())
+  std::vector<Choice> kept;
+  std::copy_if(choices.begin(), choices.end(), std::back_inserter(kept), takes);
+  if (named && !sceneless.empty())
     throw Error(fmt::format(
         "--set: {} read{} no scene that it could change; expected it with others; leave out --set or {}",
-        fmt::join(left, ", "), left.size() == 1 ? "s" : "", left.size() == 1 ? "it" : "them"));
-  std::erase_if(choices, [&](const Choice& choice) { return !scene(choice); });
-  return choices;
+        fmt::join(sceneless, ", "), sceneless.size() == 1 ? "s" : "", sceneless.size() == 1 ? "it" : "them"));
+  if (kept.empty() && !choices.empty()) check_settings(*choices.front().benchmark, models, set);
+  return kept;
 }
 
 std::vector<Choice> over_devices(std::vector<Choice> choices, bool named) {

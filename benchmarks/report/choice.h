@@ -22,10 +22,10 @@ struct Choice {
 };
 // Result in the order named, each benchmark once; no words: all. Throws Error for an unknown word.
 [[nodiscard]] std::vector<Choice> chosen(const std::vector<std::string>& words);
-// Filters for --set: keeps the benchmarks with a scene or a rig in the folder `models`. A benchmark without
-// one, which --set could not change, is refused if it was named (throws Error), else left out; `left` has the
-// names left out.
-[[nodiscard]] std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
+// Filters for --set: keeps the benchmarks that read each of these parameters. Another one is refused if it
+// was named (throws Error with the closest parameter), else left out; `left` has the names left out.
+[[nodiscard]] std::vector<Choice> settable(std::vector<Choice> choices, const std::vector<std::string>& set,
+                                           bool named, const std::string& models,
                                            std::vector<std::string>& left);
 // Filters for --rig: keeps the benchmarks that can run over devices. Another one is refused if it was named,
 // else left out silently.

@@ -12,6 +12,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/entry.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"
@@ -524,6 +525,7 @@ void run(Bench& bench) {
   add_error_over_time(bench);
 }
 
+const Reads kReads{"stability", {.scenes = {"tennis_ball", "session", "training"}}};
 const Entry kEntry{"stability", "a slide with a wall",
                    "which walls are stable: eigenvalues, bounds and friction against MuJoCo", run};
 

@@ -10,6 +10,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
 
@@ -557,6 +558,7 @@ const std::vector<std::string>& unlimited_acceleration() {
   return kSet;
 }
 
+const Reads kReads{"stiffness", {.scenes = {"stiffness", "tennis_ball"}}};
 const Entry kEntry{"stiffness", "stiffness",
                    "apparent over commanded stiffness, softest stable wall (VHMR Fig 3)", run, over_rig};
 

@@ -9,6 +9,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/switching/crowd.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/trial.h"
@@ -43,6 +44,7 @@ Row slide_row(const BenchContext& context, const std::string& key) {
                            "user.depth_mm=1.5", "user.approach_mm_s=[50]"}),
                      options_of(context));
   Row row;
+  const Vec<'W'> beside(context.mutated("beside") ? 0.01 : 0.0, 0.0, 0.0);
   std::int32_t before = -1;
   double force = 0.0;
   while (trial.tick()) {
@@ -56,7 +58,7 @@ Row slide_row(const BenchContext& context, const std::string& key) {
     before = object;
     force = now;
     if (now < kFelt) continue;
-    const NearestObject meant = brute_force(trial.scene(), truth.tool_tip);
+    const NearestObject meant = brute_force(trial.scene(), truth.tool_tip + beside);
     row.meant += 1.0;
     row.felt += meant.object == object ? 1.0 : 0.0;
   }
@@ -106,12 +108,13 @@ models::Setup even_hit(const BenchContext& context, double speed, double restitu
 
 // Speeds along the normal: the true finger's before it touches the prop and at the parting of ball and prop;
 // and the ball's, from the core.
-Bounce hit_once(models::Setup setup, std::uint64_t seed) {
+Bounce hit_once(models::Setup setup, const BenchContext& context, std::uint64_t seed) {
   trial::Trial trial(std::move(setup), {.seed = seed});
   const double dt = trial.scene().dt;
   Bounce bounce;
   double parted = kUnset, now = 0.0, before = 0.0;
   bool pressed = false;
+  const bool ends = context.mutated("ends_of_contacts"), twice = context.mutated("double_speed");
   while (trial.tick() && !(now > parted + 0.03)) {
     const sim::Truth& truth = trial.world().truth();
     const MoverState& moved = moved_in(trial.state())[0];
@@ -121,7 +124,7 @@ Bounce hit_once(models::Setup setup, std::uint64_t seed) {
     if (truth.touching && std::isnan(bounce.approach)) bounce.approach = before;
     before = finger;
     const bool presses = trial.outputs().mode == Mode::contact && trial.outputs().object == 0;
-    bounce.contacts += presses && !pressed ? 1 : 0;
+    bounce.contacts += (presses && !pressed) || (ends && pressed && !presses) ? 1 : 0;
     if (std::isfinite(bounce.approach) && std::isnan(parted)) {
       const double force = -normal.dot(truth.contact_force.e());
       bounce.given += dt * force;
@@ -129,7 +132,8 @@ Bounce hit_once(models::Setup setup, std::uint64_t seed) {
     }
     if (presses) bounce.rendered -= dt * normal.dot(trial.outputs().force_unfiltered.e());
     if (pressed && !presses && std::isnan(parted)) {
-      const double mass = trial.scene().objects[0].interaction.mass, speed = moved.velocity.norm();
+      const double mass = trial.scene().objects[0].interaction.mass;
+      const double speed = (twice ? 2.0 : 1.0) * moved.velocity.norm();
       parted = now;
       bounce.restitution = (speed - finger) / bounce.approach;
       bounce.momentum = mass * speed;
@@ -158,8 +162,11 @@ void hit_by_hand(Bench& bench) {
   const BenchContext& context = bench.context;
   std::vector<double> wrong(context.quick ? 1 : kSeeds);
   in_parallel(wrong.size(), [&](std::size_t i) {
-    trial::Trial trial(shipped(context, "hit_ball"), {.seed = context.seed + i});
-    const double hits = static_cast<double>(trial.setup().scene.user->approach.size());
+    const models::Setup planned = shipped(context, "hit_ball");
+    trial::Trial trial(
+        context.mutated("one_hit") ? shipped(context, "hit_ball", {"user.approach_mm_s=[200]"}) : planned,
+        {.seed = context.seed + i});
+    const double hits = static_cast<double>(planned.scene.user->approach.size());
     wrong[i] = std::abs(static_cast<double>(trial.run().contacts) - hits);
   });
   bench.figure("hit.wrong_contacts.max", *std::max_element(wrong.begin(), wrong.end()), "", exactly(0.0),
@@ -183,7 +190,7 @@ Hits all_hits(const BenchContext& context) {
   hits.all.resize(hits.set.size() * hits.speeds.size() * hits.seeds);
   in_parallel(hits.all.size(), [&](std::size_t i) {
     hits.all[i] =
-        hit_once(even_hit(context, hits.speed_of(i), hits.set_of(i)), context.seed + i % hits.seeds);
+        hit_once(even_hit(context, hits.speed_of(i), hits.set_of(i)), context, context.seed + i % hits.seeds);
   });
   return hits;
 }
@@ -267,13 +274,16 @@ struct TileEnd {
 };
 TileEnd push_tile(const BenchContext& context, const std::string& tile) {
   trial::Trial trial(live(context, "tiles", {"user.object=\"" + tile + "\""}), options_of(context));
-  trial.run();
+  double fastest = 0.0;
+  while (trial.tick())
+    for (const MoverState& mover : moved_in(trial.state()))
+      fastest = std::max(fastest, mover.velocity.norm());
   const auto& objects = trial.setup().scene.objects;
   const auto named =
       std::find_if(objects.begin(), objects.end(), [&](const ObjectSpec& o) { return o.name == tile; });
   const auto moving = trial.scene().objects[static_cast<std::size_t>(named - objects.begin())].moving;
   const MoverState& now = moved_in(trial.state())[static_cast<std::size_t>(moving)];
-  return {now.shift.norm(), now.velocity.norm()};
+  return {now.shift.norm(), context.mutated("on_its_way") ? fastest : now.velocity.norm()};
 }
 
 struct Mean {
@@ -306,18 +316,21 @@ DrumRun running_surface(const BenchContext& context, std::uint64_t seed,
   constexpr double kSlides = 0.020;  // m/s
   DrumRun surface;
   double before = 0.0;
+  int tick = 0;
+  const bool across = context.mutated("across"), belt = !context.mutated("turned_belt");
   while (trial.tick()) {
     const sim::Truth& truth = trial.world().truth();
     const double pressed = -truth.contact_force.xyz[2];
     surface.step = std::max(surface.step, std::abs(pressed - before));
-    before = pressed;
+    if (!across || ++tick % 50 == 0) before = pressed;
     if (pressed > 1.0) {
-      surface.sideways += std::hypot(truth.contact_force.xyz[0], truth.contact_force.xyz[1]);
+      surface.sideways += std::hypot(truth.contact_force.xyz[across ? 2 : 0], truth.contact_force.xyz[1]);
       surface.normal += pressed;
     }
     if (truth.phase != sim::Phase::hold || truth.contact_force.norm() < kFelt) continue;
     const double finger = dot(truth.tool_velocity, way);
-    const double runs = dot(truth.tip_velocity, way) + trial.world().arm->state().surface_speed;
+    const double runs =
+        dot(truth.tip_velocity, way) + (belt ? 1.0 : -1.0) * trial.world().arm->state().surface_speed;
     if (std::abs(finger) > kSlides) (finger > 0.0 ? surface.there : surface.back).add(runs);
     const double along = dot(truth.contact_force, way);
     const bool slips = std::abs(along) > grip * (truth.contact_force - along * way).norm();
@@ -390,7 +403,8 @@ void slide_over_keys(Bench& bench) {
 void move_things(Bench& bench) {
   const BenchContext& context = bench.context;
   hit_balls(bench);
-  const TileEnd bar = push_tile(context, "bar"), way = push_tile(context, "way");
+  TileEnd bar = push_tile(context, "bar"), way = push_tile(context, "way");
+  if (context.mutated("exchange_tiles")) std::swap(bar, way);
   bench.figure("tile.end", 1e3 * bar.way, "mm", between(29.99, 30.01),
                "pushed with 1.2 N: it stops at the end of its way, 30 mm");
   bench.figure("tile.end_speed", 1e3 * bar.speed, "mm/s", exactly(0.0), "there");
@@ -408,6 +422,7 @@ void run(Bench& bench) {
   add_force_precision(bench);
 }
 
+const Reads kReads{"switching", {.scenes = {"keypad", "hit_ball", "tiles", "drum"}}};
 const Entry kEntry{
     "switching", "keypad",
     "the nearest of many objects: right, without chatter, in time; keys, a hit ball, tiles and a drum", run};

@@ -12,6 +12,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/tracking/forensics.h"
 #include "benchmarks/tracking/table1.h"
 #include "benchmarks/tracking/tracking_fit.h"
@@ -535,6 +536,7 @@ void over_rig(Bench& bench) {
   bench.table(std::move(table));
 }
 
+const Reads kReads{"tracking", {.scenes = {"tracking", "clamped_tool", "tennis_ball"}}};
 const Entry kEntry{
     "tracking", "tracking",
     "the tracker against the machine that carries the tool (VHMR Table 1); latency of a log; prediction", run,

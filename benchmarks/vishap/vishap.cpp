@@ -11,6 +11,7 @@
 #include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/kit/scenes.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/reaching/reach_runs.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
@@ -330,6 +331,7 @@ void run(Bench& bench) {
                               "user.hold_s=0.3", "user.release_s=0.4", "user.rest_s=0.3"});
 }
 
+const Reads kReads{"vishap", {.scenes = {"camera/wall", "camera/button", "camera/keypad"}}};
 const Entry kEntry{"vishap", "camera/wall", "the whole stack of VisHap: a finger that is seen meets the prop",
                    run};
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/settings.h"
 #include "benchmarks/workspace/reach_volume.h"
 #include "core/base/units.h"
 #include "core/control/scene/press_check.h"
@@ -295,6 +296,12 @@ void run(Bench& bench) {
 
 }  // namespace
 
+const Reads kReads{
+    "workspace",
+    {.only = {"rig.manipulator.geometry", "rig.manipulator.tip_radius_mm", "rig.manipulator.stem_radius_mm",
+              "rig.manipulator.stem_length_mm", "rig.manipulator.gripper_radius_mm", "rig.tracker.volume_mm",
+              "rig.frames.W_C", "object.ball.position_mm", "object.ball.radius_mm", "object.ball.limit_mm",
+              "tool.stylus.tip_mm", "tool.stylus.tip_radius_mm", "tool.stylus.markers_mm"}}};
 const Entry kEntry{
     "workspace", "tennis_ball",
     "box and volume of the tip's travel, tracker's reach, directions from which the ball can be pressed",

@@ -12,6 +12,7 @@
 #include "models/schema/wording.h"
 #include "models/setup/calibration_files.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/unread.h"
 
 namespace enc::models {
 namespace {
@@ -201,10 +202,7 @@ Setup parse_resolved(const std::string& text, const std::string& name) {
 
 // ---- The scene with only the parts that it builds, as a scene file that needs no other file.
 
-namespace {
-
-// The tables of rig and truth that this scene does not read.
-std::vector<std::string> unread(const Setup& setup) {
+std::vector<std::string> unread_tables(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   std::vector<std::string> tables;
   const auto without = [&](bool part, std::initializer_list<const char*> its) {
@@ -227,6 +225,8 @@ std::vector<std::string> unread(const Setup& setup) {
   without(s.pusher.has_value(), {"truth.pusher"});
   return tables;
 }
+
+namespace {
 
 // Passes all but some tables to another visitor.
 class TableFilter final : public Visitor {
@@ -265,7 +265,7 @@ class TableFilter final : public Visitor {
 
 // A person who sets a number wants it to have an effect.
 void note_unread(Setup& setup) {
-  for (const std::string& table : unread(setup)) {
+  for (const std::string& table : unread_tables(setup)) {
     const std::string below = table + ".";
     for (auto i = setup.places.lower_bound(below); i != setup.places.end() && i->first.starts_with(below);
          ++i) {
@@ -279,7 +279,7 @@ void note_unread(Setup& setup) {
 }
 
 void walk_built(Visitor& visitor, Setup& setup) {
-  TableFilter built(visitor, unread(setup));
+  TableFilter built(visitor, unread_tables(setup));
   describe_all(built, setup.scene, setup.rig, setup.twin);
 }
 

@@ -107,19 +107,20 @@ TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
 // Benchmarks that --set cannot change refuse it by name instead of ignoring it.
 TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
   const std::string models = tests::source_dir() + "/models";
+  const std::vector<std::string> rate{"rig.loop.rate_hz=1000"};
   std::vector<std::string> left;
-  EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), true, models, left)),
+  EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), rate, true, models, left)),
               ElementsAre("press", "registration"));
   try {
-    (void)settable(chosen({"press", "nearest", "impact.peak"}), true, models, left);
+    (void)settable(chosen({"press", "nearest", "footprint.wall"}), rate, true, models, left);
     ADD_FAILURE() << "not refused";
   } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, impact read no scene"));
+    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, footprint read no scene"));
   }
   left.clear();
-  const std::size_t kept = settable(chosen({}), false, models, left).size();
+  const std::size_t kept = settable(chosen({}), rate, false, models, left).size();
   EXPECT_EQ(kept + left.size(), benchmarks().size());
-  EXPECT_THAT(left, IsSupersetOf({"footprint", "impact", "nearest"}));
+  EXPECT_THAT(left, IsSupersetOf({"footprint", "deformation", "nearest"}));
 }
 
 // Over devices only benchmarks that need no ground truth can run; the command refuses a named one that
@@ -230,6 +231,12 @@ TEST(Bench, WhatIsWrongIsSaidBeforeAnythingRuns) {
   EXPECT_THAT(refused({"encounter", "--repeats=1", "--set", "user.dpth_mm=1"}), HasSubstr("depth_mm"));
   EXPECT_THAT(refused({"nearest", "--quick", "--set", "rig.vision.tile_px=3"}),
               HasSubstr("--set: nearest reads no scene that it could change"));
+  EXPECT_THAT(
+      refused({"deformation", "--set", "truth.ball.wall_mm=9"}),
+      HasSubstr("deformation reads no parameter 'truth.ball.wall_mm'; expected one that it reads; the "
+                "closest is 'object.ball.radius_mm'"));
+  EXPECT_THAT(refused({"deformation", "--json"}), HasSubstr("--mutate"));
+  EXPECT_THAT(refused({"deformation", "--mutate", "--quick"}), HasSubstr("--quick has no meaning"));
 }
 
 // A file stands in place of the folder. The command reports this before the benchmark runs, because its
