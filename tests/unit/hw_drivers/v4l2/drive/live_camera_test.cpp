@@ -27,7 +27,7 @@ using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 using Kind = Trouble::Kind;
 
 constexpr int kWidth = 64, kHeight = 16;
-constexpr double kRate = 100.0;
+constexpr double kLiveRate = 100.0;
 
 // The twin's camera: each picture has its number as a grey value, and the time of its exposure is kept.
 class Counter final : public StereoCamera {
@@ -136,7 +136,7 @@ class V4l2LiveCamera : public testing::TestWithParam<const char*> {
     return std::string("@encounter_test_") + std::to_string(::getpid()) + side;
   }
   static ServerSettings served(const std::string& format, bool two) {
-    return {name("l"), two ? name("r") : "", settings(format, two).pixels(), {kWidth, kHeight}, kRate};
+    return {name("l"), two ? name("r") : "", settings(format, two).pixels(), {kWidth, kHeight}, kLiveRate};
   }
   static V4l2Settings settings(const std::string& format, bool two) {
     V4l2Settings of;
@@ -150,7 +150,7 @@ class V4l2LiveCamera : public testing::TestWithParam<const char*> {
   std::unique_ptr<LiveCamera> camera(const V4l2Settings& of) {
     offer_.rig.camera.width = kWidth;
     offer_.rig.camera.height = kHeight;
-    offer_.rig.camera.rate = kRate;
+    offer_.rig.camera.rate = kLiveRate;
     return std::make_unique<LiveCamera>(
         Offer{offer_.table, offer_.rig, offer_.reach, Duration(1'000'000), notes_}, of, relayed());
   }
@@ -300,7 +300,7 @@ TEST_F(V4l2Trouble, WithoutAFakeTheRemedyIsToStartIt) {
   EXPECT_THAT(test::refusal(ErrorKind::device, [&] { camera(settings("GREY", true)); }),
               AllOf(HasSubstr("no fake camera listens there"), HasSubstr("encounter fake RIG")));
   const Laboratory laboratory(served("GREY", false));
-  Counter other({kWidth, kHeight}, kRate);
+  Counter other({kWidth, kHeight}, kLiveRate);
   EXPECT_THAT(test::refusal(ErrorKind::device, [&] { Server(other, served("GREY", false)); }),
               AllOf(HasSubstr("cannot listen there"), HasSubstr("end the other fake")));
 }
