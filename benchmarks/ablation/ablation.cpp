@@ -19,8 +19,8 @@
 #include <unistd.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "core/record/record.h"
 #include "core/record/state_hash.h"

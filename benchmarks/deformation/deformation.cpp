@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/deformation/contour.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "core/base/units.h"
 #include "core/control/scene/scene.h"
 #include "core/shape/deformation/dent.h"

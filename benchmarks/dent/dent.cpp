@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "core/base/units.h"
 #include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"

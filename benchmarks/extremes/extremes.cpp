@@ -9,7 +9,6 @@
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/entry.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 

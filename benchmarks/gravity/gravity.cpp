@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/peers/peers.h"
 #include "core/devices/module.h"
 #include "sim/spec/arm_spec.h"

@@ -7,8 +7,8 @@
 
 #include "benchmarks/impact/touch.h"
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "models/order_statistics.h"
 
 namespace enc::bench::impact {

@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "benchmarks/indentation/indent_run.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/control/stages/step_context.h"
 #include "sim/truth/random.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "benchmarks/kit/settings.h"
+#include "benchmarks/kit/entry.h"
 #include "core/base/error.h"
 #include "core/devices/mode.h"
 #include "trial/operator/operator.h"

@@ -18,7 +18,7 @@ namespace enc::bench {
 
 // Loads models/scenes/<name>.toml on the simulated rig that it names. A later setting overrides an earlier
 // one: first `own`, the benchmark's; then the user's; then those that a comparison must hold.
-// Settings for another scene of the benchmark stay out (settings.h).
+// Settings for another scene of the benchmark stay out (entry.h).
 [[nodiscard]] models::Setup load_scene(const BenchContext& context, const std::string& name,
                                        std::vector<std::string> own = {},
                                        const std::vector<std::string>& held = {});

@@ -1,5 +1,3 @@
-#include "benchmarks/kit/settings.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -10,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/user_settings.h"
+#include "benchmarks/kit/entry.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"

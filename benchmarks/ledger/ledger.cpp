@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "trial/family.h"
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "core/control/scene/scene.h"
 
 namespace enc::bench::plane_button {

@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "trial/trial.h"
 
 namespace enc::bench::precision {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/reaching/ideal.h"
 #include "benchmarks/reaching/reach_runs.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "benchmarks/kit/settings.h"
+#include "benchmarks/kit/entry.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 

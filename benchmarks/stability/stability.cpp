@@ -12,7 +12,6 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/entry.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "sim/bodies/legs.h"
 #include "trial/trial.h"
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/switching/crowd.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/trial.h"

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/precision.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/tracking/forensics.h"
 #include "benchmarks/tracking/table1.h"
 #include "benchmarks/tracking/tracking_fit.h"

@@ -11,7 +11,6 @@
 #include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/precision.h"
 #include "benchmarks/kit/scenes.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/reaching/reach_runs.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"

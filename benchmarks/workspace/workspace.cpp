@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "benchmarks/workspace/reach_volume.h"
 #include "core/base/units.h"
 #include "core/control/scene/press_check.h"

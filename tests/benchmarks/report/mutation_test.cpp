@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/settings.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
@@ -155,9 +155,10 @@ TEST(Reads, EachBenchmarkRefusesANameThatItWouldIgnore) {
       const std::string file = models + "/scenes/" + scene + ".toml";
       if (scene == "vishap") continue;  // a rig
       for (const models::Parameter& p : models::parameters(models::load(file, {})))
-        if (!read.contains(p.name))
+        if (!read.contains(p.name)) {
           ASSERT_THAT(setting_refused(benchmark, p.name + "=1"), HasSubstr("reads no parameter"))
               << benchmark.name;
+        }
     }
   }
 }
