@@ -93,14 +93,14 @@ class Mutation {
     if (mutant.kills.empty()) refuse("it claims no bound; expected ids in 'kills'; add one");
     for (const std::string& pattern : mutant.kills)
       if (std::none_of(known_.begin(), known_.end(),
-                       [&](const std::string& id) { return matches(pattern, id); }))
+                       [&](const std::string& id) { return fits_id(pattern, id); }))
         refuse(fmt::format("unknown bound {}; {}", models::quoted(pattern), models::advice(pattern, known_)));
   }
 
   [[nodiscard]] bool claims(const Mutant& mutant, const Figure& figure) const {
     const std::string id = without_benchmark(benchmark_, figure.id);
     return std::any_of(mutant.kills.begin(), mutant.kills.end(),
-                       [&](const std::string& pattern) { return matches(pattern, id); });
+                       [&](const std::string& pattern) { return fits_id(pattern, id); });
   }
   [[nodiscard]] bool claims_any(const Mutant& mutant) const {
     return std::any_of(result_.bounds.begin(), result_.bounds.end(),

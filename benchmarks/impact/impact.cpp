@@ -187,6 +187,24 @@ void add_sweep(Bench& bench, const std::string& scene) {
   bench.table(std::move(table));
 }
 
+// Medians over the touches that happened.
+FirstTouch median_touch(const std::vector<FirstTouch>& all) {
+  std::vector<double> grip, peak, breaks, push;
+  for (const FirstTouch& t : all) {
+    if (std::isnan(t.at)) continue;
+    grip.push_back(t.grip);
+    peak.push_back(t.peak);
+    breaks.push_back(t.breaks);
+    push.push_back(t.push);
+  }
+  FirstTouch middle;
+  middle.grip = median(grip);
+  middle.peak = median(peak);
+  middle.breaks = median(breaks);
+  middle.push = median(push);
+  return middle;
+}
+
 // The independent contact law over its stiffness and step: the dependence of a touch on each.
 void add_law(Bench& bench) {
   const models::Setup setup = load_scene(bench.context, "session", {kStill});
@@ -202,17 +220,10 @@ void add_law(Bench& bench) {
     const auto all = bench.each(measured, [&](const auto& m) {
       return std::isnan(m.second.touch.at) ? FirstTouch{} : refer(setup, m.first, m.second, law, step);
     });
-    std::vector<double> grip, peak, breaks, push;
-    for (const FirstTouch& t : all) {
-      if (std::isnan(t.at)) continue;
-      grip.push_back(t.grip);
-      peak.push_back(t.peak);
-      breaks.push_back(t.breaks);
-      push.push_back(t.push);
-    }
-    table.add(stiffness, law.friction, step * 1e6, fixed(median(grip), 4), fixed(median(peak), 3),
-              median(breaks), fixed(1e3 * median(push), 2));
-    return median(grip);
+    const FirstTouch middle = median_touch(all);
+    table.add(stiffness, law.friction, step * 1e6, fixed(middle.grip, 4), fixed(middle.peak, 3),
+              middle.breaks, fixed(1e3 * middle.push, 2));
+    return middle.grip;
   };
   const double softest = bench.context.mutated("softer_law") ? 1e3 : 1e4;
   const double step = bench.context.mutated("coarse_step") ? 5e-4 : kFine;

@@ -68,12 +68,12 @@ std::span<const Mutant> mutants_of(std::string_view benchmark) {
   return at == all_mutants().end() ? std::span<const Mutant>{} : std::span<const Mutant>(at->second);
 }
 
-bool matches(std::string_view pattern, std::string_view id) {
+bool fits_id(std::string_view pattern, std::string_view id) {
   const std::size_t in_pattern = pattern.find('.'), in_id = id.find('.');
   const std::string_view token = pattern.substr(0, in_pattern);
   if (token != "*" && token != id.substr(0, in_id)) return false;
   if (in_pattern == std::string_view::npos || in_id == std::string_view::npos) return in_pattern == in_id;
-  return matches(pattern.substr(in_pattern + 1), id.substr(in_id + 1));
+  return fits_id(pattern.substr(in_pattern + 1), id.substr(in_id + 1));
 }
 
 std::vector<std::uint64_t> Bench::seeds(std::size_t count) const {

@@ -32,6 +32,6 @@ class Mutants {
 
 [[nodiscard]] std::span<const Mutant> mutants_of(std::string_view benchmark);
 // True if the id matches a pattern of `kills`: both without the benchmark's name.
-[[nodiscard]] bool matches(std::string_view pattern, std::string_view id);
+[[nodiscard]] bool fits_id(std::string_view pattern, std::string_view id);
 
 }  // namespace enc::bench

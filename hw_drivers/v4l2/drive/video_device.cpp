@@ -79,7 +79,7 @@ void VideoDevice::close() noexcept {
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (streams_) static_cast<void>(system_.control(descriptor_, VIDIOC_STREAMOFF, &type));
   streams_ = false;
-  for (const Shared& one : buffers_) system_.unmap(one.memory, one.size);
+  for (const SharedBuffer& one : buffers_) system_.unmap(one.memory, one.size);
   buffers_.clear();
   if (descriptor_ >= 0) system_.close(descriptor_);
   descriptor_ = -1;
@@ -215,7 +215,7 @@ VideoDevice::TakeResult VideoDevice::take(RawFrame& into) noexcept {
   if (const std::uint32_t gap = buffer.sequence - sequence_ - 1; any_ && gap < 1U << 31U) lost_ += gap;
   any_ = true;
   sequence_ = buffer.sequence;
-  const Shared& from = buffers_[buffer.index];
+  const SharedBuffer& from = buffers_[buffer.index];
   const timeval& stamp = buffer.timestamp;
   stamps_ = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC &&
             stamp.tv_sec >= 0 && stamp.tv_sec < kMostSeconds && stamp.tv_usec >= 0 &&

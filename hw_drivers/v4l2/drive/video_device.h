@@ -53,7 +53,7 @@ class VideoDevice {
   [[nodiscard]] bool stamps() const { return stamps_; }
 
  private:
-  struct Shared {
+  struct SharedBuffer {
     std::uint8_t* memory = nullptr;
     std::size_t size = 0;
   };
@@ -73,7 +73,7 @@ class VideoDevice {
   Raster raster_;
   std::size_t frame_bytes_ = 0;
   double rate_ = 0.0;  // Hz; 0: the device does not report it
-  std::vector<Shared> buffers_;
+  std::vector<SharedBuffer> buffers_;
   bool streams_ = false, any_ = false, stamps_ = true, begins_ = false;
   std::uint32_t sequence_ = 0;
   std::int64_t lost_ = 0;

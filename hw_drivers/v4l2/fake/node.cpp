@@ -284,7 +284,7 @@ int Node::dequeue(int client, v4l2_buffer& data) {
   if (data.type != kCapture || data.memory != V4L2_MEMORY_MMAP || !streams_) return -EINVAL;
   if (error_ != 0) return -error_;
   if (filled_.empty()) return -EAGAIN;
-  const Filled frame = filled_.front();
+  const FilledBuffer frame = filled_.front();
   filled_.pop_front();
   std::uint64_t one = 0;
   static_cast<void>(::read(event_, &one, sizeof(one)));

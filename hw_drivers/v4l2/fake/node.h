@@ -51,7 +51,7 @@ class Node {
   void fail(int error) { error_ = error; }  // of each DQBUF; 0: heals
 
  private:
-  struct Filled {
+  struct FilledBuffer {
     std::uint32_t index = 0, sequence = 0, used = 0;
     Duration stamp{};
     bool damaged = false;
@@ -85,7 +85,7 @@ class Node {
   std::uint8_t* bytes_ = nullptr;
   std::size_t each_ = 0, count_ = 0;  // bytes of a buffer; buffers
   std::deque<std::uint32_t> queued_;
-  std::deque<Filled> filled_;
+  std::deque<FilledBuffer> filled_;
   std::vector<bool> is_queued_;
   bool streams_ = false;
   int error_ = 0;

@@ -130,9 +130,9 @@ int listen_at(std::string_view name) noexcept {
 
 namespace {
 
-class Relayed final : public System {
+class RelayMessage final : public System {
  public:
-  ~Relayed() override {
+  ~RelayMessage() override {
     while (!lines_.empty()) close(lines_.back().socket);
   }
   int open(const std::string& path) noexcept override {
@@ -211,6 +211,6 @@ class Relayed final : public System {
 
 }  // namespace
 
-std::unique_ptr<System> relayed() { return std::make_unique<Relayed>(); }
+std::unique_ptr<System> relayed() { return std::make_unique<RelayMessage>(); }
 
 }  // namespace enc::v4l2

@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 constexpr Duration kMs{1'000'000};
 
 // A loop that commands 4 N in each period of 1 ms, and the device's thread, half a period later.
-struct Guarded {
-  explicit Guarded(const GuardLimits& limits = {}) : guard(limits) {}
+struct GuardRun {
+  explicit GuardRun(const GuardLimits& limits = {}) : guard(limits) {}
   double next(bool commands = true, bool pressed = true, bool error = false) {
     now += kMs;
     if (commands) order = {wanted, now, order.number + 1, false};
@@ -40,13 +40,13 @@ struct Guarded {
 };
 
 TEST(ForceGuard, WithoutACommandThereIsNoForce) {
-  Guarded there;
+  GuardRun there;
   for (int i = 0; i < 10; ++i) EXPECT_EQ(there.next(false), 0.0);
   EXPECT_EQ(there.guard.counts().watchdog, 0);
 }
 
 TEST(ForceGuard, TheForceGrowsFromZeroToWhatTheLoopCommands) {
-  Guarded there;
+  GuardRun there;
   there.next(false);
   for (int ms = 1; ms < 200; ++ms) EXPECT_NEAR(there.next(), 0.020 * ms, 1e-12) << ms;
   there.run(2);
@@ -59,13 +59,13 @@ TEST(ForceGuard, TheForceGrowsFromZeroToWhatTheLoopCommands) {
 TEST(ForceGuard, WithoutARampTheForceComesAtOnce) {
   GuardLimits limits;
   limits.rise = 0.0;
-  Guarded there(limits);
+  GuardRun there(limits);
   EXPECT_EQ(there.next(), 4.0);
 }
 
 // Three periods of 1 ms without a command, and at most one more until the device's thread comes.
 TEST(ForceGuard, ASilentLoopMeansNoForceWithinFiveMilliseconds) {
-  Guarded there;
+  GuardRun there;
   there.run(500);
   ASSERT_EQ(there.next(), 4.0);
   const Duration last = there.order.given;
@@ -80,7 +80,7 @@ TEST(ForceGuard, ASilentLoopMeansNoForceWithinFiveMilliseconds) {
 }
 
 TEST(ForceGuard, AStopEndsTheForceAtOnce) {
-  Guarded there;
+  GuardRun there;
   there.run(500);
   there.order.stopped = true;
   EXPECT_EQ(there.guard.pass(there.now, there.order, true, false).norm(), 0.0);
@@ -88,7 +88,7 @@ TEST(ForceGuard, AStopEndsTheForceAtOnce) {
 }
 
 TEST(ForceGuard, AnOpenSwitchMeansNoForceAndTheRampAfterwards) {
-  Guarded there;
+  GuardRun there;
   there.run(500);
   EXPECT_EQ(there.next(true, false), 0.0);
   EXPECT_EQ(there.next(true, false), 0.0);
@@ -100,7 +100,7 @@ TEST(ForceGuard, AnOpenSwitchMeansNoForceAndTheRampAfterwards) {
 
 // One reading with an error ends the force for half a second.
 TEST(ForceGuard, AnErrorOfTheDeviceMeansNoForceUntilItWasQuietForAWhile) {
-  Guarded there;
+  GuardRun there;
   there.run(500);
   EXPECT_EQ(there.next(true, true, true), 0.0);
   for (int ms = 1; ms < 500; ++ms) ASSERT_EQ(there.next(), 0.0) << ms;
@@ -110,7 +110,7 @@ TEST(ForceGuard, AnErrorOfTheDeviceMeansNoForceUntilItWasQuietForAWhile) {
 TEST(ForceGuard, NoForceIsBeyondTheDevicesLimit) {
   GuardLimits limits;
   limits.most = 3.0;
-  Guarded there(limits);
+  GuardRun there(limits);
   there.run(500);
   EXPECT_NEAR(there.next(), 3.0, 1e-12);
   EXPECT_GT(there.guard.counts().clipped, 400);
