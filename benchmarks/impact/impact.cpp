@@ -187,8 +187,11 @@ void add_sweep(Bench& bench, const std::string& scene) {
   bench.table(std::move(table));
 }
 
+struct TouchMedians {
+  double grip, peak, breaks, push;
+};
 // Medians over the touches that happened.
-FirstTouch median_touch(const std::vector<FirstTouch>& all) {
+TouchMedians touch_medians(const std::vector<FirstTouch>& all) {
   std::vector<double> grip, peak, breaks, push;
   for (const FirstTouch& t : all) {
     if (std::isnan(t.at)) continue;
@@ -197,12 +200,7 @@ FirstTouch median_touch(const std::vector<FirstTouch>& all) {
     breaks.push_back(t.breaks);
     push.push_back(t.push);
   }
-  FirstTouch middle;
-  middle.grip = median(grip);
-  middle.peak = median(peak);
-  middle.breaks = median(breaks);
-  middle.push = median(push);
-  return middle;
+  return {median(grip), median(peak), median(breaks), median(push)};
 }
 
 // The independent contact law over its stiffness and step: the dependence of a touch on each.
@@ -220,7 +218,7 @@ void add_law(Bench& bench) {
     const auto all = bench.each(measured, [&](const auto& m) {
       return std::isnan(m.second.touch.at) ? FirstTouch{} : refer(setup, m.first, m.second, law, step);
     });
-    const FirstTouch middle = median_touch(all);
+    const TouchMedians middle = touch_medians(all);
     table.add(stiffness, law.friction, step * 1e6, fixed(middle.grip, 4), fixed(middle.peak, 3),
               middle.breaks, fixed(1e3 * middle.push, 2));
     return middle.grip;
