@@ -254,14 +254,14 @@ TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
     EXPECT_THAT(
         scene_refused(ball(), {"--rig", "lab"}),
         AllOf(StartsWith(path("models/rigs/lab.toml") + ":" + line_and_column(text, "driver = \"no_such\"") +
-                         ": there is no driver 'no_such'; expected one of 'sim', 'gcs', "),
+                         ": there is no driver 'no_such'; expected one of 'sim', 'forcedimension', 'gcs', "),
               HasSubstr("correct the name, or build it")))
         << role;
   }
   EXPECT_THAT(
       scene_refused(ball(), {"--set", "rig.manipulator.driver=gsc"}),
       AllOf(StartsWith("--set rig.manipulator.driver=gsc: there is no driver 'gsc'; expected one of "),
-            HasSubstr("'netft', 'sample'; did you mean 'gcs'?")));
+            HasSubstr("'netft', 'phantom', 'sample', 'v4l2'; did you mean 'gcs'?")));
   for (const char* command : {"fake", "devices", "params"}) {
     const bool rig = std::string(command) != "params";
     EXPECT_THAT(refused({command, rig ? "sim" : ball(), "--set", "rig.force.driver=vision"}),
