@@ -20,7 +20,7 @@ namespace enc::bench {
 class UserSettings {
  public:
   UserSettings() : UserSettings(std::vector<std::string>{}) {}
-  UserSettings(std::vector<std::string> all) : all_(std::move(all)) {}
+  UserSettings(std::vector<std::string> all) : all_(std::move(all)) {}  // NOLINT(google-explicit-constructor)
   UserSettings(std::initializer_list<std::string> all) : all_(all) {}
 
   [[nodiscard]] bool empty() const { return all_.empty(); }
@@ -28,7 +28,7 @@ class UserSettings {
   [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
 
   // The whole list, as a benchmark that loads its scene itself takes it: each of its settings is used.
-  operator const std::vector<std::string>&() const {
+  operator const std::vector<std::string>&() const {  // NOLINT(google-explicit-constructor)
     for (const std::string& one : all_) use(one);
     return all_;
   }
