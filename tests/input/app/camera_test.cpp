@@ -98,7 +98,8 @@ TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
   EXPECT_THAT(refused({"run", kScene, "--set", "rig.frames.W_C.rotation_deg=[-35, 0, 30]"}),
               HasSubstr(expected));
   const std::string place = line_and_column(test::bytes_of(path("models/rigs/vishap.toml")), "[frames.W_C]");
-  edit("models/rigs/vishap.toml", "rotation_deg = [-125, 0, 30]          # likewise\n\n[arm]",
+  edit("models/rigs/vishap.toml",
+       "rotation_deg = [-125, 0, 30]          # registered by `encounter calibrate camera`\n\n[arm]",
        "rotation_deg = [-35, 0, 30]\n\n[arm]");
   EXPECT_THAT(refused({"check", kScene, "--rig", path("models/rigs/vishap.toml")}),
               HasSubstr("vishap.toml:" + place + ": a camera that stands there"));
