@@ -33,7 +33,7 @@ struct ToolChange {
 
 class SessionMeasure {
  public:
-  explicit SessionMeasure(const models::Setup& setup) : setup_(setup), presses_(setup) {}
+  explicit SessionMeasure(const models::Setup& setup) : presses_(setup) {}
   void see(const trial::Glance& glance);
   // All presses that have begun, the figures of PressMeasure filled in.
   [[nodiscard]] std::vector<SessionPress> presses() const;
@@ -50,7 +50,6 @@ class SessionMeasure {
   void see_touch(const trial::Glance& glance, SessionPress& press, const Object& object);
   void see_change(const trial::Glance& glance);
 
-  const models::Setup& setup_;
   trial::PressMeasure presses_;
   std::vector<SessionPress> seen_;
   ToolChange change_;

@@ -93,16 +93,16 @@ ChildTally in_child(const std::function<void(ChildTally&)>& work) {
   return {parcel.tally, parcel.extra, parcel.error.data()};
 }
 
-std::string words(const Tally& tally) {
+std::string words(const Tally& run_tally) {
   constexpr std::array<const char*, kOffences> kNames{"heap call", "lock", "system call", "minor page fault",
                                                       "major page fault"};
   std::string text;
   for (std::size_t i = 0; i < kOffences; ++i)
-    if (tally.count[i] != 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.count[i], kNames[i]);
-  text = (text.empty() ? "nothing" : text) + fmt::format(" in {} ticks", tally.ticks);
-  for (std::size_t i = 0; i < tally.offenders; ++i) {
-    const Offender& one = tally.first[i];
+    if (run_tally.count[i] != 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", run_tally.count[i], kNames[i]);
+  text = (text.empty() ? "nothing" : text) + fmt::format(" in {} ticks", run_tally.ticks);
+  for (std::size_t i = 0; i < run_tally.offenders; ++i) {
+    const Offender& one = run_tally.first[i];
     text += fmt::format("\n  tick {}: {} {}", one.tick, kNames[static_cast<std::size_t>(one.kind)],
                         one.name.data());
     for (std::size_t d = 2; d < one.depth && d < 14; ++d) text += "\n    " + place_of(one.callers[d]);

@@ -316,9 +316,9 @@ void forget_peak() { peak.store(live_bytes(), std::memory_order_relaxed); }
 
 void* count_new(void* memory) {
   if (memory == nullptr) throw std::bad_alloc();
-  const std::size_t size = malloc_usable_size(memory);
-  const std::size_t now = live.fetch_add(size, std::memory_order_relaxed) + size;
-  if (now > peak_bytes()) peak.store(now, std::memory_order_relaxed);
+  const std::size_t usable = malloc_usable_size(memory);
+  const std::size_t in_use = live.fetch_add(usable, std::memory_order_relaxed) + usable;
+  if (in_use > peak_bytes()) peak.store(in_use, std::memory_order_relaxed);
   return memory;
 }
 void count_delete(void* memory) {

@@ -1,6 +1,7 @@
 // The schema and its visitors: units, names, --set, the resolved text.
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -63,7 +64,9 @@ models::Setup full() {
 // Number of members of an aggregate: the longest list that can initialise it.
 struct AnyValue {
   template <class T>
-  operator T() const;  // NOLINT(google-explicit-constructor)
+  operator T() const {  // NOLINT(google-explicit-constructor)
+    std::abort();
+  }
 };
 template <class T, class... Args>
 constexpr std::size_t members() {
