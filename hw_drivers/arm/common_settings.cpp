@@ -12,16 +12,20 @@ void CommonSettings::declare_common(Settings& table) {
                .high = 4},
               dead_man_button);
   table.value({.name = "watchdog_periods",
-               .meaning = "of the loop without a command: the force is zero",
+               .meaning = "periods of the loop without a command, after which the force is zero",
                .low = 2,
                .high = 1000},
               watchdog_periods);
   table.value({.name = "silent_ms",
-               .meaning = "without a turn of the device's own thread: force off, the link is lost",
+               .meaning = "longest time between two turns of the device's thread; then the force is off and "
+                          "the link is lost",
                .low = 2,
                .high = 1e3},
               silent);
-  table.value({.name = "timeout_ms", .meaning = "for the first turn of that thread", .low = 10, .high = 1e4},
+  table.value({.name = "timeout_ms",
+               .meaning = "longest wait for the first turn of the device's thread",
+               .low = 10,
+               .high = 1e4},
               timeout);
   table.value({.name = "ramp_N_per_s",
                .meaning = "growth of the largest force after each start; 0: at once",

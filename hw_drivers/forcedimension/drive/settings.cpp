@@ -9,11 +9,12 @@ void ForceDimensionSettings::declare(Settings& table) {
                .low = 0,
                .high = 65535},
               serial);
-  table.value({.name = "device_watchdog_ms",
-               .meaning = "told to the device: without a force for so long its firmware ends the force",
-               .low = 1,
-               .high = 31},
-              device_watchdog);
+  table.value(
+      {.name = "device_watchdog_ms",
+       .meaning = "time limit in the device's firmware: after this time without a force it ends the force",
+       .low = 1,
+       .high = 31},
+      device_watchdog);
 }
 
 arm::Place ForceDimensionSettings::fake_place() const {

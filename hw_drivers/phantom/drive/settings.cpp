@@ -19,7 +19,7 @@ void PhantomSettings::declare(Settings& table) {
                .high = 1},
               hottest);
   table.value({.name = "agree_mm",
-               .meaning = "between the device's tip and that of [arm.machine] at its joints",
+               .meaning = "largest distance between the device's tip and that of [arm.machine] at its joints",
                .low = 0.01,
                .high = 100},
               agreement);
@@ -31,16 +31,17 @@ void PhantomSettings::declare(Settings& table) {
        .words = kCalibrations},
       calibration);
   static constexpr std::array<std::string_view, 2> kVelocities{"device", "joints"};
-  table.value({.name = "velocity",
-               .meaning = "of the tip: the device's own, or joints over velocity_window_ms of [arm.loop]",
-               .words = kVelocities},
-              velocity);
+  table.value(
+      {.name = "velocity",
+       .meaning = "source of the tip's velocity: the device, or joints over velocity_window_ms of [arm.loop]",
+       .words = kVelocities},
+      velocity);
   table.value({.name = "joint_signs",
-               .meaning = "of the device's turret, thigh and shin against q1, q2 and q3",
+               .meaning = "signs of the device's turret, thigh and shin angles against q1, q2 and q3",
                .source = "OpenHaptics API reference"},
               joint_signs);
   table.value({.name = "origin_mm",
-               .meaning = "of the device's coordinates in R; empty: its tip with all joints at 0",
+               .meaning = "origin of the device's coordinates in R; empty: the tip with all joints at 0",
                .source = "sources/arm 5"},
               origin);
 }
