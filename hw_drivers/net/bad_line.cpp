@@ -18,36 +18,31 @@ void BadLine::begin(Time now) {
   on_the_way_.clear();
 }
 
-bool BadLine::happens(Kind kind) {
-  const std::optional<double>& share = of(kind);
-  return share && uniform() < *share;
-}
-
 // Garbage keeps a final line feed. The receiver then gets invalid data instead of waiting for the end of a
 // line.
 void BadLine::spoil(std::vector<std::byte>& bytes) {
   const bool line = !bytes.empty() && bytes.back() == std::byte{'\n'};
-  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random_() & 0xffU);
+  for (std::byte& byte : bytes) byte = std::byte{troubles_.noise()};
   if (line) bytes.back() = std::byte{'\n'};
 }
 
 void BadLine::put(Time now, std::span<const std::byte> message) {
   if (now < now_) begin(now);  // the simulation was restarted
   now_ = now;
-  if (message.empty() || dead() || happens(Kind::loss)) return;
-  const std::optional<double>& start = of(Kind::slow_start);
+  if (message.empty() || dead() || troubles_.happens(Kind::loss)) return;
+  const std::optional<double>& start = troubles_.of(Kind::slow_start);
   const Time ready = start ? begun_ + from_seconds(*start) : now;
   if (now < ready && wire_ == Wire::datagrams) return;  // the device does not send yet
   Message next{std::max(now, ready), {message.begin(), message.end()}};
-  if (happens(Kind::garbage)) spoil(next.bytes);
-  if (happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
-  if (of(Kind::jitter)) next.due += from_seconds(*of(Kind::jitter) * uniform());
+  if (troubles_.happens(Kind::garbage)) spoil(next.bytes);
+  if (troubles_.happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
+  if (troubles_.of(Kind::jitter)) next.due += from_seconds(*troubles_.of(Kind::jitter) * troubles_.uniform());
   if (wire_ == Wire::stream) next.due = last_ = std::max(next.due, last_);
   // Only one message waits at a time: if all waited for another one, no message would leave.
   const bool one_waits =
       std::any_of(on_the_way_.begin(), on_the_way_.end(), [](const Message& other) { return other.waits; });
-  next.waits = !one_waits && happens(Kind::reorder);
-  const int copies = happens(Kind::duplicate) ? 2 : 1;
+  next.waits = !one_waits && troubles_.happens(Kind::reorder);
+  const int copies = troubles_.happens(Kind::duplicate) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     const auto at = std::find_if(on_the_way_.begin(), on_the_way_.end(),
                                  [&](const Message& other) { return other.due > next.due && !other.waits; });

@@ -2,30 +2,27 @@
 // leaves unchanged.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <random>
 #include <span>
 #include <vector>
 
 #include "core/devices/fake.h"
+#include "hw_drivers/net/active_troubles.h"
 
 namespace enc::net {
 
 class BadLine {
  public:
   enum class Wire : bool { datagrams, stream };
-  BadLine(Wire wire, std::uint64_t seed) : wire_(wire), random_(seed) {}
+  BadLine(Wire wire, std::uint64_t seed) : wire_(wire), troubles_(seed) {}
 
   [[nodiscard]] bool knows(Trouble::Kind kind) const noexcept;
-  void suffer(const Trouble& trouble) noexcept { of(trouble.kind) = trouble.value; }
-  void heal(Trouble::Kind kind) noexcept { of(kind).reset(); }
-  [[nodiscard]] bool suffers(Trouble::Kind kind) const noexcept {
-    return shares_[static_cast<std::size_t>(kind)].has_value();
-  }
+  void suffer(const Trouble& trouble) noexcept { troubles_.suffer(trouble); }
+  void heal(Trouble::Kind kind) noexcept { troubles_.heal(kind); }
+  [[nodiscard]] bool suffers(Trouble::Kind kind) const noexcept { return troubles_.of(kind).has_value(); }
   // The device is stalled, or new connections are refused.
   [[nodiscard]] bool dead() const noexcept {
     return suffers(Trouble::Kind::stall) || suffers(Trouble::Kind::disconnect);
@@ -48,18 +45,12 @@ class BadLine {
     std::vector<std::byte> bytes;
     bool waits = false;  // holds this message until another one has left
   };
-  [[nodiscard]] std::optional<double>& of(Trouble::Kind kind) noexcept {
-    return shares_[static_cast<std::size_t>(kind)];
-  }
-  [[nodiscard]] bool happens(Trouble::Kind kind);  // true if the fault hits this message
-  [[nodiscard]] double uniform() { return std::generate_canonical<double, 53>(random_); }
   void spoil(std::vector<std::byte>& bytes);
 
   Wire wire_;
-  std::mt19937_64 random_;
-  std::array<std::optional<double>, 11> shares_{};  // indexed by kind
-  std::deque<Message> on_the_way_;                  // ordered by departure
-  Time begun_{}, last_{}, now_{};                   // last_: departure of the last message, stream only
+  ActiveTroubles troubles_;
+  std::deque<Message> on_the_way_;  // ordered by departure
+  Time begun_{}, last_{}, now_{};   // last_: departure of the last message, stream only
 };
 
 }  // namespace enc::net

@@ -14,8 +14,7 @@
 namespace enc::gcs {
 namespace {
 
-constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that does not read is disconnected
-constexpr int kUsualError = 504;                // a strut does not follow
+constexpr int kUsualError = 504;  // a strut does not follow
 
 }  // namespace
 
@@ -76,7 +75,7 @@ bool Server::answer(Time now) {
   line_.put(now, std::as_bytes(std::span(controller_.take({bytes.data(), got}))));
   if (controller_.stops() > stops && stopped_.size() < kStopsKept) stopped_.push_back(now);
   send(now);
-  if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) leave();
+  if ((got == 0 && client_.closed()) || unsent_.overfull()) leave();
   return got > 0;
 }
 
@@ -90,10 +89,8 @@ void Server::leave() {
 }
 
 void Server::send(Time now) {
-  line_.leave(now, [this](std::span<const std::byte> bytes) {
-    for (const std::byte byte : bytes) unsent_.push_back(static_cast<char>(byte));
-  });
-  if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
+  line_.leave(now, [this](std::span<const std::byte> bytes) { unsent_.add(bytes); });
+  unsent_.send(client_);
 }
 
 bool Server::knows(const Trouble& trouble) const {

@@ -9,6 +9,7 @@
 #include "core/devices/fake.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/net/bad_line.h"
+#include "hw_drivers/net/send_queue.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::gcs {
@@ -45,7 +46,7 @@ class Server final : public Fake {
   std::int64_t told_before_ = 0, stops_before_ = 0;  // controller's counts when the client connected
   std::vector<Time> stopped_;                        // the client's first stops
   net::BadLine line_;
-  std::string unsent_;
+  net::SendQueue unsent_;
 };
 
 // The fake of a rig's [driver.gcs], in front of its manipulator.

@@ -10,7 +10,6 @@
 namespace enc::gripper {
 namespace {
 
-constexpr std::size_t kMostUnsent = 1U << 16U;  // a client that does not read is disconnected
 constexpr int kUsualFailure = static_cast<int>(Exception::device);
 
 }  // namespace
@@ -68,16 +67,13 @@ bool Server::answer(Time now) {
   for (auto request = requests_.next(); request; request = requests_.next())
     line_.put(now, image_.answer(*request, now));
   send(now);
-  if ((got == 0 && client_.closed()) || requests_.lost() || unsent_.size() > kMostUnsent) leave();
+  if ((got == 0 && client_.closed()) || requests_.lost() || unsent_.overfull()) leave();
   return got > 0;
 }
 
 void Server::send(Time now) {
-  line_.leave(now, [this](std::span<const std::byte> bytes) {
-    unsent_.insert(unsent_.end(), bytes.begin(), bytes.end());
-  });
-  if (unsent_.empty()) return;
-  unsent_.erase(unsent_.begin(), unsent_.begin() + static_cast<std::ptrdiff_t>(client_.send(unsent_)));
+  line_.leave(now, [this](std::span<const std::byte> bytes) { unsent_.add(bytes); });
+  unsent_.send(client_);
 }
 
 void Server::leave() {

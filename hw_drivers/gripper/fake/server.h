@@ -10,6 +10,7 @@
 #include "hw_drivers/gripper/fake/coupler_image.h"
 #include "hw_drivers/gripper/wire/requests.h"
 #include "hw_drivers/net/bad_line.h"
+#include "hw_drivers/net/send_queue.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::gripper {
@@ -44,7 +45,7 @@ class Server final : public Fake {
   net::Socket listener_, client_;
   Requests requests_;
   net::BadLine line_;
-  std::vector<std::byte> unsent_;
+  net::SendQueue unsent_;
   std::int64_t switched_before_ = 0, fallbacks_ = 0;
 };
 

@@ -9,11 +9,7 @@
 #include "hw_drivers/hand/wire/line.h"
 
 namespace enc::hand {
-namespace {
-
-constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that does not read is disconnected
-
-}  // namespace
+namespace {}  // namespace
 
 std::string lines_of(const Measurement<HandSample>& hand, std::int64_t frame, bool from_wrist) {
   Packet wrist;
@@ -80,13 +76,13 @@ void Server::publish(Time now) {
 void Server::leave(Time now) {
   line_.leave(now, [this](std::span<const std::byte> bytes) {
     if (settings_.streams())
-      unsent_.insert(unsent_.end(), bytes.begin(), bytes.end());
+      unsent_.add(bytes);
     else
       static_cast<void>(socket_.send(bytes));
   });
   if (unsent_.empty()) return;
-  unsent_.erase(unsent_.begin(), unsent_.begin() + static_cast<std::ptrdiff_t>(client_.send(unsent_)));
-  if (!client_.closed() && unsent_.size() <= kMostUnsent) return;
+  unsent_.send(client_);
+  if (!client_.closed() && !unsent_.overfull()) return;
   client_ = {};
   unsent_.clear();
 }

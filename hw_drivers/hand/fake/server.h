@@ -10,6 +10,7 @@
 #include "core/devices/fake.h"
 #include "hw_drivers/hand/drive/settings.h"
 #include "hw_drivers/net/bad_line.h"
+#include "hw_drivers/net/send_queue.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::hand {
@@ -39,7 +40,7 @@ class Server final : public Fake {
   HandSettings settings_;
   net::Socket socket_, client_;  // client_: TCP only
   net::BadLine line_;
-  std::vector<std::byte> unsent_;
+  net::SendQueue unsent_;
   std::int64_t frame_ = 0;
 };
 

@@ -14,12 +14,6 @@ namespace enc::igtl {
 
 // ---- the server socket
 
-namespace {
-
-constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that does not read is disconnected
-
-}  // namespace
-
 Door::Door(Transport transport, const std::string& address, std::uint16_t port, std::uint64_t seed)
     : transport_(transport),
       socket_(transport == Transport::tcp ? net::listen_tcp(address, port) : net::bind_udp(address, port)),
@@ -69,11 +63,11 @@ void Door::leave(Time now) {
     if (transport_ == Transport::udp)
       static_cast<void>(socket_.reply(bytes));
     else
-      unsent_.insert(unsent_.end(), bytes.begin(), bytes.end());
+      unsent_.add(bytes);
   });
   if (transport_ == Transport::udp || unsent_.empty()) return;
-  unsent_.erase(unsent_.begin(), unsent_.begin() + static_cast<std::ptrdiff_t>(client_.send(unsent_)));
-  if (client_.closed() || unsent_.size() > kMostUnsent) {
+  unsent_.send(client_);
+  if (client_.closed() || unsent_.overfull()) {
     client_ = {};
     unsent_.clear();
   }

@@ -16,6 +16,7 @@
 #include "hw_drivers/igtl/wire/content.h"
 #include "hw_drivers/igtl/wire/message.h"
 #include "hw_drivers/net/bad_line.h"
+#include "hw_drivers/net/send_queue.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::igtl {
@@ -52,7 +53,7 @@ class Door {
   net::BadLine line_;
   Stream stream_;
   std::array<std::byte, kMostBytes> datagram_{};
-  std::vector<std::byte> unsent_;
+  net::SendQueue unsent_;
 };
 
 inline constexpr Duration kServerPeriod{10'000'000};  // [VHMR 2]

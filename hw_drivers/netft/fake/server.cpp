@@ -191,11 +191,9 @@ void Server::serve_commands(Time now) {
     const std::size_t got = asker.socket.receive(std::as_writable_bytes(std::span(bytes)));
     asker.asked.append(bytes.data(), got);
     for (; asker.asked.size() >= kAskSize; asker.asked.erase(0, kAskSize))
-      for (const std::byte byte : box_.answer(std::as_bytes(std::span(asker.asked)).first(kAskSize), now))
-        asker.unsent.push_back(static_cast<char>(byte));
-    asker.unsent.erase(0,
-                       asker.unsent.empty() ? 0 : asker.socket.send(std::as_bytes(std::span(asker.unsent))));
-    if ((got == 0 && asker.socket.closed()) || asker.unsent.size() > kMostAsked) asker.socket = {};
+      asker.unsent.add(box_.answer(std::as_bytes(std::span(asker.asked)).first(kAskSize), now));
+    asker.unsent.send(asker.socket);
+    if ((got == 0 && asker.socket.closed()) || asker.unsent.overfull()) asker.socket = {};
   }
   std::erase_if(askers_, [](const Reader& asker) { return !asker.socket.is_open(); });
 }
@@ -209,11 +207,11 @@ void Server::serve_page() {
     if (const std::string_view path = requested_path(reader.asked); !path.empty() && !reader.answered) {
       reader.answered = true;
       const bool known = path.substr(0, path.find('?')) == "/netftapi2.xml";
-      reader.unsent =
+      const std::string page =
           known ? http_answer(200, "text/xml", box_.xml()) : http_answer(404, "text/plain", "not here\n");
+      reader.unsent.add(std::as_bytes(std::span(page)));
     }
-    reader.unsent.erase(
-        0, reader.unsent.empty() ? 0 : reader.socket.send(std::as_bytes(std::span(reader.unsent))));
+    reader.unsent.send(reader.socket);
     if (got == 0 && reader.socket.closed()) reader.socket = {};
   }
   std::erase_if(readers_, [](const Reader& reader) {

@@ -10,6 +10,7 @@
 #include "core/devices/device.h"
 #include "core/devices/fake.h"
 #include "hw_drivers/net/bad_line.h"
+#include "hw_drivers/net/send_queue.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/wire/messages.h"
@@ -77,7 +78,8 @@ class Server final : public Fake {
  private:
   struct Reader {
     net::Socket socket;
-    std::string asked, unsent;
+    std::string asked;
+    net::SendQueue unsent;
     bool answered = false;
   };
   void send(Time now);

@@ -105,7 +105,7 @@ NodeSpec node_of(const ServerSettings& settings, const char* side) {
 }  // namespace
 
 Server::Server(StereoCamera& camera, const ServerSettings& settings)
-    : camera_(camera), settings_(settings), random_(settings.seed) {
+    : camera_(camera), settings_(settings), troubles_(settings.seed) {
   doors_.push_back(std::make_unique<Door>(settings.left, node_of(settings, "left")));
   if (!settings.right.empty())
     doors_.push_back(std::make_unique<Door>(settings.right, node_of(settings, "right")));
@@ -153,28 +153,23 @@ void Server::publish(Time now) {
   leave(now);
 }
 
-bool Server::happens(Trouble::Kind kind) {
-  const std::optional<double>& share = of(kind);
-  return share && std::generate_canonical<double, 53>(random_) < *share;
-}
-
 void Server::expose(Time now, const Measurement<StereoFrame>& frame) {
   using Kind = Trouble::Kind;
-  if (of(Kind::stall) || of(Kind::disconnect)) return;
-  if (const auto& slow = of(Kind::slow_start); slow && age(now, *streams_since_) < *slow) return;
+  if (troubles_.of(Kind::stall) || troubles_.of(Kind::disconnect)) return;
+  if (const auto& slow = troubles_.of(Kind::slow_start); slow && age(now, *streams_since_) < *slow) return;
   const ImageView* right = &frame.value.right;
   for (std::size_t i = 0; i < doors_.size(); ++i) {
     const ImageView& first = i == 0 ? frame.value.left : frame.value.right;
-    if (happens(Kind::loss)) continue;
+    if (troubles_.happens(Kind::loss)) continue;
     Frame next{now, i, 0, steady_at(frame.t), {}};
     next.sequence =
         static_cast<std::uint32_t>(std::llround(seconds(frame.t.time_since_epoch()) * settings_.rate));
     next.bytes = encoder_.encode(settings_.pixels, first, doors_.size() == 1 ? right : nullptr);
-    if (const auto& jitter = of(Kind::jitter))
-      next.due += from_seconds(*jitter * std::generate_canonical<double, 53>(random_));
-    if (happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
-    if (happens(Kind::garbage)) {
-      for (std::uint8_t& byte : next.bytes) byte = static_cast<std::uint8_t>(random_());
+    if (const auto& jitter = troubles_.of(Kind::jitter))
+      next.due += from_seconds(*jitter * troubles_.uniform());
+    if (troubles_.happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
+    if (troubles_.happens(Kind::garbage)) {
+      for (std::uint8_t& byte : next.bytes) byte = troubles_.noise();
       next.damaged = true;
     }
     if (on_the_way_.size() == kMostOnTheWay) on_the_way_.pop_front();
@@ -199,7 +194,7 @@ bool Server::knows(const Trouble& trouble) const {
 }
 
 void Server::suffer(const Trouble& trouble) {
-  of(trouble.kind) = trouble.value;
+  troubles_.suffer(trouble);
   for (const auto& door : doors_) {
     if (trouble.kind == Trouble::Kind::disconnect) door->plug(false);
     if (trouble.kind == Trouble::Kind::error_code)
@@ -208,7 +203,7 @@ void Server::suffer(const Trouble& trouble) {
 }
 
 void Server::heal(Trouble::Kind kind) {
-  of(kind).reset();
+  troubles_.heal(kind);
   for (const auto& door : doors_) {
     if (kind == Trouble::Kind::disconnect) door->plug(true);
     if (kind == Trouble::Kind::error_code) door->node().fail(0);

@@ -2,16 +2,15 @@
 // come from the twin's stereo camera (wire/relay.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/devices/fake.h"
+#include "hw_drivers/net/active_troubles.h"
 #include "hw_drivers/v4l2/fake/encode.h"
 #include "hw_drivers/v4l2/fake/node.h"
 #include "hw_drivers/v4l2/wire/relay.h"
@@ -75,10 +74,6 @@ class Server final : public Fake {
     std::vector<std::uint8_t> bytes;
     bool damaged = false;
   };
-  [[nodiscard]] std::optional<double>& of(Trouble::Kind kind) {
-    return troubles_[static_cast<std::size_t>(kind)];
-  }
-  [[nodiscard]] bool happens(Trouble::Kind kind);
   void expose(Time now, const Measurement<StereoFrame>& frame);
   void leave(Time now);
   [[nodiscard]] Duration steady_at(Time t) const;  // by CLOCK_MONOTONIC
@@ -87,8 +82,7 @@ class Server final : public Fake {
   ServerSettings settings_;
   std::vector<std::unique_ptr<Door>> doors_;
   Encoder encoder_;
-  std::mt19937_64 random_;
-  std::array<std::optional<double>, 11> troubles_{};  // by kind
+  net::ActiveTroubles troubles_;
   std::deque<Frame> on_the_way_;
   std::deque<std::pair<Time, Duration>>
       instants_;  // the world's time and CLOCK_MONOTONIC, of the last second
