@@ -44,8 +44,17 @@ class Servo {
   // ---- the device's thread
   // Call in each of its periods: hands the reading to the loop and returns the force to exert.
   Vec<'R'> turn(const ArmReading& reading) noexcept;
-  // True from the loop's first force to its next stop: the device's motors may be on.
-  [[nodiscard]] bool wants_force() const noexcept { return order_.number > 0 && !order_.stopped; }
+  // Call before each turn: the motors are on from the loop's first force to its next stop. `device` has
+  // switch_on() and switch_off(). An arm whose motors are off is braked by them.
+  template <class Device>
+  void switch_motors(Device& device) {
+    const bool on = order_.number > 0 && !order_.stopped && linked();
+    if (on == motors_on_) return;
+    motors_on_ = on;
+    on ? device.switch_on() : device.switch_off();
+    if (on && !linked()) device.switch_off();  // lost in between
+  }
+  [[nodiscard]] bool motors_on() const noexcept { return motors_on_; }
   // Ends all force for the rest of the run. Call it from any thread.
   void lose(const std::string& why) noexcept;
 
@@ -77,6 +86,7 @@ class Servo {
   // Data of the device's thread.
   ForceGuard guard_;
   ForceOrder order_;
+  bool motors_on_ = false;
 
   // Data of the loop.
   ForceOrder given_;

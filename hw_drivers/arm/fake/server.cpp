@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/machine/arm.h"
 #include "hw_drivers/net/clocks.h"
 
 namespace enc::arm {
@@ -140,6 +142,22 @@ void ArmServer::suffer(const Trouble& trouble) {
 void ArmServer::heal(Trouble::Kind kind) {
   if (kind == Trouble::Kind::error_code) state_.error = 0;
   line_.heal(kind);
+}
+
+std::unique_ptr<Fake> served(const FakeOffer& offer, const std::string& name, const Place& place,
+                             std::uint32_t usual_error) {
+  if (!offer.rig.arm)
+    throw Error("the scene names no [arm], which a fake " + name + " is; choose another scene");
+  const Arm arm(offer.spec.arm.machine);
+  ArmServerSettings of;
+  of.name = name;
+  of.place = place;
+  of.usual_error = usual_error;
+  of.home = arm.tip(arm.zero()).xyz;
+  of.advance = offer.advance;
+  of.begin = offer.begin;
+  of.seed = offer.seed;
+  return std::make_unique<ArmServer>(*offer.rig.arm, of, offer.log);
 }
 
 }  // namespace enc::arm

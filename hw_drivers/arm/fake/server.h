@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,9 @@ class ArmServer final : public Fake {
   std::int64_t forces_ = 0;  // with the motors on, of this client
   double largest_ = 0.0;     // N
 };
+
+// The fake in front of the rig's arm. Throws Error for a scene without [arm].
+[[nodiscard]] std::unique_ptr<Fake> served(const FakeOffer& offer, const std::string& name,
+                                           const Place& place, std::uint32_t usual_error);
 
 }  // namespace enc::arm

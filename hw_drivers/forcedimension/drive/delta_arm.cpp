@@ -6,12 +6,12 @@
 #include <cmath>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "hw_drivers/arm/threaded_arm.h"
 #include "hw_drivers/net/clocks.h"
 #include "hw_drivers/net/socket.h"
 
@@ -156,16 +156,11 @@ void DhdLoop::run() noexcept {
 }
 
 void DhdLoop::turn() {
-  const bool on = servo_.wants_force() && servo_.linked();
-  if (on != on_) {
-    on_ = on;
-    on ? device_.switch_on() : device_.switch_off();
-    if (on && !servo_.linked()) device_.switch_off();  // lost in between
-  }
+  servo_.switch_motors(device_);
   const arm::ArmReading reading = device_.read();
   if (reading.error != 0) servo_.lose(dhd::words_of(reading.error));
   const Vec<'R'> force = servo_.turn(reading);
-  if (on_) device_.exert(force);
+  if (servo_.motors_on()) device_.exert(force);
 }
 
 bool DhdLoop::shut() noexcept {
@@ -180,26 +175,10 @@ bool DhdLoop::shut() noexcept {
   return true;
 }
 
-namespace {
-
-// Keeps a device whose thread hangs until the process ends, and never destroys it.
-void keep(std::unique_ptr<DhdLoop> loop) {
-  static auto* const kKept = new std::vector<std::unique_ptr<DhdLoop>>;
-  kKept->push_back(std::move(loop));
-}
-
-}  // namespace
-
-DeltaArm::~DeltaArm() {
-  loop_->servo().stop();
-  // A thread that hangs in the vendor's library may come back, so its data must stay.
-  if (!loop_->shut()) keep(std::move(loop_));
-}
-
 std::unique_ptr<HapticArm> opened(const Offer& offer) {
   ForceDimensionSettings settings;
   settings.declare(offer.table);
-  return std::make_unique<DeltaArm>(offer, settings);
+  return std::make_unique<arm::ThreadedArm<DhdLoop>>(std::make_unique<DhdLoop>(offer, settings));
 }
 
 }  // namespace enc::forcedimension

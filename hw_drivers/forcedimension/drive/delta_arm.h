@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/devices/driver.h"
@@ -74,32 +73,8 @@ class DhdLoop {
 
   DhdDevice device_;
   arm::Servo servo_;
-  bool on_ = false;  // force; data of the thread
   std::atomic<bool> end_ = false, ended_ = false;
   std::thread thread_;
-};
-
-class DeltaArm final : public HapticArm {
- public:
-  DeltaArm(const Offer& offer, const ForceDimensionSettings& settings)
-      : loop_(std::make_unique<DhdLoop>(offer, settings)) {}
-  DeltaArm(const DeltaArm&) = delete;
-  DeltaArm& operator=(const DeltaArm&) = delete;
-  ~DeltaArm() override;
-
-  [[nodiscard]] std::string describe() const override { return loop_->device().describe(); }
-  [[nodiscard]] bool is_fake() const override { return loop_->device().is_fake(); }
-  [[nodiscard]] bool linked() const noexcept override { return loop_->servo().linked(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return loop_->servo().remarks(describe());
-  }
-  [[nodiscard]] ArmAbility ability() const override { return loop_->device().ability(); }
-  Measurement<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
-  void command(const Vec<'R'>& force) noexcept override { loop_->servo().command(force); }
-  void stop() noexcept override { loop_->servo().stop(); }
-
- private:
-  std::unique_ptr<DhdLoop> loop_;
 };
 
 // The driver by its table.

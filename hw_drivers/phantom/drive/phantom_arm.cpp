@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "hw_drivers/arm/threaded_arm.h"
 #include "hw_drivers/net/clocks.h"
 
 namespace enc::phantom {
@@ -60,7 +59,7 @@ void HdLoop::start(const PhantomSettings& settings) {
 unsigned HdLoop::frame() noexcept {
   if (end_) return hd::kDone;
   try {
-    switch_motors();
+    servo_.switch_motors(device_);
     device_.frame(net::steady_now(), kUnset, [this](const arm::ArmReading& reading) {
       if (frames_++ == 0) apart_ = device_.apart(reading);
       return servo_.turn(reading);
@@ -74,15 +73,6 @@ unsigned HdLoop::frame() noexcept {
   }
 }
 
-// The motors are on from the first force to the next stop. An arm whose motors are off is braked by them.
-void HdLoop::switch_motors() {
-  const bool on = servo_.wants_force() && servo_.linked();
-  if (on == on_) return;
-  on_ = on;
-  on ? device_.switch_on() : device_.switch_off();
-  if (on && !servo_.linked()) device_.switch_off();  // lost in between
-}
-
 bool HdLoop::shut() noexcept {
   constexpr double kGone = 0.1;  // s
   end_ = true;
@@ -94,22 +84,6 @@ bool HdLoop::shut() noexcept {
   hd.stop_scheduler();
   hd.unschedule(callback_);
   return true;
-}
-
-namespace {
-
-// Keeps a device whose thread hangs until the process ends, and never destroys it.
-void keep(std::unique_ptr<HdLoop> loop) {
-  static auto* const kKept = new std::vector<std::unique_ptr<HdLoop>>;
-  kKept->push_back(std::move(loop));
-}
-
-}  // namespace
-
-PhantomArm::~PhantomArm() {
-  loop_->servo().stop();
-  // A thread of the vendor that hangs may come back, so its data must stay.
-  if (!loop_->shut()) keep(std::move(loop_));
 }
 
 // ---- in lockstep with a fake
@@ -160,7 +134,7 @@ std::unique_ptr<HapticArm> opened(const Offer& offer) {
     settings.velocity = "joints";  // to the bit; the device's own is rounded to its unit
     return std::make_unique<LockstepArm>(offer, settings);
   }
-  return std::make_unique<PhantomArm>(offer, settings);
+  return std::make_unique<arm::ThreadedArm<HdLoop>>(std::make_unique<HdLoop>(offer, settings));
 }
 
 }  // namespace enc::phantom

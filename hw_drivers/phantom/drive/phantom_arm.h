@@ -4,7 +4,6 @@
 #include <atomic>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/devices/driver.h"
 #include "hw_drivers/phantom/drive/hd_device.h"
@@ -22,45 +21,19 @@ class HdLoop {
 
   [[nodiscard]] HdDevice& device() noexcept { return device_; }
   [[nodiscard]] arm::Servo& servo() noexcept { return servo_; }
-  [[nodiscard]] const arm::Servo& servo() const noexcept { return servo_; }
   // Ends the scheduler. Returns false if its thread does not come back: this object must then live on.
   [[nodiscard]] bool shut() noexcept;
 
  private:
   void start(const PhantomSettings& settings);
   unsigned frame() noexcept;
-  void switch_motors();
 
   HdDevice device_;
   arm::Servo servo_;
   unsigned long callback_ = 0;
-  bool on_ = false;                  // motors; data of the scheduler's thread
-  std::int64_t frames_ = 0;          // likewise
+  std::int64_t frames_ = 0;          // data of the scheduler's thread
   std::atomic<double> apart_ = 0.0;  // m, in the first frame
   std::atomic<bool> end_ = false, scheduled_ = false;
-};
-
-class PhantomArm final : public HapticArm {
- public:
-  PhantomArm(const Offer& offer, const PhantomSettings& settings)
-      : loop_(std::make_unique<HdLoop>(offer, settings)) {}
-  PhantomArm(const PhantomArm&) = delete;
-  PhantomArm& operator=(const PhantomArm&) = delete;
-  ~PhantomArm() override;
-
-  [[nodiscard]] std::string describe() const override { return loop_->device().describe(); }
-  [[nodiscard]] bool is_fake() const override { return loop_->device().is_fake(); }
-  [[nodiscard]] bool linked() const noexcept override { return loop_->servo().linked(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return loop_->servo().remarks(describe());
-  }
-  [[nodiscard]] ArmAbility ability() const override { return loop_->device().ability(); }
-  Measurement<ArmSample> read(Time now) noexcept override { return loop_->servo().read(now); }
-  void command(const Vec<'R'>& force) noexcept override { loop_->servo().command(force); }
-  void stop() noexcept override { loop_->servo().stop(); }
-
- private:
-  std::unique_ptr<HdLoop> loop_;
 };
 
 // Driver for the fake library whose time advances by a period with each force. The loop makes each frame
