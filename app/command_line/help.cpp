@@ -1,7 +1,6 @@
 #include "app/command_line/help.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -54,24 +53,16 @@ const CLI::App& named_command(const CLI::App& app, const std::vector<std::string
   return *at;
 }
 
-// The names of the files in a folder of models: "sim" for rigs/sim.toml.
-std::vector<std::string> names_in(const char* folder) {
-  std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& file : std::filesystem::directory_iterator(models::models_dir() + "/" + folder, none))
-    if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 void print_help(const CLI::App& app, const HelpOptions& options) {
   if (options.manual) {
     const trial::BuiltCommit commit = trial::built_commit();
     fmt::print("{}", manual_page(command_words(app), ENCOUNTER_VERSION, commit.day));
   } else if (options.bash) {
-    fmt::print("{}", bash_completion(command_words(app), {.scenes = models::scene_names(models::models_dir()),
-                                                          .rigs = names_in("rigs"),
-                                                          .forms = names_in("questionnaires")}));
+    const std::string models = models::models_dir();
+    fmt::print("{}",
+               bash_completion(command_words(app), {.scenes = models::scene_names(models),
+                                                    .rigs = models::files_in(models, "rigs"),
+                                                    .forms = models::files_in(models, "questionnaires")}));
   } else {
     const CLI::App& command = named_command(app, options.command);
     std::string before = "encounter";

@@ -42,9 +42,8 @@ std::string rig_path(const std::string& models, const std::string& rig) {
 std::string name_of(const std::string& setting) { return setting.substr(0, setting.find('=')); }
 
 bool is_in(std::string_view name, const Names& tables) {
-  return std::any_of(tables.begin(), tables.end(), [&](const std::string& table) {
-    return name == table || (name.starts_with(table) && name[table.size()] == '.');
-  });
+  return std::any_of(tables.begin(), tables.end(),
+                     [&](const std::string& table) { return models::stands_in(name, table); });
 }
 
 // Names of a scene or rig, and the tables that a run of it does not read.

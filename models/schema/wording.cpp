@@ -202,4 +202,8 @@ std::string advice(std::string_view word, const std::vector<std::string>& names)
   return fmt::format("the names here are {}", list);
 }
 
+bool stands_in(std::string_view name, std::string_view table) {
+  return name.starts_with(table) && (name.size() == table.size() || name[table.size()] == '.');
+}
+
 }  // namespace enc::models

@@ -27,6 +27,9 @@ std::string quoted(const std::string& text);
 // "text", in TOML form
 std::string quoted_toml(const std::string& text);
 
+// True for the table or a key in it: "camera" and "camera.rate_hz" stand in "camera".
+bool stands_in(std::string_view name, std::string_view table);
+
 // The name that the author of `word` probably meant; empty if none is close. A key with another unit
 // ("radius_cm") is close to the key with the right one ("radius_mm").
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);

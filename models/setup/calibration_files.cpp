@@ -358,11 +358,6 @@ void check_lens(const Lens& lens, const StereoRig& rig, const std::string& side)
            "a lens that sees each direction once");
 }
 
-// True for the table or a key of it.
-bool stands_in(std::string_view name, std::string_view table) {
-  return name.starts_with(table) && (name.size() == table.size() || name[table.size()] == '.');
-}
-
 }  // namespace
 
 void check_stereo(const StereoRig& rig) {

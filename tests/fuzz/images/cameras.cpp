@@ -12,6 +12,7 @@
 #include "hw_drivers/v4l2/fake/encode.h"
 #include "hw_drivers/v4l2/fake/node.h"
 #include "tests/fuzz/machine/fuzzing.h"
+#include "tests/fuzz/targets/seeds.h"
 
 namespace enc::fuzz {
 namespace {
@@ -38,17 +39,7 @@ Target frame() {
   v4l2::Encoder encoder;
   for (const Pixels pixels : {Pixels::mjpeg, Pixels::yuyv, Pixels::grey})
     target.seeds.push_back(bytes_in(encoder.encode(pixels, seen().view())));
-  target.tokens = {"\xff\xd8",
-                   "\xff\xd9",
-                   "\xff\xda",
-                   "\xff\xc0",
-                   "\xff\xc2",
-                   "\xff\xc4",
-                   "\xff\xdb",
-                   "\xff\xdd",
-                   "\xff\xd0",
-                   "\xff\xe0",
-                   std::string("\xff\0", 2)};
+  target.tokens = jpeg_tokens();
   target.run = [](const std::string& input) {
     static v4l2::Decoder decoder;
     bool any = false;

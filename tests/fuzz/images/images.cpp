@@ -74,17 +74,7 @@ Target jpeg() {
   Target target;
   target.seeds = {jpeg_of(picture(), TJSAMP_444, 0), jpeg_of(picture(), TJSAMP_420, TJFLAG_PROGRESSIVE),
                   jpeg_of(picture(), TJSAMP_GRAY, 0)};
-  target.tokens = {"\xff\xd8",
-                   "\xff\xd9",
-                   "\xff\xda",
-                   "\xff\xc0",
-                   "\xff\xc2",
-                   "\xff\xc4",
-                   "\xff\xdb",
-                   "\xff\xdd",
-                   "\xff\xd0",
-                   "\xff\xe0",
-                   std::string("\xff\0", 2)};
+  target.tokens = jpeg_tokens();
   target.run = &read;
   target.bound = kBound;
   return target;

@@ -65,6 +65,21 @@ void use(const models::Setup& setup, RecordReader& record) {
   mcap.end(record.end_texts(), "whole");
 }
 
+const std::vector<std::string>& jpeg_tokens() {
+  static const std::vector<std::string> kAll{"\xff\xd8",
+                                             "\xff\xd9",
+                                             "\xff\xda",
+                                             "\xff\xc0",
+                                             "\xff\xc2",
+                                             "\xff\xc4",
+                                             "\xff\xdb",
+                                             "\xff\xdd",
+                                             "\xff\xd0",
+                                             "\xff\xe0",
+                                             std::string("\xff\0", 2)};
+  return kAll;
+}
+
 const std::vector<std::string>& toml_tokens() {
   static const std::vector<std::string> kAll{"true",
                                              "false",

@@ -27,6 +27,7 @@ namespace enc::fuzz {
 void use(const models::Setup& setup, RecordReader& record);
 
 [[nodiscard]] const std::vector<std::string>& toml_tokens();
+[[nodiscard]] const std::vector<std::string>& jpeg_tokens();  // markers
 
 // A temporary folder, in memory if there is a file system for that; removed with the program.
 class Folder {
