@@ -181,7 +181,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
        .y_label = "error of what the hand feels (%)",
        .caption = "Of the grip's largest force, 95 % of the hands, against a contact law of its own at a "
                   "converged step. A person tells 7 %, and 0.1 N. Crosses: the engine warned."},
-      curves);
+      curves, {{"a person tells", 7.0}});
   plot.series.push_back(std::move(chosen));
   bench.plot(std::move(plot));
   bench.table(std::move(table));

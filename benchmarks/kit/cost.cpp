@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -70,8 +71,13 @@ double fitted_order(const std::vector<double>& steps, const std::vector<double>&
   return n < 3.0 ? kUnset : (n * xy - x * y) / (n * xx - x * x);
 }
 
-Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves) {
+Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves,
+                       const std::vector<ErrorLevel>& levels) {
   plot.log_x = plot.log_y = true;
+  std::vector<double> costs;
+  for (const CostCurve& curve : curves)
+    std::copy_if(curve.cost.begin(), curve.cost.end(), std::back_inserter(costs),
+                 [](double cost) { return std::isfinite(cost); });
   for (const CostCurve& curve : curves) {
     Series there{.name = curve.name, .mark = Mark::both};
     Series failed{.name = "", .mark = Mark::crosses};
@@ -80,6 +86,11 @@ Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves) {
         (std::isnan(curve.error[i]) ? failed : there).add(curve.cost[i], curve.error[i]);
     plot.series.push_back(std::move(there));
     if (!failed.x.empty()) plot.series.push_back(std::move(failed));
+  }
+  for (const ErrorLevel& level : levels) {
+    if (costs.empty() || !(level.error > 0.0)) continue;
+    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+    plot.series.push_back({.name = level.name, .x = {*least, *most}, .y = {level.error, level.error}});
   }
   return plot;
 }

@@ -61,8 +61,14 @@ struct CostCurve {
   std::string name;
   std::vector<double> cost{}, error{};
 };
-// Both axes are logarithmic. `plot` has everything but the series.
-[[nodiscard]] Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves);
+// An error that a diagram marks by a line, such as the one asked for.
+struct ErrorLevel {
+  std::string name;
+  double error = kUnset;
+};
+// Both axes are logarithmic. `plot` has everything but the series. A level that is not above 0 has no line.
+[[nodiscard]] Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves,
+                                     const std::vector<ErrorLevel>& levels = {});
 
 // A fixed piece of work, timed in the run that is judged. A bound on time is a ratio to this work, so that a
 // slow or busy computer fails no benchmark.

@@ -255,7 +255,8 @@ Plot precision_plot(const StudyComparison& compared, const std::string& scene) {
                        compared.of_force() ? "True force while something touches"
                                            : "The greatest difference, over the greatest value",
                        all.seconds, compared.told(all.second.error), compared.told(compared.accuracy))},
-      scaled, &trial::PrecisionPoint::yards);
+      scaled, &trial::PrecisionPoint::yards,
+      {{"allowed", compared.accuracy * norm.scale}, {"floor", all.second.error * norm.scale}});
 }
 
 // A curve for each form and integrator; adds each point to the table.
@@ -300,7 +301,7 @@ ForceStudy force_study(const BenchContext& context, const std::string& scene,
 }
 
 Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
-                double trial::PrecisionPoint::*cost) {
+                double trial::PrecisionPoint::*cost, const std::vector<ErrorLevel>& levels) {
   std::vector<CostCurve> curves;
   CostCurve ships{"as it ships"};
   for (const trial::PrecisionPoint& point : points) {
@@ -315,7 +316,7 @@ Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
     ships.error.push_back(error);
   }
   if (!ships.cost.empty()) curves.push_back(std::move(ships));
-  return cost_beside_error(std::move(plot), curves);
+  return cost_beside_error(std::move(plot), curves, levels);
 }
 
 void add_force_precision(Bench& bench, const std::vector<std::string>& set, const PrecisionNorm& norm) {
@@ -374,7 +375,7 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
            "True tip against the converged run of the same form; time steps 1 ms (left) to {:g} us (right). "
            "{:g} um is what this benchmark needs. What failed stands at the upper edge.",
            extent.forms.front().steps.back() * 1e6, spec.accuracy * 1e6)},
-      curves);
+      curves, {{"allowed", spec.accuracy * 1e6}});
   plot.series.push_back(std::move(ships));
   result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
 #include "trial/precision/precision.h"
 
@@ -27,9 +28,9 @@ struct ForceStudy {
                                      const std::vector<std::string>& set,
                                      const trial::PrecisionOptions& options);
 
-// A curve for each integrator; the shipped setting has its own mark.
+// A curve for each integrator; the shipped setting has its own mark, each level a line.
 [[nodiscard]] Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
-                              double trial::PrecisionPoint::*cost);
+                              double trial::PrecisionPoint::*cost, const std::vector<ErrorLevel>& levels);
 
 // The compared quantity, in words and in its unit. By default the force.
 struct PrecisionNorm {

@@ -312,7 +312,16 @@ std::vector<trial::PrecisionPoint> together(const std::vector<ForceStudy>& studi
   return all;
 }
 
-void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::PrecisionPoint>& all) {
+// The largest of the scenes' floors, as a share of what each scene is allowed.
+double floor_of(const std::vector<ForceStudy>& studies) {
+  double most = 0.0;
+  for (const ForceStudy& study : studies)
+    most = std::max(most, study.all.second.error / accuracy_of(study.all));
+  return most;
+}
+
+void add_plot(Bench& bench, const Machine& machine, const std::vector<ForceStudy>& studies,
+              const std::vector<trial::PrecisionPoint>& all) {
   bench.plot(force_plot(
       {.id = machine.name,
        .title =
@@ -324,7 +333,7 @@ void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::Pre
                        "of a whole haptic period (left) to an eighth (right). A scene shall hold {:g} N, or "
                        "twice what two converged runs differ by. What failed stands at the upper edge.",
                        kForceAccuracy)},
-      all, &trial::PrecisionPoint::cpu));
+      all, &trial::PrecisionPoint::cpu, {{"allowed", 1.0}, {"floor, largest", floor_of(studies)}}));
 }
 
 void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceStudy>& studies, Table& table) {
@@ -352,7 +361,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
   const std::vector<trial::PrecisionPoint> all = together(studies);
   const trial::PrecisionPoint* best = cheapest(all, {1.0});
   const trial::PrecisionPoint* shipped = trial::shipped(all);
-  add_plot(bench, machine, all);
+  add_plot(bench, machine, studies, all);
   if (shipped == nullptr || bench.context.quick) return;  // a single scene is not enough
   bench.cost(fmt::format("{}.default_over_cheapest.cpu", machine.name),
              best != nullptr ? 1.0 / best->cpu : kUnset, "x",

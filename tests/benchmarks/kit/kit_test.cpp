@@ -328,9 +328,13 @@ TEST(Order, IsFittedAboveTheFloorAlone) {
 TEST(Cost, WhatFailedIsACrossAndWhatNeverRanIsNothing) {
   const Plot plot = cost_beside_error(
       {.id = "cost", .title = "Cost", .x_label = "time (s)", .y_label = "error (um)"},
-      {{"good", {1.0, 2.0}, {0.2, 0.1}}, {"bad", {1.0, kUnset, 3.0}, {kUnset, kUnset, 0.5}}});
+      {{"good", {1.0, 2.0}, {0.2, 0.1}}, {"bad", {1.0, kUnset, 3.0}, {kUnset, kUnset, 0.5}}},
+      {{"allowed", 0.3}, {"floor", kUnset}});
   EXPECT_TRUE(plot.log_x && plot.log_y);
-  ASSERT_THAT(plot.series, SizeIs(3));
+  ASSERT_THAT(plot.series, SizeIs(4)) << "a level without a value has no line";
+  EXPECT_EQ(plot.series[3].name, "allowed");
+  EXPECT_THAT(plot.series[3].x, ElementsAre(1.0, 3.0));
+  EXPECT_THAT(plot.series[3].y, ElementsAre(0.3, 0.3));
   EXPECT_EQ(plot.series[0].name, "good");
   EXPECT_THAT(plot.series[0].x, ElementsAre(1.0, 2.0));
   EXPECT_THAT(plot.series[0].y, ElementsAre(0.2, 0.1));
