@@ -364,7 +364,7 @@ void run(Bench& bench) {
       trial::visit_places(arm, places.visited, rig.camera.rate, kFrames);
   RegistrationCase asked{&staged::camera(bench.context), &setup, &visits, &places.targets,
                          staged::test_seed(bench.context)};
-  std::vector<RegistrationCase> all(bench.context.count(20, 2), asked);
+  std::vector<RegistrationCase> all(bench.context.count(bench.context.full ? 20 : 6, 2), asked);
   for (std::size_t i = 0; i < all.size(); ++i) all[i].seed += i;
   const std::vector<RegistrationResult> seen = bench.each(all, registered);
   add_axes(bench, "", seen, &RegistrationResult::left_over, paper,
@@ -377,7 +377,7 @@ void run(Bench& bench) {
   bench.plot(over_depth(seen));
   bench.picture({"pair", "The ball at the tip, as both cameras see it",
                  "Magenta: the edge in each of 72 directions; white: the centre.", marked_pair(asked)});
-  if (!bench.context.quick) bench.table(table_of_doubts(bench, asked, file, 2));
+  if (bench.context.full) bench.table(table_of_doubts(bench, asked, file, 2));
   bench.result.note =
       "a place is drawn once for each seed, because nothing moves there; sensor noise is drawn anew for each "
       "of its frames";

@@ -70,7 +70,8 @@ models::Setup shipped(const BenchContext& context, const std::string& scene,
   return load_scene(context, scene, own);
 }
 
-constexpr std::size_t kSeeds = 16;  // seeds for each judged shipped setting
+// Seeds for each judged shipped setting.
+std::size_t seeds_of(const BenchContext& context) { return context.quick ? 1 : context.full ? 16 : 3; }
 
 struct Bounce {
   double approach = kUnset, restitution = kUnset;
@@ -160,7 +161,7 @@ double most_of(const std::vector<Bounce>& hits, double (*of)(const Bounce&)) {
 // The light hand of the scene gives way. Counts missing and additional contacts over all seeds.
 void hit_by_hand(Bench& bench) {
   const BenchContext& context = bench.context;
-  std::vector<double> wrong(context.quick ? 1 : kSeeds);
+  std::vector<double> wrong(seeds_of(context));
   in_parallel(wrong.size(), [&](std::size_t i) {
     const models::Setup planned = shipped(context, "hit_ball");
     trial::Trial trial(
@@ -186,7 +187,7 @@ Hits all_hits(const BenchContext& context) {
   Hits hits;
   hits.set = context.quick ? std::vector<double>{0.8} : std::vector<double>{0.2, 0.4, 0.6, 0.8, 1.0};
   hits.speeds = context.quick ? std::vector<double>{0.3} : std::vector<double>{0.1, 0.3, 0.6};
-  hits.seeds = context.quick ? 1 : kSeeds;
+  hits.seeds = seeds_of(context);
   hits.all.resize(hits.set.size() * hits.speeds.size() * hits.seeds);
   in_parallel(hits.all.size(), [&](std::size_t i) {
     hits.all[i] =
@@ -343,7 +344,7 @@ void run_drum(Bench& bench) {
   const BenchContext& context = bench.context;
   const models::Setup setup = shipped(context, "drum");
   const double wanted = trial::prepare_setup(setup).objects[0].prop_speed();
-  std::vector<DrumRun> slides(context.quick ? 1 : kSeeds), rests(slides.size());
+  std::vector<DrumRun> slides(seeds_of(context)), rests(slides.size());
   in_parallel(slides.size(), [&](std::size_t i) {
     slides[i] = running_surface(context, context.seed + i, {"user.slide_mm=25", "user.slide_mm_s=100"});
     rests[i] = running_surface(context, context.seed + i, {});
