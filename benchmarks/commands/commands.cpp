@@ -470,9 +470,10 @@ class Session {
       if (!f.ok()) fell_short_.push_back(f.id);
       const bool differs = committed_.differs(f);
       if (differs) differ_.push_back(f.id);
-      fmt::print("  {:34} {:>10} {:5}{}{}{}{}\n", f.id, value(f), f.unit,
+      fmt::print("  {:34} {:>10} {:5}{}{}{}{}{}\n", f.id, value(f), f.unit,
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
-                 bounds(f), differs ? fmt::format("  was {:.4g}", committed_.find(f.id)->value) : "",
+                 bounds(f), misses(f) ? fmt::format("  misses by {:+.3g}", miss_of(f)) : "",
+                 differs ? fmt::format("  was {:.4g}", committed_.find(f.id)->value) : "",
                  f.ok() ? "" : "  OUT OF BOUNDS");
     }
     for (const Table& table : result.tables)

@@ -195,17 +195,21 @@ void drop_empty_columns(Table& table) {
 std::string figures_line(const Report& report) {
   std::size_t figures = 0;
   std::size_t with_bounds = 0;
-  std::vector<std::string> broken;
+  std::vector<std::string> broken, missed;
   for (const BenchResult& result : report.results) {
     figures += result.figures.size();
     with_bounds += count(result, bounded);
-    for (const Figure& f : result.figures)
+    for (const Figure& f : result.figures) {
       if (!f.ok()) broken.push_back(f.id);
+      if (misses(f)) missed.push_back(f.id);
+    }
   }
-  return fmt::format("{}, {} of them with bounds; {}", figures, with_bounds,
-                     !broken.empty() ? fmt::format("{} out of bounds: {}", broken.size(), joined(broken))
-                     : report.missing.empty() ? "all hold"
-                                              : "none out of bounds so far, but not all were measured");
+  return fmt::format(
+      "{}, {} of them with bounds; {}{}", figures, with_bounds,
+      !broken.empty()          ? fmt::format("{} out of bounds: {}", broken.size(), joined(broken))
+      : report.missing.empty() ? "all hold"
+                               : "none out of bounds so far, but not all were measured",
+      missed.empty() ? "" : fmt::format("; {} miss the paper: {}", missed.size(), joined(missed)));
 }
 
 // The part that both forms of the report share. Empty columns are left out.
@@ -395,7 +399,7 @@ Table figure_table(const BenchResult& result) {
   for (const Figure& f : result.figures) {
     const double difference = f.twin - f.paper;
     const double percent = f.paper != 0.0 ? 100.0 * difference / std::abs(f.paper) : kUnset;
-    const char* holds = f.absent ? "" : f.ok() ? "yes" : "NO";
+    const char* holds = f.absent ? "" : !f.ok() ? "NO" : misses(f) ? "yes, misses" : "yes";
     table.rows.push_back({f.id, holds, cell(f.paper), twin_cell(f), f.unit, range(f.low, f.high),
                           std::isfinite(difference) ? fmt::format("{:+.3g}", difference) : "",
                           std::isfinite(percent) ? fmt::format("{:+.1f}", percent) : "",
@@ -410,25 +414,28 @@ Table figure_table(const BenchResult& result) {
 }
 
 Table role_table(const Report& report) {
-  Table table{"roles", "Calibrated and predicted", {"role", "figures", "hold", "which"}};
+  Table table{"roles",
+              "Calibrated and predicted",
+              {"role", "figures", "hold", "beside the paper's, bounded", "miss it", "which"}};
   for (const Role role : {Role::calibrated, Role::predicted, Role::ours}) {
-    std::size_t figures = 0;
-    std::size_t hold = 0;
+    std::size_t figures = 0, hold = 0, beside = 0, missed = 0;
     std::vector<std::string> ids;
     for (const BenchResult& result : report.results)
       for (const Figure& f : result.figures) {
         if (f.role != role) continue;
         ++figures;
         hold += f.ok() && !f.absent ? 1 : 0;
-        if (role != Role::ours) ids.push_back(f.id);
+        beside += std::isfinite(f.paper) && bounded(f) ? 1 : 0;
+        missed += misses(f) ? 1 : 0;
+        if (role != Role::ours) ids.push_back(misses(f) ? f.id + " (misses)" : f.id);
       }
     table.rows.push_back({role_name(role), std::to_string(figures), std::to_string(hold),
+                          std::to_string(beside), std::to_string(missed),
                           role == Role::ours ? "all others" : joined(ids)});
   }
   table.note =
       "Calibrated: the paper's value set a parameter, so that agreement is no merit. Predicted: it did not. "
-      "Ours: the "
-      "paper has no such value.";
+      "Ours: the paper has no such value. Misses: the bounds exclude the paper's value.";
   return table;
 }
 

@@ -37,6 +37,9 @@ struct Report {
 };
 
 [[nodiscard]] const char* role_name(Role role);
+// twin - paper if the bounds exclude the paper's value, so that the twin is known to miss it; else unset.
+[[nodiscard]] double miss_of(const Figure& figure);
+[[nodiscard]] inline bool misses(const Figure& figure) { return std::isfinite(miss_of(figure)); }
 // Plots with a value of the paper come first.
 [[nodiscard]] std::vector<const Plot*> ordered_plots(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);

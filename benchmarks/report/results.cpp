@@ -53,6 +53,7 @@ Json figure_json(const Figure& f) {
           {"low", number(f.low)},
           {"high", number(f.high)},
           {"ok", f.ok()},
+          {"misses_by", number(miss_of(f))},
           {"note", f.note},
           {"least", number(f.least)},
           {"most", number(f.most)},
@@ -86,6 +87,11 @@ bool Figure::ok() const {
   if (absent) return true;
   if (!std::isfinite(twin)) return false;
   return !(std::isfinite(low) && twin < low) && !(std::isfinite(high) && twin > high);
+}
+
+double miss_of(const Figure& f) {
+  const bool excluded = f.paper < f.low || f.paper > f.high;  // false for what is unset
+  return excluded && !f.absent && std::isfinite(f.twin) ? f.twin - f.paper : kUnset;
 }
 
 std::string plot_csv(const Plot& plot) {

@@ -299,7 +299,7 @@ TEST(ReportTable, AFigureThatNobodyCanKnowIsAbsentAndNoFailure) {
   EXPECT_THAT(report_html(report),
               AllOf(HasSubstr("data-column=\"twin\">absent</td>"), HasSubstr("1 out of bounds: press.b")));
   EXPECT_THAT(report_markdown(report), HasSubstr("| press.d.max |  |  | absent |"));
-  EXPECT_THAT(role_table(report).rows.back(), ElementsAre("ours", "2", "1", "all others"));
+  EXPECT_THAT(role_table(report).rows.back(), ElementsAre("ours", "2", "1", "0", "0", "all others"));
   const auto json = nlohmann::json::parse(results_json(report));
   EXPECT_TRUE(json["benchmarks"][0]["figures"][3]["twin"].is_null());
   EXPECT_EQ(json["benchmarks"][0]["figures"][3]["ok"], true);
@@ -319,9 +319,27 @@ TEST(ReportProvenance, SaysFromWhichCommitAndWhen) {
 
 TEST(ReportTable, CountsWhatIsCalibratedAndWhatPredicted) {
   const Table table = role_table(small_report());
-  EXPECT_THAT(table.rows, ElementsAre(ElementsAre("calibrated", "1", "1", "press.a.mean"),
-                                      ElementsAre("predicted", "1", "0", "press.b.max"),
-                                      ElementsAre("ours", "1", "1", "all others")));
+  EXPECT_THAT(table.rows, ElementsAre(ElementsAre("calibrated", "1", "1", "1", "0", "press.a.mean"),
+                                      ElementsAre("predicted", "1", "0", "1", "0", "press.b.max"),
+                                      ElementsAre("ours", "1", "1", "0", "0", "all others")));
+}
+
+// The bound holds, and it excludes the paper's value.
+TEST(ReportTable, AFigureWhoseBoundsExcludeThePaperMissesIt) {
+  Report report = small_report();
+  Figure& f = report.results.front().figures.front();
+  EXPECT_FALSE(misses(f));
+  f.low = 0.24;
+  EXPECT_TRUE(f.ok() && misses(f));
+  EXPECT_EQ(figure_table(report.results.front()).rows[0][1], "yes, misses");
+  EXPECT_THAT(role_table(report).rows[0],
+              ElementsAre("calibrated", "1", "1", "1", "1", "press.a.mean (misses)"));
+  EXPECT_THAT(report_html(report), HasSubstr("1 miss the paper: press.a.mean"));
+  const auto json = nlohmann::json::parse(results_json(report));
+  EXPECT_NEAR(json["benchmarks"][0]["figures"][0]["misses_by"], 0.05, 1e-12);
+  EXPECT_TRUE(json["benchmarks"][0]["figures"][1]["misses_by"].is_null());
+  f.twin = kUnset;
+  EXPECT_FALSE(misses(f));
 }
 
 TEST(ReportHtml, IsOnePageWithItsPicturesAndWithoutScriptsOrLinksOut) {
