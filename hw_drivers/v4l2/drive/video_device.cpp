@@ -127,7 +127,7 @@ void VideoDevice::set_format(const StreamRequest& wanted) {
                        text_of(pixels.pixelformat), pixels.width, pixels.height, word_of(wanted.pixels),
                        wanted.width, wanted.height, offers.empty() ? "" : "; it offers ", offers));
   }
-  const std::size_t row = static_cast<std::size_t>(wanted.width) * (wanted.pixels == Pixels::yuyv ? 2 : 1);
+  const std::size_t row = row_bytes(wanted.pixels, static_cast<std::size_t>(wanted.width));
   raster_ = {wanted.pixels, wanted.width, wanted.height, std::max<std::size_t>(pixels.bytesperline, row)};
   frame_bytes_ = pixels.sizeimage;
   if (frame_bytes_ == 0 || frame_bytes_ > most_bytes(wanted))

@@ -42,6 +42,12 @@ void put_grey(const ImageView& view, int from, std::size_t stride, std::vector<s
   }
 }
 
+void put_rgb(const ImageView& view, int from, std::size_t stride, std::vector<std::uint8_t>& bytes) {
+  const std::size_t row = row_bytes(Pixels::rgb, static_cast<std::size_t>(view.width));
+  for (int y = 0; y < view.height; ++y)
+    std::memcpy(bytes.data() + static_cast<std::size_t>(y) * stride + 3 * from, view.at(0, y), row);
+}
+
 }  // namespace
 
 struct Encoder::Jpeg {
@@ -85,9 +91,9 @@ const std::vector<std::uint8_t>& Encoder::encode(Pixels pixels, const ImageView&
     return bytes_;
   }
   const std::size_t stride =
-      static_cast<std::size_t>(left.width) * (pixels == Pixels::yuyv ? 2 : 1) * (right != nullptr ? 2 : 1);
+      row_bytes(pixels, static_cast<std::size_t>(left.width)) * (right != nullptr ? 2 : 1);
   bytes_.resize(stride * static_cast<std::size_t>(left.height));
-  const auto put = pixels == Pixels::yuyv ? &put_yuyv : &put_grey;
+  const auto put = pixels == Pixels::yuyv ? &put_yuyv : pixels == Pixels::grey ? &put_grey : &put_rgb;
   put(left, 0, stride, bytes_);
   if (right != nullptr) put(*right, left.width, stride, bytes_);
   return bytes_;

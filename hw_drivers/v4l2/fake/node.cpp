@@ -41,8 +41,8 @@ Node::~Node() {
 }
 
 std::size_t Node::frame_bytes() const {
-  const std::size_t pixels = static_cast<std::size_t>(mode_.width) * static_cast<std::size_t>(mode_.height);
-  return mode_.pixels == Pixels::grey ? pixels : 2 * pixels;
+  return row_bytes(mode_.pixels, static_cast<std::size_t>(mode_.width)) *
+         static_cast<std::size_t>(mode_.height);
 }
 
 template <class Data>
@@ -161,9 +161,8 @@ int Node::get_format(int, v4l2_format& data) {
   pixels.height = static_cast<std::uint32_t>(mode_.height);
   pixels.pixelformat = code_of(mode_.pixels);
   pixels.field = V4L2_FIELD_NONE;
-  pixels.bytesperline = mode_.pixels == Pixels::mjpeg  ? 0
-                        : mode_.pixels == Pixels::yuyv ? 2 * pixels.width
-                                                       : pixels.width;
+  pixels.bytesperline =
+      mode_.pixels == Pixels::mjpeg ? 0 : static_cast<std::uint32_t>(row_bytes(mode_.pixels, pixels.width));
   pixels.sizeimage = static_cast<std::uint32_t>(frame_bytes());
   pixels.colorspace = V4L2_COLORSPACE_SRGB;
   return 0;

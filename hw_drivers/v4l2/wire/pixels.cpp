@@ -62,9 +62,10 @@ void cut_grey(const std::uint8_t* bytes, std::size_t stride, int from, Image& in
   }
 }
 
-void cut_rgb(const Image& both, int from, Image& into) {
+void cut_rgb(const std::uint8_t* bytes, std::size_t stride, int from, Image& into) {
+  const std::size_t row = row_bytes(Pixels::rgb, static_cast<std::size_t>(into.width));
   for (int y = 0; y < into.height; ++y)
-    std::memcpy(into.at(0, y), both.view().at(from, y), 3 * static_cast<std::size_t>(into.width));
+    std::memcpy(into.at(0, y), bytes + static_cast<std::size_t>(y) * stride + 3 * from, row);
 }
 
 // True if the bytes hold the whole raster.
@@ -73,15 +74,16 @@ bool fits(std::span<const std::uint8_t> bytes, const Raster& raster) {
   if (raster.width < 1 || raster.height < 1 || raster.width > kMostSide || raster.height > kMostSide)
     return false;
   if (raster.pixels == Pixels::mjpeg) return true;
-  const bool colour = raster.pixels == Pixels::yuyv;
-  const std::size_t row = colour ? 2 * width : width;
-  if (colour && width % 2 != 0) return false;
+  const std::size_t row = row_bytes(raster.pixels, width);
+  if (raster.pixels == Pixels::yuyv && width % 2 != 0) return false;
   return raster.stride >= row && bytes.size() >= row && (bytes.size() - row) / raster.stride >= height - 1;
 }
 
 void cut(const std::uint8_t* bytes, const Raster& raster, int from, Image& into) {
-  raster.pixels == Pixels::yuyv ? cut_yuyv(bytes, raster.stride, from, into)
-                                : cut_grey(bytes, raster.stride, from, into);
+  const auto cut_as = raster.pixels == Pixels::yuyv   ? &cut_yuyv
+                      : raster.pixels == Pixels::grey ? &cut_grey
+                                                      : &cut_rgb;
+  cut_as(bytes, raster.stride, from, into);
 }
 
 }  // namespace
@@ -127,7 +129,10 @@ bool Decoder::halves(std::span<const std::uint8_t> bytes, const Raster& raster, 
   int from = 0;
   for (Image* into : {&left, &right}) {
     make_room(half, raster.height, *into);
-    raster.pixels == Pixels::mjpeg ? cut_rgb(both_, from, *into) : cut(bytes.data(), raster, from, *into);
+    if (raster.pixels == Pixels::mjpeg)
+      cut_rgb(both_.rgb.data(), 6 * static_cast<std::size_t>(half), from, *into);
+    else
+      cut(bytes.data(), raster, from, *into);
     from += half;
   }
   return true;

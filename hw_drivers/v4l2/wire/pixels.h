@@ -1,6 +1,7 @@
 // Pixel formats of a camera, and their conversion to RGB.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,9 +12,13 @@
 
 namespace enc::v4l2 {
 
-// YUV 4:2:2 in bytes Y U Y V; JPEG for each frame; one grey byte a pixel.
-enum class Pixels : std::uint8_t { yuyv, mjpeg, grey };
-constexpr auto words(Pixels) { return enum_words("YUYV", "MJPG", "GREY"); }
+// YUV 4:2:2 in bytes Y U Y V; JPEG for each frame; one grey byte a pixel; bytes R G B.
+enum class Pixels : std::uint8_t { yuyv, mjpeg, grey, rgb };
+constexpr auto words(Pixels) { return enum_words("YUYV", "MJPG", "GREY", "RGB3"); }
+// Bytes of a row without padding; of MJPG the most that a row needs on average.
+[[nodiscard]] constexpr std::size_t row_bytes(Pixels pixels, std::size_t width) {
+  return (pixels == Pixels::grey ? 1 : pixels == Pixels::rgb ? 3 : 2) * width;
+}
 
 inline constexpr int kMostSide = 16384;  // px
 

@@ -37,14 +37,14 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 Target frame() {
   Target target;
   v4l2::Encoder encoder;
-  for (const Pixels pixels : {Pixels::mjpeg, Pixels::yuyv, Pixels::grey})
+  for (const Pixels pixels : {Pixels::mjpeg, Pixels::yuyv, Pixels::grey, Pixels::rgb})
     target.seeds.push_back(bytes_in(encoder.encode(pixels, seen().view())));
   target.tokens = jpeg_tokens();
   target.run = [](const std::string& input) {
     static v4l2::Decoder decoder;
     bool any = false;
-    for (const Pixels pixels : {Pixels::mjpeg, Pixels::yuyv, Pixels::grey}) {
-      const std::size_t stride = pixels == Pixels::yuyv ? 2 * kWide : kWide;
+    for (const Pixels pixels : {Pixels::mjpeg, Pixels::yuyv, Pixels::grey, Pixels::rgb}) {
+      const std::size_t stride = v4l2::row_bytes(pixels, kWide);
       Image left, right;
       if (decoder.whole(bytes_of(input), {pixels, kWide, kHigh, stride}, left)) {
         expect(left.width == kWide && left.height == kHigh, "a frame has another size");
@@ -130,8 +130,8 @@ Recorder& conversation() {
 Target answers() {
   Target target;
   target.seeds = {conversation().answers_};
-  target.tokens = {"GREY", "YUYV", std::string(4, '\0'), std::string(4, '\xff'),
-                   std::string("\0\0\0\x80", 4)};
+  target.tokens = {
+      "GREY", "YUYV", "RGB3", std::string(4, '\0'), std::string(4, '\xff'), std::string("\0\0\0\x80", 4)};
   target.run = [](const std::string& input) {
     Answers system(input);
     v4l2::VideoDevice device(system, "fuzz", kWanted);

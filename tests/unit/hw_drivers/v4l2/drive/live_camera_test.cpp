@@ -200,7 +200,7 @@ TEST_P(V4l2LiveCamera, PicturesComeWithTheTimeOfTheirExposure) {
     EXPECT_THAT(live->remarks().front(), HasSubstr(" damaged, "));
   }
 }
-INSTANTIATE_TEST_SUITE_P(Of, V4l2LiveCamera, testing::Values("YUYV", "MJPG", "GREY"));
+INSTANTIATE_TEST_SUITE_P(Of, V4l2LiveCamera, testing::Values("YUYV", "MJPG", "GREY", "RGB3"));
 
 using V4l2Trouble = V4l2LiveCamera;
 

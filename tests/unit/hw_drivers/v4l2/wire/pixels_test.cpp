@@ -43,14 +43,15 @@ TEST(V4l2Pixels, BothSidesComeBack) {
   Encoder encoder;
   Decoder decoder;
   Image l, r;
-  for (const auto& [pixels, most] : {std::pair{Pixels::yuyv, 1.5}, {Pixels::mjpeg, 4.0}}) {
+  for (const auto& [pixels, most] :
+       {std::pair{Pixels::yuyv, 1.5}, {Pixels::mjpeg, 4.0}, {Pixels::rgb, 0.0}}) {
     const std::vector<std::uint8_t> bytes = encoder.encode(pixels, left.view(), &beside);
-    const Raster raster{pixels, 128, 24, 256};
+    const Raster raster{pixels, 128, 24, row_bytes(pixels, 128)};
     ASSERT_TRUE(decoder.halves(bytes, raster, l, r));
     EXPECT_LE(rms_difference(left, l), most) << word_of(pixels);
     EXPECT_LE(rms_difference(right, r), most) << word_of(pixels);
     const std::vector<std::uint8_t> alone = encoder.encode(pixels, left.view());
-    ASSERT_TRUE(decoder.whole(alone, {pixels, 64, 24, 128}, l));
+    ASSERT_TRUE(decoder.whole(alone, {pixels, 64, 24, row_bytes(pixels, 64)}, l));
     EXPECT_LE(rms_difference(left, l), most) << word_of(pixels);
   }
 }
@@ -81,9 +82,9 @@ TEST(V4l2Pixels, TooFewBytesAndDamageAreRefused) {
   Encoder encoder;
   Decoder decoder;
   Image image, other;
-  for (const Pixels pixels : {Pixels::yuyv, Pixels::mjpeg, Pixels::grey}) {
+  for (const Pixels pixels : {Pixels::yuyv, Pixels::mjpeg, Pixels::grey, Pixels::rgb}) {
     std::vector<std::uint8_t> bytes = encoder.encode(pixels, left.view());
-    const Raster raster{pixels, 64, 24, pixels == Pixels::yuyv ? 128U : 64U};
+    const Raster raster{pixels, 64, 24, row_bytes(pixels, 64)};
     ASSERT_TRUE(decoder.whole(bytes, raster, image));
     bytes.resize(bytes.size() / 2);
     EXPECT_FALSE(decoder.whole(bytes, raster, image)) << word_of(pixels);
