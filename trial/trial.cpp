@@ -76,7 +76,8 @@ void refuse_slow(const models::Setup& setup, const std::string& machine, const R
                   models::place_of(setup, machine), real_time.words()));
 }
 
-// `within_loop`: an armed machine would wait between its set-points for vision.
+// `within_loop`: an armed machine would wait between its set-points for vision. The time of a fake in
+// lockstep waits, too.
 void refuse_camera(const models::Setup& setup, const TrialOptions& options, bool within_loop) {
   if (within_loop && setup.scene.camera)
     throw Error(models::place_of(setup, "camera") +
@@ -117,7 +118,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (armed) refuse_limits(setup_, scene_, certificates_);
   // Without a wall clock vision works within the loop, so that all runs are equal.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
-  refuse_camera(setup_, options_, armed && !threaded);
+  refuse_camera(setup_, options_, armed && !threaded && !options_.lockstep);
   simulated_ = !slots.real;
   leads_ = slots.machine && slots.simulated && setup_.scene.manipulator.has_value();
   make_rig(slots.simulated || !slots.real);
@@ -128,13 +129,15 @@ Trial::Trial(models::Setup setup, TrialOptions options)
     result_.real_time = real_time_->words();
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
+  // A live camera comes first: it takes some frames' time to answer, and the arm then waits for nothing.
+  if (threaded) put_vision(false, true);
   if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
   // The devices have now reported whether they are fakes. Nothing moves before a tick.
   const std::string machine = options_.armed ? real_machine(rig_, setup_) : std::string();
   if (!machine.empty() && !options_.calibrates) refuse_uncalibrated(setup_, machine);
   if (!machine.empty() && real_time_ && armed && options_.needs_real_time)
     refuse_slow(setup_, machine, *real_time_);
-  if (setup_.scene.camera) put_vision(pace == 0.0, threaded);
+  if (setup_.scene.camera && !threaded) put_vision(pace == 0.0, false);
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
@@ -157,9 +160,9 @@ void Trial::make_rig(bool simulated) {
 
 // Uses vision as the tracker.
 void Trial::put_vision(bool waits, bool threaded) {
-  rig_.tracker =
-      make_vision(setup_, options_.drivers,
-                  {world_.get(), options_.seed, log_, waits, threaded, options_.look, options_.frames});
+  rig_.tracker = make_vision(setup_, options_.drivers,
+                             {world_.get(), options_.seed, log_, waits, options_.lockstep, threaded,
+                              options_.look, options_.frames});
   result_.vision.threaded = threaded;
 }
 

@@ -209,7 +209,7 @@ Fakes::Fakes(models::Setup setup, FakesOptions options)
   rig_ = world_->rig();
   first_ = world_->save();
   if (setup_.scene.camera && setup_.rig.camera.driver != "sim")
-    camera_ = trial::make_drawn_camera(setup_, options_.drivers, *world_, options_.seed);
+    camera_ = trial::make_drawn_camera(setup_, options_.drivers, *world_, options_.seed, options_.lockstep);
   const std::vector<std::string> tools = trial::tool_names(setup_);
   for (const std::string& name : drivers) {
     const ModuleInfo& module = options_.drivers(name);

@@ -26,6 +26,8 @@ class ActiveTroubles {
     const std::optional<double>& share = of(kind);
     return share && uniform() < *share;
   }
+  // The chance begins again, as for a new client.
+  void restart(std::uint64_t seed) { random_.seed(seed); }
   [[nodiscard]] double uniform() { return std::generate_canonical<double, 53>(random_); }
   [[nodiscard]] std::uint8_t noise() { return static_cast<std::uint8_t>(random_()); }
 

@@ -29,7 +29,7 @@ std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> D
   const ModuleInfo& module = modules(driver);
   if (module.driver == nullptr || module.driver->*make == nullptr)
     throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name));
-  if (keeping.lockstep && !module.driver->lockstep)
+  if (keeping.lockstep && !module.driver->lockstep && !module.driver->plays)
     throw Error(fmt::format("module '{}' cannot keep step with a fake; leave out --lockstep", driver), {},
                 ErrorKind::device);
   models::DriverTableReader table(setup, driver);

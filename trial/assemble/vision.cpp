@@ -96,7 +96,7 @@ std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const Driv
                                           const VisionOffer& offer) {
   try {
     return driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera", setup, modules,
-                         offer.log, TimingMode{offer.waits});
+                         offer.log, TimingMode{offer.waits, offer.lockstep});
   } catch (const Error& e) {
     throw of_role(setup, "camera", e);
   }
@@ -105,9 +105,9 @@ std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const Driv
 }  // namespace
 
 std::unique_ptr<StereoCamera> make_drawn_camera(const models::Setup& setup, const DriverSource& modules,
-                                                const sim::World& world, std::uint64_t seed) {
+                                                const sim::World& world, std::uint64_t seed, bool waits) {
   const auto& module = *static_cast<const sim::CameraModule*>(modules("camera").camera);
-  return std::make_unique<DrawnCamera>(module, stage_of(setup.twin.camera, seed), show(setup, world));
+  return std::make_unique<DrawnCamera>(module, stage_of(setup.twin.camera, seed), show(setup, world), waits);
 }
 
 std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const DriverSource& modules,

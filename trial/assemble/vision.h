@@ -46,7 +46,7 @@ struct VisionOffer {
   const sim::World* world = nullptr;  // the twin, whose hand its camera sees; outlives the tracker
   std::uint64_t seed = 0;
   Log& log;
-  bool waits = false;  // as in Offer
+  bool waits = false, lockstep = false;  // as in Offer
   // Runs in its own thread; not with the twin's camera, whose world belongs to the loop.
   bool threaded = false;
   Look look{};  // as in TrialOptions; may be empty
@@ -62,10 +62,10 @@ struct VisionOffer {
 [[nodiscard]] std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup,
                                                        const DriverSource& modules, const VisionOffer& offer);
 
-// The twin's camera for fakes on the wall clock (drawn_camera.h). `world` outlives it. Throws Error as
-// make_vision() does.
+// The twin's camera for fakes (drawn_camera.h). `world` outlives it. Throws Error as make_vision() does.
 [[nodiscard]] std::unique_ptr<StereoCamera> make_drawn_camera(const models::Setup& setup,
                                                               const DriverSource& modules,
-                                                              const sim::World& world, std::uint64_t seed);
+                                                              const sim::World& world, std::uint64_t seed,
+                                                              bool waits);
 
 }  // namespace enc::trial

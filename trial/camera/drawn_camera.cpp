@@ -2,10 +2,13 @@
 
 #include <utility>
 
+#include "trial/time/priority.h"
+
 namespace enc::trial {
 
-DrawnCamera::DrawnCamera(const sim::CameraModule& module, const sim::StageSpec& stage, sim::Show show)
-    : size_(stage.camera.size()), show_(std::move(show)), exposures_{stage.camera.rate} {
+DrawnCamera::DrawnCamera(const sim::CameraModule& module, const sim::StageSpec& stage, sim::Show show,
+                         bool waits)
+    : size_(stage.camera.size()), show_(std::move(show)), waits_(waits), exposures_{stage.camera.rate} {
   thread_ = std::thread([this, &module, stage] { work(module, stage); });
   std::unique_lock lock(changes_);
   change_.wait(lock, [this] { return phase_ != Phase::drawing || failure_; });
@@ -26,6 +29,7 @@ DrawnCamera::~DrawnCamera() {
 
 // An OpenGL context belongs to the thread that made it.
 void DrawnCamera::work(const sim::CameraModule& module, const sim::StageSpec& spec) noexcept {
+  come_after(1);  // the fakes, whose world goes on while a picture is drawn
   try {
     const std::unique_ptr<sim::Stage> stage = module.stage(spec);
     std::unique_lock lock(changes_);
@@ -38,6 +42,7 @@ void DrawnCamera::work(const sim::CameraModule& module, const sim::StageSpec& sp
       stage->draw(scene_, frame_, left_, right_);
       lock.lock();
       phase_ = Phase::drawn;
+      change_.notify_all();
     }
   } catch (...) {
     const std::lock_guard lock(changes_);
@@ -56,12 +61,21 @@ bool DrawnCamera::due(Time now) noexcept {
 
 bool DrawnCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   const bool is_due = due(now);
+  if (waits_ && is_due && phase_ == Phase::idle) {
+    expose(now);
+    std::unique_lock lock(changes_);
+    change_.wait(lock, [this] { return phase_ != Phase::drawing || failure_; });
+  }
   if (phase_ == Phase::drawn) {
     phase_ = Phase::idle;
     newest = {{left_.view(), right_.view()}, exposed_, Health::ok};
     if (exposed_ <= now) return true;  // else from before the world began again
   }
-  if (!is_due || phase_ != Phase::idle) return false;
+  if (!waits_ && is_due && phase_ == Phase::idle) expose(now);
+  return false;
+}
+
+void DrawnCamera::expose(Time now) noexcept {
   scene_ = show_(now);
   exposed_ = now;
   frame_ = static_cast<std::uint64_t>(exposures_.n);  // as the twin counts them
@@ -70,7 +84,6 @@ bool DrawnCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
     phase_ = Phase::drawing;
   }
   change_.notify_all();
-  return false;
 }
 
 }  // namespace enc::trial

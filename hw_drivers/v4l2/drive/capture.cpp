@@ -60,7 +60,21 @@ void Capture::open() {
 }
 
 std::string Capture::describe() const {
-  return devices_[0]->name() + (two() ? " and " + devices_[1]->name() : "") + ", " + devices_[0]->form();
+  const std::string names = devices_[0]->name() + (two() ? " and " + devices_[1]->name() : "");
+  return fmt::format("{} camera {}, {}", two() ? "paired" : "side-by-side", names, devices_[0]->form());
+}
+
+std::string Capture::remark(const CaptureCounts& counts) const {
+  std::string text =
+      fmt::format("v4l2 {}: {} pairs, {} frames lost, {} damaged, {} pairs replaced by a newer one",
+                  settings_.left, counts.pairs, counts.lost, counts.damaged, counts.replaced);
+  if (two())
+    text += fmt::format(
+        ", {} left frames without a partner; the stamps of a pair are {:.3f} ms apart on "
+        "average, {:.3f} ms at most",
+        counts.unpaired, 1e3 * counts.errors.mean(), 1e3 * counts.errors.largest);
+  if (counts.gone > 0) text += fmt::format("; it was unplugged {}", counted(counts.gone, "time"));
+  return text;
 }
 
 void Capture::reopen() {

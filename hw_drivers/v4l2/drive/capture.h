@@ -47,6 +47,8 @@ class Capture {
   [[nodiscard]] bool two() const { return !settings_.right.empty(); }
   [[nodiscard]] const CaptureCounts& counts() const { return counts_; }
   [[nodiscard]] std::string describe() const;  // while it is there()
+  // The counts in words, for the report; any thread may call it.
+  [[nodiscard]] std::string remark(const CaptureCounts& counts) const;
   // The camera is a fake, by its name.
   [[nodiscard]] bool fake() const { return fake_; }
 

@@ -36,7 +36,7 @@ LiveCamera::LiveCamera(const Offer& offer, const V4l2Settings& settings, std::un
       capture_(*system_, settings_, size_, rate_),
       arrival_(!offer.waits) {
   first_pair();
-  words_ = fmt::format("{} camera {}", capture_.two() ? "paired" : "side-by-side", capture_.describe());
+  words_ = capture_.describe();
   counts_ = capture_.counts();
   try {
     thread_ = std::thread([this] { work(); });
@@ -148,16 +148,7 @@ std::vector<std::string> LiveCamera::remarks() const {
     const std::lock_guard lock(counts_change_);
     counts = counts_;
   }
-  std::string text =
-      fmt::format("v4l2 {}: {} pairs, {} frames lost, {} damaged, {} pairs replaced by a newer one",
-                  settings_.left, counts.pairs, counts.lost, counts.damaged, counts.replaced);
-  if (capture_.two())
-    text += fmt::format(
-        ", {} left frames without a partner; the stamps of a pair are {:.3f} ms apart on "
-        "average, {:.3f} ms at most",
-        counts.unpaired, 1e3 * counts.errors.mean(), 1e3 * counts.errors.largest);
-  if (counts.gone > 0) text += fmt::format("; it was unplugged {}", counted(counts.gone, "time"));
-  return {text};
+  return {capture_.remark(counts)};
 }
 
 }  // namespace enc::v4l2

@@ -234,10 +234,11 @@ std::string VideoDevice::name() const {
 }
 
 std::string VideoDevice::form() const {
-  const char* stamp = !stamps_  ? "stamped when read"
-                      : begins_ ? "stamped at the beginning of the exposure"
-                                : "stamped at the end of the frame";
-  return fmt::format("{} {} x {} px{}, {}", word_of(raster_.pixels), raster_.width, raster_.height,
+  const char* stamp = !any_      ? ""
+                      : !stamps_ ? ", stamped when read"
+                      : begins_  ? ", stamped at the beginning of the exposure"
+                                 : ", stamped at the end of the frame";
+  return fmt::format("{} {} x {} px{}{}", word_of(raster_.pixels), raster_.width, raster_.height,
                      rate_ > 0.0 ? fmt::format(" at {:.4g} Hz", rate_) : "", stamp);
 }
 

@@ -118,7 +118,10 @@ std::string Server::describe() const {
                      settings_.each.height, settings_.rate, word_of(settings_.pixels));
 }
 
-void Server::serve(Time) {
+// In lockstep the client asks after the world has reached `now`, and even at the first tick, whose publish()
+// came before the client.
+void Server::serve(Time now) {
+  if (settings_.lockstep) look(now);
   for (const auto& door : doors_) door->serve();
 }
 
@@ -128,6 +131,7 @@ void Server::wait_on(std::vector<int>& descriptors) const {
 
 // The last instant that is not later.
 Duration Server::steady_at(Time t) const {
+  if (settings_.lockstep) return t.time_since_epoch();
   const auto after = std::upper_bound(instants_.begin(), instants_.end(), t,
                                       [](Time a, const auto& one) { return a < one.first; });
   if (after == instants_.begin()) return net::steady_now();
@@ -141,11 +145,18 @@ void Server::publish(Time now) {
     instants_.clear();
     on_the_way_.clear();
     streams_since_.reset();
+    troubles_.restart(settings_.seed);
   }
   instants_.emplace_back(now, net::steady_now());
   while (age(now, instants_.front().first) > kHistory) instants_.pop_front();
-  const bool streams =
-      std::any_of(doors_.begin(), doors_.end(), [](auto& door) { return door->node().streams(); });
+  if (!settings_.lockstep) look(now);
+}
+
+void Server::look(Time now) {
+  const auto open =
+      std::count_if(doors_.begin(), doors_.end(), [](auto& door) { return door->node().streams(); });
+  // In lockstep the first frame waits for the second camera, or it would not be a pair.
+  const bool streams = open >= (settings_.lockstep ? std::ssize(doors_) : 1);
   if (!streams) streams_since_.reset();
   if (streams && !streams_since_) streams_since_ = now;
   Measurement<StereoFrame> frame;
@@ -222,8 +233,9 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
                               name),
                   {}, ErrorKind::device);
   return std::make_unique<Server>(
-      *offer.camera, ServerSettings{settings.left, settings.right, settings.pixels(),
-                                    offer.spec.camera.size(), offer.spec.camera.rate, offer.seed});
+      *offer.camera,
+      ServerSettings{settings.left, settings.right, settings.pixels(), offer.spec.camera.size(),
+                     offer.spec.camera.rate, offer.seed, static_cast<bool>(offer.advance)});
 }
 
 }  // namespace enc::v4l2

@@ -49,6 +49,9 @@ struct ServerSettings {
   ImageSize each;
   double rate = 20.0;  // Hz
   std::uint64_t seed = 1;
+  // The world waits for its client: frames are exposed when the client asks, and stamped with the world's
+  // time.
+  bool lockstep = false;
 };
 
 class Server final : public Fake {
@@ -74,6 +77,7 @@ class Server final : public Fake {
     std::vector<std::uint8_t> bytes;
     bool damaged = false;
   };
+  void look(Time now);  // takes a due frame from the camera, and sends those that are due
   void expose(Time now, const Measurement<StereoFrame>& frame);
   void leave(Time now);
   [[nodiscard]] Duration steady_at(Time t) const;  // by CLOCK_MONOTONIC

@@ -98,15 +98,15 @@ bool receive(int socket, Answer& answer, int& descriptor) noexcept {
   return good;
 }
 
-int connect_to(std::string_view name) noexcept {
+int connect_to(std::string_view name, std::chrono::seconds patience) noexcept {
   sockaddr_un address{};
   const socklen_t length = address_of(name, address);
   if (length == 0) return -EINVAL;
   const int socket = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
   if (socket < 0) return -errno;
-  const timeval patience{1, 0};
-  static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience)));
-  static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience)));
+  const timeval most{patience.count(), 0};
+  static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof(most)));
+  static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof(most)));
   if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), length) == 0) return socket;
   const int error = errno;
   ::close(socket);
@@ -132,11 +132,12 @@ namespace {
 
 class RelayMessage final : public System {
  public:
+  explicit RelayMessage(std::chrono::seconds patience) : patience_(patience) {}
   ~RelayMessage() override {
     while (!lines_.empty()) close(lines_.back().socket);
   }
   int open(const std::string& path) noexcept override {
-    const int socket = connect_to(path);
+    const int socket = connect_to(path, patience_);
     if (socket < 0) return socket;
     Answer hello;
     int event = -1;
@@ -206,11 +207,14 @@ class RelayMessage final : public System {
     return send(descriptor, call) && receive(descriptor, answer, came);
   }
 
+  std::chrono::seconds patience_;
   std::vector<Line> lines_;
 };
 
 }  // namespace
 
-std::unique_ptr<System> relayed() { return std::make_unique<RelayMessage>(); }
+std::unique_ptr<System> relayed(std::chrono::seconds patience) {
+  return std::make_unique<RelayMessage>(patience);
+}
 
 }  // namespace enc::v4l2

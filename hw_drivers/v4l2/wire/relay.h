@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,10 +44,11 @@ bool receive(int socket, Call& call) noexcept;
 bool receive(int socket, Answer& answer, int& descriptor) noexcept;  // -1: no descriptor came
 
 // A socket with that name: connected, or listening. Negative: the error number.
-[[nodiscard]] int connect_to(std::string_view name) noexcept;
+// `patience`: longest time that a call then waits, in whole seconds.
+[[nodiscard]] int connect_to(std::string_view name, std::chrono::seconds patience) noexcept;
 [[nodiscard]] int listen_at(std::string_view name) noexcept;
 
-// The driver's end.
-[[nodiscard]] std::unique_ptr<System> relayed();
+// The driver's end. A fake that does not answer within `patience` counts as unplugged.
+[[nodiscard]] std::unique_ptr<System> relayed(std::chrono::seconds patience = std::chrono::seconds(1));
 
 }  // namespace enc::v4l2
