@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include "app/modules/modules.h"
@@ -25,6 +27,7 @@
 #include "trial/assemble/assemble.h"
 #include "trial/assemble/vision.h"
 #include "trial/operator/signals.h"
+#include "trial/time/real_time.h"
 
 namespace enc::app {
 
@@ -372,11 +375,20 @@ void by_hand(Fakes& fakes, const std::string& line) {
   }
 }
 
+// A busy processor delays no device, so the fakes come before other programs, where the system permits it,
+// and after a run on the same processor.
+void come_before_others() {
+  constexpr sched_param kPriority{20};
+  static_assert(kPriority.sched_priority < trial::RealTime::kPriority);
+  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &kPriority));
+}
+
 }  // namespace
 
 int fake(const LaboratoryOptions& options) {
   trial::Signals signals;
   signals.begin();
+  if (!options.lockstep) come_before_others();
   FakesOptions how{load_module, options.seed, options.lockstep, {}};
   for (const std::string& text : options.faults) how.faults.push_back(fault_of(text, "--fault"));
   Fakes fakes(load_setup(with_scene(options)), std::move(how));
