@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "trial/time/priority.h"
 
 namespace enc::trial {
 
@@ -25,6 +26,7 @@ ThreadedTracker::~ThreadedTracker() {
 
 // Nothing throws here: a tracker's poll() is noexcept, and reports failures as Health.
 void ThreadedTracker::work() noexcept {
+  come_after(2);  // the loop, and the thread that fetches the frames
   Word word;
   Time now;
   while (true) {
