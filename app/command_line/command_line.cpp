@@ -152,7 +152,9 @@ CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
   CLI::App* command =
       add_command(app, "fake", "Answer for the devices of a rig on their real protocols.", "fake fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
-  command->add_option("--scene", options.scene, "scene of the simulated world; default: the tennis ball")
+  command
+      ->add_option("--scene", options.scene,
+                   "scene of the simulated world; default: the tennis ball, for an arm the wall")
       ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
   command->add_option("--seed", options.seed, "seed of all noise; default: 1")->check(bad_seed);
@@ -171,7 +173,9 @@ CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
       app, "devices", "Measure how often and how late the devices of a rig send data; nothing moves.",
       "devices fakes");
   command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
-  command->add_option("--scene", options.scene, "scene whose devices are read; default: the tennis ball")
+  command
+      ->add_option("--scene", options.scene,
+                   "scene whose devices are read; default: the tennis ball, for an arm the wall")
       ->check(unnamed);
   command->add_option("--set", options.set, "override, as for run");
   command->add_option("--for-s", options.seconds, "time for which each device is read, s")

@@ -159,7 +159,14 @@ std::vector<std::string> benchmarks_there() {
 
 SceneOptions with_scene(const SceneOptions& options) {
   SceneOptions with = options;
-  if (with.scene.empty()) with.scene = models::models_dir() + "/scenes/tennis_ball.toml";
+  if (!with.scene.empty()) return with;
+  const RigSpec rig = with.rig.empty() ? RigSpec{} : models::load_rig(with.rig);
+  const bool arm = rig.manipulator.driver == "none" && rig.arm.driver != "none";
+  const bool camera = rig.camera.driver != "sim" && rig.camera.driver != "none";
+  with.scene = fmt::format("{}/scenes/{}.toml", models::models_dir(),
+                           !arm     ? "tennis_ball"
+                           : camera ? "camera/wall"
+                                    : "wall");
   return with;
 }
 

@@ -31,7 +31,7 @@ namespace enc::app {
 [[nodiscard]] std::vector<std::string> drivers_there();
 // "press" for each encounter_bench_press.so: benchmarks of somebody else. Loads no module.
 [[nodiscard]] std::vector<std::string> benchmarks_there();
-// Returns the options, with the scene of the tennis ball if they name no scene.
+// Returns the options. If they name no scene, it is the tennis ball, or the wall for a rig with an arm.
 [[nodiscard]] SceneOptions with_scene(const SceneOptions& options);
 // A set-up with the tables of its drivers read, as far as their modules are available. Throws Error (kind
 // input) for an unknown driver, or one that does not fill its role.
