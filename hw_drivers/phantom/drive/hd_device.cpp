@@ -56,6 +56,7 @@ HdDevice::HdDevice(const Offer& offer, const PhantomSettings& settings)
   open();
   try {
     ask();
+    check_time(offer.lockstep);
   } catch (...) {
     hd_.disable_device(handle_);
     throw;
@@ -76,8 +77,9 @@ void HdDevice::open() {
   handle_ = hd_.init_device(settings_.device.empty() ? nullptr : settings_.device.c_str());
   const hd::Enum error = hd_.take_errors();
   if (handle_ != hd::kNoDevice && error == hd::kSuccess) return;
-  throw failed(fmt::format("it does not open: {}; see cable and power, and driver.phantom.device",
-                           error == hd::kSuccess ? "no reason given" : hd::words_of(error)));
+  throw failed(fmt::format(
+      "it does not open: {}; see driver.phantom.device, and for a fake start `encounter fake RIG`",
+      error == hd::kSuccess ? "no reason given; see cable and power" : hd::words_of(error)));
 }
 
 void HdDevice::ask() {
@@ -98,6 +100,12 @@ void HdDevice::ask() {
   hd_.get_doubles(hd::kContinuousForce, &ability_.continuous);
   if (const hd::Enum error = hd_.take_errors(); error != hd::kSuccess)
     throw failed("it does not report its forces: " + hd::words_of(error));
+}
+
+void HdDevice::check_time(bool lockstep) const {
+  if (serial_.ends_with(kInStep) == lockstep) return;
+  throw failed(lockstep ? "its time goes on by itself; leave out --lockstep"
+                        : "its time goes on with each force; begin the fake without --lockstep");
 }
 
 std::string HdDevice::describe() const {

@@ -62,6 +62,8 @@ class HdDevice {
  private:
   void open();
   void ask();
+  // Throws Error (kind device) unless the device's time goes on as the run's does.
+  void check_time(bool lockstep) const;
   [[nodiscard]] arm::ArmReading read(Duration at, double dt);
   void find_velocities(arm::ArmReading& reading, double dt);
   void exert(const Vec<'R'>& force);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/spec/settings.h"
@@ -24,6 +25,9 @@ struct PhantomSettings : arm::CommonSettings {
   // name.
   [[nodiscard]] arm::Place fake_place() const;
 };
+
+// End of the serial number of a fake whose time advances with each force.
+inline constexpr std::string_view kInStep = " in lockstep";
 
 // The place of a fake without a device's name; the variable ENCOUNTER_FAKE_HD of the environment replaces it.
 inline constexpr const char* kUsualPlace = "127.0.0.1:18970";

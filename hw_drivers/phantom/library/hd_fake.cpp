@@ -55,6 +55,7 @@ class FakeHd {
   void enable(hd::Enum what, bool on);
   [[nodiscard]] bool enabled(hd::Enum what) const { return what == hd::kForceOutput && enabled_; }
   [[nodiscard]] bool is_open() const { return client_.is_open(); }
+  [[nodiscard]] bool in_step() const { return client_.lockstep(); }
   void fail(hd::Enum error);
   hd::ErrorInfo take_error();
 
@@ -276,7 +277,7 @@ const char* text_of(hd::Enum of) {
     case hd::kModel:
       return "PHANToM Premium 1.0A";
     case hd::kSerial:
-      return "F0001";
+      return FakeHd::one().in_step() ? "F0001 in lockstep" : "F0001";  // kInStep
     case hd::kVersion:
       return "3.4.0";
     case hd::kDriverVersion:
