@@ -21,6 +21,7 @@
 #include "trial/assemble/assemble.h"
 #include "trial/devices/device_log.h"
 #include "trial/operator/signals.h"
+#include "trial/time/real_time.h"
 
 namespace enc::app {
 namespace {
@@ -233,6 +234,7 @@ int devices(const LaboratoryOptions& options) {
   if (!(options.seconds > 0.0 && options.seconds <= 1e4))
     throw Error("--for-s: expected a number above 0, up to 10000");
   const models::Setup setup = load_setup(with_scene(options));
+  const trial::RealTime priority(true);  // as in a run: a busy processor is no fault of a device
   const auto found =
       probe_devices(setup, load_module, options.seconds, [] { return trial::Signals::caught() != 0; });
   if (found.empty()) fmt::print("every device that the scene names is simulated\n");
