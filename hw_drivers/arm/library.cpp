@@ -48,7 +48,9 @@ Library::Library(const LibraryRequest& request) : request_(request) {
     file_ = file;
     if (handle_ != nullptr) return;
     const char* reason = dlerror();
-    if (why.empty()) why = reason != nullptr ? reason : file;
+    const std::string said = reason != nullptr ? reason : file;
+    // A file that is there and does not load says more than one that is absent.
+    if (why.empty() || !said.starts_with(file + ": cannot open shared object file")) why = said;
   }
   throw Error(fmt::format("{}; expected {}; install it, or set {} to its file, to \"{}\" for the fake", why,
                           request.product, request.key, kFakeLibrary),

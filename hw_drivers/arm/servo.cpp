@@ -14,6 +14,7 @@ namespace enc::arm {
 namespace {
 
 constexpr std::chrono::microseconds kLook{500};  // interval of the watch
+constexpr const char* kTooLate = "its own thread came too late, or never again";
 
 // Gives the watch a higher priority than the loop and than a device's thread with the loop's priority: none
 // of them can starve it.
@@ -45,7 +46,7 @@ void Servo::watch() noexcept {
   come_before_loop();
   while (!end_) {
     std::this_thread::sleep_for(kLook);
-    if (!end_ && !lost_ && silence() > settings_.silent) lose("its own thread came too late, or never again");
+    if (!end_ && !lost_ && silence() > settings_.silent) lose(kTooLate);
   }
 }
 
@@ -57,7 +58,10 @@ void Servo::lose(const std::string& why) noexcept {
 
 Vec<'R'> Servo::turn(const ArmReading& reading) noexcept {
   const Duration before(turned_.exchange(reading.at.count(), std::memory_order_acq_rel));
-  if (before != Duration{}) longest_ = std::max(longest_.load(), (reading.at - before).count());
+  const Duration gap = before != Duration{} ? reading.at - before : Duration{};
+  longest_ = std::max(longest_.load(), gap.count());
+  // The watch may have slept, too: a process that was stopped wakes all its threads at once.
+  if (seconds(gap) > settings_.silent) lose(kTooLate);
   ++turns_;
   orders_.read(order_);
   const bool hot = reading.warmth >= settings_.hottest;

@@ -28,7 +28,7 @@ struct ServoSettings {
   GuardLimits guard;
   double silent = 0.004;  // s: longest time without a turn; then the link is lost
   double hottest = 1.0;   // warmth that counts as an error
-  bool watched = true;    // false: nothing runs in parallel, as in lockstep
+  bool watched = true;    // false: without the watch, for tests
 };
 
 class Servo {

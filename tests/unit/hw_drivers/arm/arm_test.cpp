@@ -1,5 +1,6 @@
 // What all force-controlled arms share: when a force passes to the device, how a vendor's library is loaded,
 // and the datagrams of the fakes.
+#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -12,7 +13,11 @@
 #include "hw_drivers/arm/fake/message.h"
 #include "hw_drivers/arm/force_guard.h"
 #include "hw_drivers/arm/library.h"
+#include "hw_drivers/arm/servo.h"
+#include "hw_drivers/net/clocks.h"
+#include "tests/support/files.h"
 #include "tests/support/refusal.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::arm {
 namespace {
@@ -116,6 +121,36 @@ TEST(ForceGuard, NoForceIsBeyondTheDevicesLimit) {
   EXPECT_GT(there.guard.counts().clipped, 400);
 }
 
+// ---- the device's thread
+
+// A stopped process wakes all its threads at once: the turn may come before the watch looks.
+TEST(ArmServo, ATurnThatComesTooLateExertsNoForceAndEndsTheLink) {
+  ServoSettings settings;
+  settings.guard.rise = 0.0;
+  settings.guard.watchdog = 1.0;  // the loop's command is fresh
+  settings.watched = false;
+  trial::DeviceLog log;
+  int cuts = 0;
+  Servo servo(
+      settings, log, [&] { ++cuts; }, [](int) { return std::string("an error"); });
+  ArmReading reading;
+  reading.at = net::steady_now();
+  static_cast<void>(servo.turn(reading));
+  static_cast<void>(servo.read(Time{}));
+  servo.command(Vec<'R'>(0, 0, 1));
+  reading.at += 4 * kMs;
+  EXPECT_EQ(servo.turn(reading).norm(), 1.0) << "just in time";
+  EXPECT_TRUE(servo.linked());
+  reading.at += 4 * kMs + Duration(1);
+  EXPECT_EQ(servo.turn(reading).norm(), 0.0);
+  EXPECT_FALSE(servo.linked());
+  EXPECT_EQ(cuts, 1);
+  reading.at += kMs;
+  EXPECT_EQ(servo.turn(reading).norm(), 0.0) << "until a new run";
+  EXPECT_EQ(servo.read(Time{}).health, Health::fault);
+  EXPECT_THAT(log.lines(), testing::ElementsAre(HasSubstr("its own thread came too late")));
+}
+
 // ---- the library
 
 LibraryRequest request(const std::string& chosen) {
@@ -130,6 +165,17 @@ TEST(VendorLibrary, AMissingOneIsOneLineWithTheWayOut) {
               HasSubstr("/nowhere/lib.so: cannot open"));
   EXPECT_THAT(test::refusal(ErrorKind::device, [] { Library library(request(kFakeLibrary)); }),
               HasSubstr("there is no fake libNobodyHasThis.so beside the modules"));
+}
+
+// Several names are tried: the file that is there gives the reason.
+TEST(VendorLibrary, AFileThatDoesNotLoadIsNamedBeforeOneThatIsAbsent) {
+  const test::TemporaryFolder folder;
+  const std::string broken = folder.file("libNobodyHasThis.so.3");
+  std::ofstream(broken) << "not a library, but long enough to be read as one: it has no header of ELF";
+  LibraryRequest several = request("");
+  several.files = {"libNobodyHasThis.so", broken, "libNorThis.so"};
+  EXPECT_THAT(test::refusal(ErrorKind::device, [&] { Library library(several); }),
+              AllOf(HasSubstr(broken), HasSubstr("invalid ELF header")));
 }
 
 TEST(VendorLibrary, ALackingSymbolIsNamed) {
