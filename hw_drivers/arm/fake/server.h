@@ -43,6 +43,7 @@ class ArmServer final : public Fake {
 
   // Test aids.
   void press(bool pressed) noexcept { state_.buttons = pressed ? 1U : 0U; }
+  // NaN: the device does not report it.
   void warm(double warmth) noexcept { state_.warmth = warmth; }
   void flag(std::uint32_t flag, bool on) noexcept {
     state_.flags = on ? state_.flags | flag : state_.flags & ~flag;
@@ -50,7 +51,8 @@ class ArmServer final : public Fake {
   [[nodiscard]] const Vec<'R'>& force() const noexcept { return force_; }  // the last one received
   [[nodiscard]] bool enabled() const noexcept { return enabled_; }
   [[nodiscard]] std::int64_t forces() const noexcept { return forces_; }
-  [[nodiscard]] double watchdog() const noexcept { return watchdog_; }  // s, as the client set it
+  [[nodiscard]] std::uint64_t answers() const noexcept { return state_.answers; }  // number of the last force
+  [[nodiscard]] double watchdog() const noexcept { return watchdog_; }             // s, as the client set it
 
  private:
   // Returns true if a client came and the world was restarted.

@@ -100,6 +100,9 @@ void HdDevice::ask() {
   hd_.get_doubles(hd::kContinuousForce, &ability_.continuous);
   if (const hd::Enum error = hd_.take_errors(); error != hd::kSuccess)
     throw failed("it does not report its forces: " + hd::words_of(error));
+  std::array<double, hd::kMotors> warmth{};
+  hd_.get_doubles(hd::kMotorTemperature, warmth.data());
+  has_warmth_ = hd_.take_errors() == hd::kSuccess;  // not every device has a model of its motors
 }
 
 void HdDevice::check_time(bool lockstep) const {
@@ -109,8 +112,9 @@ void HdDevice::check_time(bool lockstep) const {
 }
 
 std::string HdDevice::describe() const {
-  return fmt::format("{} {} {}, HD {}, driver {}, calibrated", vendor_, model_, serial_, version_,
-                     driver_version_.empty() ? "unknown" : driver_version_);
+  return fmt::format("{} {} {}, HD {}, driver {}, calibrated{}", vendor_, model_, serial_, version_,
+                     driver_version_.empty() ? "unknown" : driver_version_,
+                     has_warmth_ ? "" : ", does not report motor temperatures");
 }
 
 void HdDevice::calibrate() {
@@ -155,7 +159,7 @@ arm::ArmReading HdDevice::read(Duration at, double dt) {
   hd_.get_doubles(hd::kJointAngles, joints.data());
   hd_.get_doubles(hd::kPosition, position.data());
   hd_.get_doubles(hd::kVelocity, velocity.data());
-  hd_.get_doubles(hd::kMotorTemperature, warmth.data());
+  if (has_warmth_) hd_.get_doubles(hd::kMotorTemperature, warmth.data());
   hd_.get_integers(hd::kButtons, &buttons);
   arm::ArmReading reading;
   reading.at = at;

@@ -89,6 +89,7 @@ class HdDevice {
   std::array<JointSample, kLongest> kept_{};
   std::int64_t frames_ = 0;
   int error_ = 0;
+  bool has_warmth_ = false;  // the device reports the temperature of its motors
 };
 
 }  // namespace enc::phantom

@@ -69,6 +69,7 @@ unsigned HdLoop::frame() noexcept {
     return hd::kContinue;
   } catch (...) {
     servo_.lose("the vendor's library threw an exception");
+    done_ = true;
     return hd::kDone;
   }
 }
@@ -79,7 +80,7 @@ bool HdLoop::shut() noexcept {
   servo_.end();
   device_.switch_off();
   if (!scheduled_) return true;
-  if (servo_.silence() > kGone) return false;
+  if (!done_ && servo_.silence() > kGone) return false;
   const hd::Functions& hd = device_.hd();
   hd.stop_scheduler();
   hd.unschedule(callback_);

@@ -34,6 +34,7 @@ class HdLoop {
   std::int64_t frames_ = 0;          // data of the scheduler's thread
   std::atomic<double> apart_ = 0.0;  // m, in the first frame
   std::atomic<bool> end_ = false, scheduled_ = false;
+  std::atomic<bool> done_ = false;  // the last call has ended
 };
 
 // Driver for the fake library whose time advances by a period with each force. The loop makes each frame

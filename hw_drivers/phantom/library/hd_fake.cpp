@@ -225,6 +225,7 @@ void FakeHd::doubles(hd::Enum of, double* to) {
     case hd::kCurrentForce:
       return put(axes_to_hd(Vec3(force_[0], force_[1], force_[2])));
     case hd::kMotorTemperature:
+      if (std::isnan(seen_.warmth)) return fail(hd::kInvalidEnum);
       std::fill_n(to, hd::kMotors, seen_.warmth);
       return;
     case hd::kNominalMaxForce:

@@ -139,6 +139,17 @@ TEST(Phantom, WarmMotorsAndTooMuchForceAreFaultsThatPass) {
                                        Contains(HasSubstr("warmest motor 97 %"))));
 }
 
+// An old device has no model of its motors' temperature: HD_INVALID_ENUM in each frame would be a fault for
+// ever.
+TEST(Phantom, ADeviceThatReportsNoTemperatureExertsItsForce) {
+  PhantomBench there;
+  there.with([&] { there.server.warm(kUnset); });
+  const auto driver = there.open();
+  EXPECT_THAT(driver->describe(), HasSubstr("does not report motor temperatures"));
+  EXPECT_TRUE(there.push_until(*driver, kPush, [&] { return there.force().xyz == kPush.xyz; }));
+  EXPECT_EQ(driver->read(Time(net::steady_now())).health, Health::ok);
+}
+
 TEST(Phantom, ABrokenConnectionEndsTheLink) {
   PhantomBench there;
   const auto driver = there.open();
@@ -198,12 +209,17 @@ TEST(Phantom, ADriverEndsAlthoughItsSchedulerHangs) {
 
 TEST(Phantom, ACallbackThatThrowsMeansNoForce) {
   PhantomBench there;
-  const auto driver = there.open();
+  auto driver = there.open();
   ASSERT_TRUE(there.push_until(*driver, kPush, [&] { return there.force().norm() > 0.0; }));
   there.with([&] { there.server.flag(arm::kThrows, true); });
   EXPECT_TRUE(there.until([&] { return there.force().norm() == 0.0 && !there.motors_on(); }));
   EXPECT_TRUE(there.until([&] { return !driver->linked(); }));
   EXPECT_THAT(there.log.lines(), Contains(HasSubstr("the vendor's library threw an exception")));
+  // No call hangs in the library, so the driver gives the device back, however late.
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  driver.reset();
+  there.with([&] { there.server.flag(arm::kThrows, false); });
+  EXPECT_TRUE(there.open()->linked());
 }
 
 TEST(Phantom, AnArmThatIsNotCalibratedIsRefusedWithTheWayOut) {
