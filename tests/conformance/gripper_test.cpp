@@ -2,6 +2,8 @@
 // pymodbus, too.
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -67,6 +69,57 @@ TEST(GripperDriver, RestsBetweenTwoDirections) {
   EXPECT_EQ(words, "cso");
   const auto& told = there.jaws.told;
   EXPECT_GE(told[2].at - told[1].at, Duration(19'000'000));
+}
+
+// Between the driver and the fake: the request that switches an output off arrives 60 ms later.
+class SlowLine {
+ public:
+  explicit SlowLine(std::uint16_t to) : fake_(net::connect_tcp("127.0.0.1", to, Duration(1'000'000'000))) {}
+  ~SlowLine() {
+    end_ = true;
+    thread_.join();
+  }
+  SlowLine(const SlowLine&) = delete;
+  SlowLine& operator=(const SlowLine&) = delete;
+  [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
+
+ private:
+  static bool switches_off(std::span<const std::byte> request) {
+    const gripper::Request one = gripper::request_of(request);
+    return one.function == static_cast<std::uint8_t>(gripper::Function::write_coil) && one.values[0] == 0;
+  }
+  void pass() {
+    std::array<std::byte, 512> bytes{};
+    while (!end_) {
+      if (!client_.is_open()) client_ = listener_.accept();
+      if (client_.is_open()) {
+        const auto request = std::span(bytes).first(client_.receive(bytes));
+        if (!request.empty() && switches_off(request))
+          std::this_thread::sleep_for(std::chrono::milliseconds(60));
+        if (!request.empty()) fake_.send(request);
+        const auto answer = std::span(bytes).first(fake_.receive(bytes));
+        if (!answer.empty()) client_.send(answer);
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }
+  net::Socket fake_, client_, listener_ = net::listen_tcp("127.0.0.1", 0);
+  std::atomic<bool> end_ = false;
+  std::thread thread_{[this] { pass(); }};
+};
+
+TEST(GripperDriver, RestsBetweenTwoDirectionsOfASlowCoupler) {
+  GripperPort there;
+  const FakeServer served(there.server);
+  const SlowLine slow(there.server.port());
+  there.table.port = slow.port();
+  const auto driver = there.driver();
+  const GripLoop loop;
+  static_cast<void>(loop.until(*driver, &kClose, is_closed));
+  static_cast<void>(loop.until(*driver, &kOpen, is_open));
+  ASSERT_EQ(there.jaws.words(), "cso");
+  EXPECT_GE(there.jaws.told[2].at - there.jaws.told[1].at, Duration(19'000'000))
+      << "from the output's going off";
 }
 
 TEST(GripperDriver, WritesNothingBeforeTheFirstCommand) {
@@ -311,6 +364,34 @@ TEST(GripperRefusal, ASilentOrAbsentCouplerIsSaid) {
   EXPECT_THAT(refusal_of(there), HasSubstr("no answer in time within 300 ms"));
   there.table.port = 1;
   EXPECT_THAT(refusal_of(there), HasSubstr("127.0.0.1:1"));
+}
+
+// An answer of which each byte is in time, and the last one late.
+TEST(GripperRefusal, AnAnswerThatTricklesInIsSaid) {
+  GripperPort there;
+  net::Socket listener = net::listen_tcp("127.0.0.1", 0);
+  there.table.port = listener.port();
+  std::thread serving([&] {
+    listener.wait(Duration(5'000'000'000));
+    net::Socket client = listener.accept();
+    gripper::Requests requests;
+    std::optional<gripper::Request> request;
+    while (!request && !client.closed()) {
+      client.wait(Duration(100'000'000));
+      requests.came(client.receive(requests.room()));
+      request = requests.next();
+    }
+    if (!request) return;
+    const auto bytes = gripper::answer(*request, gripper::identity_words("EK9000"));
+    for (std::size_t i = 0; i < bytes.size() && !client.closed(); ++i) {
+      client.send(std::span(bytes).subspan(i, 1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      std::array<std::byte, 256> none{};
+      client.receive(none);
+    }
+  });
+  EXPECT_THAT(refusal_of(there), HasSubstr("no answer in time within 300 ms"));
+  serving.join();
 }
 
 // Codes of the fake are exceptions of Modbus or the registers of its two other faults.

@@ -163,11 +163,13 @@ void Conversation::set_outputs(Duration now) noexcept {
       // An earlier program may have left an output on.
       prepared_ = prepare() && write(Drive::open, false) && write(Drive::close, false);
       off_ = now;
+      went_off_ = true;
     }
     if (!prepared_) return;
     if (set_ != Drive::none) {
       if (!write(set_, false)) return;
       off_ = now;
+      went_off_ = true;
       set_ = Drive::none;
       jaws_.drive(set_, now);
     }

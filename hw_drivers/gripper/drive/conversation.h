@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/base/sample.h"
 #include "hw_drivers/gripper/drive/coupler.h"
@@ -55,6 +56,8 @@ class Conversation {
     report_.trap = Trap::none;
     set_outputs(now());
     report_.asked = now();
+    // The coupler may have taken its time: the rest begins when the output is off for certain.
+    if (std::exchange(went_off_, false)) off_ = report_.asked;
     if (report_.trap != Trap::lost) read_inputs();
     report_.answered = now();
     if (report_.trap != Trap::lost) judge(report_.answered);
@@ -81,7 +84,7 @@ class Conversation {
   Order order_;
   Drive set_ = Drive::none;
   Duration off_{};  // since both outputs are off
-  bool prepared_ = false, bus_ = true, looks_at_bus_ = false, was_on_ = false;
+  bool prepared_ = false, bus_ = true, looks_at_bus_ = false, was_on_ = false, went_off_ = false;
 };
 
 }  // namespace enc::gripper

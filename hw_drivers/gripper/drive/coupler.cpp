@@ -35,6 +35,7 @@ Coupler::Coupler(const GripperSettings& settings) : link_(std::make_unique<Link>
   const auto us = static_cast<std::uint32_t>(std::lround(1e6 * settings.timeout));
   constexpr std::uint32_t kSecond = 1'000'000;
   modbus_set_response_timeout(link_->modbus, us / kSecond, us % kSecond);
+  modbus_set_byte_timeout(link_->modbus, 0, 0);  // none: that time is for the whole answer
   modbus_set_error_recovery(link_->modbus, MODBUS_ERROR_RECOVERY_NONE);
 }
 
