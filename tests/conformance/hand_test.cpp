@@ -176,6 +176,18 @@ TEST(HandReception, JoinsAWristWithItsLandmarks) {
   EXPECT_TRUE(stream.take(1'000'000, 5.2, 1.2) && stream.take(13, 5.3, 1.3)) << "a headset that began anew";
 }
 
+// Its app was started again after a few seconds: its frames begin at 0, and no old line is that late.
+TEST(HandReception, AHeadsetThatBeginsAnewAfterAFewFramesIsHeard) {
+  HandStream stream;
+  EXPECT_TRUE(stream.take(500, 5.0, 1.0));
+  EXPECT_FALSE(stream.take(499, 4.99, 1.1)) << "late";
+  EXPECT_FALSE(stream.take(0, 0.0, 1.4));
+  EXPECT_TRUE(stream.take(7, 0.2, 1.6)) << "silent for more than silent_ms";
+  EXPECT_TRUE(stream.take(8, 0.3, 1.7));
+  EXPECT_FALSE(stream.take(8, 0.3, 1.7));
+  EXPECT_EQ(stream.reception.counts().missing, 0);
+}
+
 // The headset's clock is 100 s ahead and gains 80 ppm; lines come 30 to 45 ms after the exposure.
 TEST(HandReception, FindsOffsetAndDriftOfTheClock) {
   HandStream stream;
@@ -293,6 +305,28 @@ TEST_P(HandDriver, FaultsOfTheWireGiveNoFalseHand) {
     EXPECT_GT(poll(*driver, 300), 2);
     expect_same(newest.value, known_hand());
   }
+}
+
+// A datagram that does not fit: its last number would be another one.
+TEST(HandDatagram, ThatIsCutIsNotBelieved) {
+  HandPort there("udp");
+  std::string wrist = "Left wrist: 0,0,0,0,0,0,1", landmarks = "Left landmarks: ";
+  for (int i = 0; i < 62; ++i) landmarks += "0.1,";
+  landmarks += "0.";
+  landmarks.append(hand::kLongestLine, '1');
+  landmarks += "e9";
+  net::Socket headset = net::connect_udp("127.0.0.1", static_cast<std::uint16_t>(there.table.port));
+  std::atomic<bool> end = false;
+  std::thread sending([&] {
+    while (!end) {
+      headset.send(std::as_bytes(std::span(wrist)));
+      headset.send(std::as_bytes(std::span(landmarks)));
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  EXPECT_THAT(there.refused(), HasSubstr("lines that are no hands, and no hand within 300 ms"));
+  end = true;
+  sending.join();
 }
 
 TEST_P(HandDriver, AHeadsetThatDoesNotStreamIsSaid) {

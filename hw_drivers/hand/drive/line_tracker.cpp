@@ -80,8 +80,10 @@ bool LineTracker::take_all(Time now) noexcept {
     } else {
       // The last line of a datagram may have no line feed.
       const std::span<std::byte> room = lines_.room();
-      const std::size_t got = socket_.receive(room.first(room.size() - 1));
+      std::size_t got = socket_.receive(room.first(room.size() - 1));
       if (got == 0) break;
+      // A datagram that fills the room was cut, perhaps within a number: it counts as one wrong line.
+      if (got == room.size() - 1) room[0] = std::byte{'?'}, got = 1;
       room[got] = std::byte{'\n'};
       lines_.came(got + 1);
     }

@@ -17,14 +17,15 @@ bool near(const Vec3& at) { return at.cwiseAbs().maxCoeff() < kFarthest; }
 
 }  // namespace
 
-bool Reception::is_newer(const Packet& packet) noexcept {
+// A headset that began anew is far back, or was silent meanwhile: no line is that late.
+bool Reception::is_newer(const Packet& packet, Time came) noexcept {
   if (!packet.frame || !any_) return true;
-  const bool restarted = *packet.frame < frame_ - kRestart;
+  const bool restarted = *packet.frame < frame_ - kRestart || age(came, came_) > settings_.silent;
   return restarted || *packet.frame > frame_;
 }
 
 // True if the line belongs to a newer hand of the side that is asked for.
-bool Reception::believed(std::string_view line, Packet& packet) noexcept {
+bool Reception::believed(std::string_view line, Time came, Packet& packet) noexcept {
   if (const LineFault wrong = read(line, packet); wrong != LineFault::nothing) {
     counts_.wrong += wrong == LineFault::empty ? 0 : 1;
     return false;
@@ -38,7 +39,7 @@ bool Reception::believed(std::string_view line, Packet& packet) noexcept {
     ++counts_.other;
   } else if (!possible(packet.frame) || !possible(packet.stamp_ns)) {
     ++counts_.wrong;
-  } else if (!is_newer(packet)) {
+  } else if (!is_newer(packet, came)) {
     ++counts_.old;
   } else {
     return true;
@@ -48,7 +49,7 @@ bool Reception::believed(std::string_view line, Packet& packet) noexcept {
 
 bool Reception::take(std::string_view line, Time came, Measurement<HandSample>& newest) noexcept {
   Packet packet;
-  if (!believed(line, packet)) return false;
+  if (!believed(line, came, packet)) return false;
   const bool wrist = packet.kind == Kind::wrist;
   (wrist ? wrist_ : landmarks_) = packet;
   bool& has = wrist ? has_wrist_ : has_landmarks_;
@@ -65,6 +66,7 @@ bool Reception::take(std::string_view line, Time came, Measurement<HandSample>& 
     counts_.missing += *packet.frame - frame_ - 1;
   if (packet.frame) frame_ = *packet.frame;
   any_ = true;
+  came_ = came;
   ++counts_.hands;
   const Time t = time_of(came);
   newest = {hand, newest.health == Health::absent ? t : std::max(t, newest.t), Health::ok};

@@ -35,8 +35,8 @@ class Reception {
   [[nodiscard]] net::ClockEstimate clock() const noexcept { return tie_.estimate(); }
 
  private:
-  [[nodiscard]] bool believed(std::string_view line, Packet& packet) noexcept;
-  [[nodiscard]] bool is_newer(const Packet& packet) noexcept;
+  [[nodiscard]] bool believed(std::string_view line, Time came, Packet& packet) noexcept;
+  [[nodiscard]] bool is_newer(const Packet& packet, Time came) noexcept;
   [[nodiscard]] bool make(HandSample& hand) const noexcept;
   [[nodiscard]] Time time_of(Time came) noexcept;
 
@@ -47,6 +47,7 @@ class Reception {
   bool has_wrist_ = false, has_landmarks_ = false;  // not used yet
   bool fake_ = false, any_ = false, stamped_ = false;
   std::int64_t frame_ = 0, stamp_ = 0;  // of the last hand
+  Time came_{};                         // arrival of the last hand
 };
 
 }  // namespace enc::hand
