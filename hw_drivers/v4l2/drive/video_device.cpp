@@ -219,7 +219,8 @@ VideoDevice::TakeResult VideoDevice::take(RawFrame& into) noexcept {
   const timeval& stamp = buffer.timestamp;
   stamps_ = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC &&
             stamp.tv_sec >= 0 && stamp.tv_sec < kMostSeconds && stamp.tv_usec >= 0 &&
-            stamp.tv_usec < 1'000'000;
+            stamp.tv_usec < 1'000'000 &&
+            (stamp.tv_sec > 0 || stamp.tv_usec > 0);  // a driver that sets no stamp leaves 0
   begins_ = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   into.stamp = stamps_ ? Duration(stamp.tv_sec * 1'000'000'000LL + stamp.tv_usec * 1'000LL) : system_.now();
   into.used = std::min({std::size_t{buffer.bytesused}, from.size, into.bytes.size()});

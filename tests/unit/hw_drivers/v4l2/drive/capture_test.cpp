@@ -174,6 +174,19 @@ TEST(V4l2Capture, StampsAreMovedToTheMiddleOfTheExposure) {
   EXPECT_NEAR(seconds(picture.exposed), 1.008, 1e-6);
 }
 
+// Its driver in the kernel promises stamps and leaves them 0: such pairs would all be older than the run.
+TEST(V4l2Capture, FramesWithoutAStampHaveTheTimeOfTheirReading) {
+  VirtualVideo video;
+  VirtualCamera camera = grey(2 * kEach.width);
+  camera.sets_stamps = false;
+  video.add("/dev/video0", camera);
+  Capture capture(video, one(), kEach, kRate);
+  StereoPicture picture;
+  ASSERT_TRUE(capture.turn(Duration(1'000'000'000), picture));
+  EXPECT_EQ(picture.exposed, video.now());
+  EXPECT_THAT(capture.describe(), HasSubstr("stamped when read"));
+}
+
 // ---- refusals: one line with the way out
 
 class V4l2Refusal : public testing::Test {

@@ -40,7 +40,7 @@ bool VirtualVideo::deliver(CameraRun& of) {
   for (int i = 0; i < 4; ++i)
     bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(n >> (24 - 8 * i));
   const double stamp = of.camera.exposed(n) + of.camera.stamp_error * (2.0 * uniform(of) - 1.0);
-  return of.node.put(static_cast<std::uint32_t>(n), from_seconds(stamp), bytes,
+  return of.node.put(static_cast<std::uint32_t>(n), from_seconds(of.camera.sets_stamps ? stamp : 0.0), bytes,
                      of.camera.damaged.contains(n));
 }
 

@@ -29,6 +29,7 @@ struct VirtualCamera {
   double delay = 0.030;      // s, from exposure to full buffer
   double jitter = 0.0;       // s, longest further delay
   double stamp_error = 0.0;  // s, largest
+  bool sets_stamps = true;   // false: each stamp is 0
   std::set<std::int64_t> lost;
   std::set<std::int64_t> damaged;
   double unplugged_from = std::numeric_limits<double>::infinity(), unplugged_to = 0.0;  // s
