@@ -30,14 +30,15 @@ const std::string kWallScene = tests::source_dir() + "/models/scenes/wall.toml";
 // vishap.toml with the arm and the tracker over their drivers, at free ports, and a press that no real arm
 // would be too warm for.
 struct ArmLaboratory {
-  ArmLaboratory(bool lockstep, const std::vector<std::string>& more) {
+  ArmLaboratory(bool lockstep, const std::vector<std::string>& more, const std::string& driver = "phantom") {
     setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
     std::string text = bytes_of(tests::source_dir() + "/models/rigs/vishap.toml");
-    replace(text, "[arm]\ndriver = \"sim\"", "[arm]\ndriver = \"phantom\"");
+    replace(text, "[arm]\ndriver = \"sim\"", "[arm]\ndriver = \"" + driver + "\"");
     replace(text, "[VisHap 2.1]\ndriver = \"sim\"", "[VisHap 2.1]\ndriver = \"igtl\"");
-    std::ofstream(rig) << text
-                       << "\n[driver.phantom]\nlibrary = \"fake\"\ndevice = \"127.0.0.1:" << free_port()
-                       << "\"\n[driver.igtl]\nport = " << free_port() << "\n";
+    const std::string port = std::to_string(free_port());
+    std::ofstream(rig) << text << "\n[driver." << driver << "]\nlibrary = \"fake\"\n"
+                       << (driver == "phantom" ? "device = \"127.0.0.1:" + port + "\"" : "serial = " + port)
+                       << "\n[driver.igtl]\nport = " << free_port() << "\n";
     set.insert(set.end(), more.begin(), more.end());
     fakes = std::make_unique<app::Fakes>(models::load(kWallScene, rig, set),
                                          app::FakesOptions{app::load_module, 1, lockstep, {}});
@@ -91,10 +92,7 @@ TEST(ArmFakes, InLockstepAPressOverTheFakeLibraryIsTheTwins) {
 
 // SIGKILL while the arm carries its prop, and as a rule presses: nothing of the program is left to end the
 // force.
-TEST(ArmFakes, AKilledProgramLeavesNoForce) {
-  const ArmLaboratory there(
-      false, {"rig.loop.late_cycles=200", "rig.arm.stale_ms=200", "rig.driver.phantom.silent_ms=200",
-              "rig.driver.phantom.watchdog_periods=200", "truth.arm.watchdog_ms=200"});
+void expect_no_force_when_killed(const ArmLaboratory& there) {
   std::vector<std::string> words{
       tests::program_file(), "run", kWallScene, "--rig", there.rig, "--armed", "--yes"};
   for (const std::string& one : there.set) words.insert(words.end(), {"--set", one});
@@ -110,6 +108,24 @@ TEST(ArmFakes, AKilledProgramLeavesNoForce) {
   const double last = there.pushed;
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(there.pushed, last);
+}
+
+// The electronics of a PHANToM end it, whose watchdog HD cannot set.
+TEST(ArmFakes, AKilledProgramLeavesNoForce) {
+  expect_no_force_when_killed(ArmLaboratory(
+      false, {"rig.loop.late_cycles=200", "rig.arm.stale_ms=200", "rig.driver.phantom.silent_ms=200",
+              "rig.driver.phantom.watchdog_periods=200", "truth.arm.watchdog_ms=200"}));
+}
+
+// The firmware of a Force Dimension device ends it, by the watchdog that the driver has set: the twin's own
+// electronics would go on for an hour.
+TEST(ArmFakes, AKilledProgramLeavesNoForceByTheWatchdogThatTheDriverHasSet) {
+  expect_no_force_when_killed(ArmLaboratory(
+      false,
+      {"rig.loop.late_cycles=200", "rig.arm.stale_ms=200", "rig.driver.forcedimension.silent_ms=200",
+       "rig.driver.forcedimension.watchdog_periods=200", "rig.driver.forcedimension.device_watchdog_ms=31",
+       "truth.arm.watchdog_ms=3600000"},
+      "forcedimension"));
 }
 
 }  // namespace
