@@ -47,8 +47,10 @@ struct TrackerRig {
   double longest_prediction = 0.100;  // s, then the prediction slows down and stops (sources/tracking 5)
   double stamp_late = 0.0;            // s: delay of the stamps after the exposure
   double usual_age = 0.045;  // s: due to latency, polling and jitter; an older pose is predicted and flagged
-  double lost_age = 0.100;   // s: an older pose is lost (sources/tracking 5)
-  double farthest = 3.0;     // m from C: a tool beyond is refused
+  // Hz, of new poses: a pose is also old once the next two are missing; unset: only by its age.
+  double rate = kUnset;
+  double lost_age = 0.100;  // s: an older pose is lost (sources/tracking 5)
+  double farthest = 3.0;    // m from C: a tool beyond is refused
   TouchPrediction foresight = TouchPrediction::carried_on;
   ReachBelief reach;
   // Sides along W of the box around W's origin in which tools are tracked, m: 75e-3 m^3 [VHMR 5]. The paper

@@ -140,6 +140,11 @@ void describe(Visitor& v, TrackerRig& t) {
   v.value({"usual_age_ms", "age beyond which a pose raises the notice that it is predicted",
            "sources/tracking 3, sources/tracking 5", derived, kPositive},
           &t.usual_age);
+  v.value(
+      {"rate_hz",
+       "rate of new poses: one after which two are missing raises the notice, too; unset: only an old one",
+       "[VHMR 2]", chosen, kPositive, optional},
+      &t.rate);
   v.value({"lost_age_ms", "age beyond which the tool counts as lost, which means hold", "sources/tracking 5",
            chosen, kPositive},
           &t.lost_age);

@@ -65,7 +65,9 @@ struct CommonState {
   std::int32_t object = -1;
   bool entered = false;  // the tip has been inside that object
   Measurement<TrackedTool> tool;
-  TipMotion tip_motion;  // motion of the tracked tool's tip
+  Time tool_came{};           // arrival of that pose
+  bool tool_missing = false;  // the two poses after it are overdue
+  TipMotion tip_motion;       // motion of the tracked tool's tip
   Vec<'W'> force = Vec<'W'>::zero();
   // Last tick's position of the tracked tool's tip, and the surface point under it.
   Point<'W'> last_query, last_point;
@@ -97,6 +99,7 @@ void fields(F& f, CommonState& s) {
   f("state_object", s.object);
   f("entered", s.entered);
   fields(f, s.tool);
+  if (s.tool_missing) f("tool_came", s.tool_came);  // rare, so that earlier hashes hold
   fields(f, s.tip_motion);
   fields(f, "force_W", s.force);
   fields(f, "last_query_W", s.last_query);

@@ -28,9 +28,13 @@ bool plausible(const StepContext& context, const Measurement<TrackedTool>& sampl
          sample.t <= context.tick.t + context.tick.dt;
 }
 
-void judge_age(StepContext& context, const CommonState& state) {
+// A pose is old by its age, or because the tracker's next two are missing. The second one may be late by half
+// a period.
+void judge_age(StepContext& context, CommonState& state) {
+  constexpr double kPeriods = 2.5;
   const double old = age(context.tick.t, exposed(context.scene.tracker, state.tool.t));
-  context.tool_fresh = old <= context.scene.tracker.usual_age;
+  state.tool_missing = age(context.tick.t, state.tool_came) * context.scene.tracker.rate > kPeriods;
+  context.tool_fresh = old <= context.scene.tracker.usual_age && !state.tool_missing;
   if (context.tool_fresh) return;
   if (old <= context.scene.tracker.lost_age) {
     context.why |= kToolPredicted;
@@ -91,6 +95,7 @@ void track_tool(StepContext& context, CommonState& state, const ToolAtTip& at_ti
       context.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
+      state.tool_came = context.tick.t;
       take_in(context, state, at_tip.pressing);
     }
   }

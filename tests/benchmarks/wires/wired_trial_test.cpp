@@ -94,6 +94,32 @@ TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
   EXPECT_EQ(wired.wires().controller().error(), 0) << "no point was farther than a cycle allows";
 }
 
+// Tool data at 100 Hz: one missing message is usual. Two make the pose old, within two periods of the first.
+TEST(WiredTrial, ToolDataAreOldAfterTwoMissingMessages) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    for (const int missing : {0, 1, 2, 3}) {
+      SCOPED_TRACE(fmt::format("seed {}, {} missing", seed, missing));
+      trial::TrialOptions options = one_press();
+      options.seed = seed;
+      WiredTrial wired(fakes(), options);
+      const Time& newest = wired.trial().inputs().tool.t;
+      for (int i = 0; i < 300; ++i) wired.tick();
+      for (const Time before = newest; newest == before;) wired.tick();
+      // The stall begins after a pose, and ends between the last missing one and the next.
+      if (missing > 0) wired.wires().tools().suffer({Trouble::Kind::stall});
+      double old = kUnset;  // ms after that pose
+      for (int ms = 1; ms <= 60; ++ms) {
+        if (ms == 10 * missing + 5) wired.wires().tools().heal(Trouble::Kind::stall);
+        wired.tick();
+        if (std::isnan(old) && (wired.trial().outputs().why & kToolPredicted) != 0) old = ms;
+      }
+      EXPECT_EQ(std::isnan(old), missing < 2);
+      if (missing < 2) continue;
+      EXPECT_GT(old, 20);
+      EXPECT_LE(old, 10 + 20) << "two periods after the first missing one was due";
+    }
+}
+
 // The program is killed at any moment of the fastest motion. The machine stands within its dead time, four
 // points of its cycle, and the settling time of its servo.
 TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {

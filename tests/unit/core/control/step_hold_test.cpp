@@ -204,6 +204,26 @@ void drop_out(bool in_contact) {
   EXPECT_EQ(loop.tick().mode, before);
   expect_within_limits(loop);
 }
+// Tool data of 100 Hz: the second missing pose may be late by half a period. Without a rate only the age
+// counts.
+TEST(Hold, APoseIsOldOnceTheNextTwoAreMissing) {
+  for (const double rate : {100.0, kUnset}) {
+    RigSpec rig;
+    rig.tracker.rate = rate;
+    Loop loop(prepare(test::ball_scene(), rig));
+    wait_under(loop);
+    loop.tool_seen = false;
+    for (int age_ms = 1; age_ms <= 100; ++age_ms) {
+      loop.tick();
+      EXPECT_EQ((loop.out.why & kToolPredicted) != 0, age_ms > (rate > 0.0 ? 25 : 45))
+          << rate << " " << age_ms;
+    }
+    loop.tool_seen = true;
+    loop.tick();
+    EXPECT_EQ(loop.out.why & kToolPredicted, 0U);
+  }
+}
+
 TEST(Hold, TrackerDropOutInFollow) { drop_out(false); }
 TEST(Hold, TrackerDropOutInContact) { drop_out(true); }
 
