@@ -16,6 +16,8 @@ namespace enc::net {
 // The clock of the drivers: measures ages and late answers. It does not give experiment time, which each
 // read() and poll() receives.
 [[nodiscard]] Duration steady_now() noexcept;  // any start, common to all threads
+// Stops steady_now() at this time, so that a test has drivers with threads in virtual time; 0: it runs.
+void stand_at(Duration time) noexcept;
 
 // Converts arrival times to the loop's clock within a tick. If the process was stopped, a tick reads data
 // that came long after its begin; with the time of the tick, such data would seem to arrive before they were
