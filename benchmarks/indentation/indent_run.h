@@ -56,6 +56,8 @@ struct IndentRun {
   double limit = kUnset;           // m
   double greatest = 0.0;           // m, true deflection
   double force_at_limit = kUnset;  // N, true (sources/hand 3)
+  double noise = kUnset;           // N rms: force before the filter less true force, about the mean
+  double tremor = kUnset;          // N rms: part of the true force near 8 Hz
   double simulated = 0.0;          // s
   std::int32_t contacts = 0;
 };
@@ -83,6 +85,6 @@ struct HandSpread {
 [[nodiscard]] const Words& still_hand();
 // Runs with seeds first, first + 1, ..., each with its own hand, on all cores.
 [[nodiscard]] std::vector<IndentRun> indent_runs(const models::Setup& setup, std::uint64_t first,
-                                                 std::size_t count);
+                                                 std::size_t count, const HandSpread& spread = {});
 
 }  // namespace enc::bench::indentation

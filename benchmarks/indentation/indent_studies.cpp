@@ -8,6 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/precision.h"
 #include "benchmarks/stiffness/push_study.h"
 #include "core/control/task/indentation/indentation.h"
 #include "core/control/track/reach.h"
@@ -102,8 +103,7 @@ void add_price(const IndentStudy& study, const std::vector<Cell>& standard, cons
 
 // The conflict between two figures over the devices: Table 2 needs a fast filter, Fig 3 a slow one.
 void add_trade_off(const IndentStudy& study, BenchResult& result) {
-  const std::vector<double> corners =
-      study.context.quick ? std::vector<double>{10} : std::vector<double>{2.5, 5, 10, 20, 40};
+  const std::vector<double> corners{2.5, 5, 7.5, 10, 20, 40};
   Plot plot{"indentation_trade_off", "Force filter: error of a press against the softest stable object",
             "corner of the force filter (Hz)", "RMSE of A's press (N); stiffness (N/mm)", true};
   Series recorded{.name = "RMSE, recorded force", .mark = Mark::both};
@@ -114,7 +114,7 @@ void add_trade_off(const IndentStudy& study, BenchResult& result) {
     models::Setup setup = indent_setup(study.context.models, indentations().front(), {}, study.context.set);
     setup.rig.force.filter = corner;
     setup.rig.contact.softest = 0.0;
-    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, study.context.quick ? 1 : 2);
+    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 2);
     for (const auto& [series, y] :
          {std::pair{&recorded, cell_of(runs, Reading::recorded, true).rmse},
           std::pair{&truth, cell_of(runs, Reading::truth, true).rmse},
@@ -162,10 +162,12 @@ models::Setup with_time(models::Setup setup, double time) {
 
 // s: lag of the machine's position behind the filtered force. The servo lags by 2 zeta / omega. The command
 // limiter takes a cycle, and the position after a command is read in the next cycle.
+double servo_lag(const sim::TwinSpec& twin) {
+  return 2.0 * twin.hexapod.damping / (2.0 * std::numbers::pi * twin.hexapod.servo);
+}
 double recorded_lag(const models::Setup& setup) {
-  const sim::TwinSpec& twin = setup.twin;
-  return 2.0 * twin.hexapod.damping / (2.0 * std::numbers::pi * twin.hexapod.servo) +
-         (static_cast<double>(twin.hexapod.delay_cycles) + 2.0) / setup.rig.loop.rate;
+  return servo_lag(setup.twin) +
+         (static_cast<double>(setup.twin.hexapod.delay_cycles) + 2.0) / setup.rig.loop.rate;
 }
 
 // A still hand presses in the scene's press time and in half of it.
@@ -187,7 +189,8 @@ void add_lag(const IndentStudy& study, BenchResult& result) {
     Reading reading;
     double lag, low, high;
   };
-  for (const Way& way : {Way{"lag", Reading::recorded, recorded_lag(setup), 0.85, 1.15},
+  const double lag = study.context.mutated("no_delay") ? servo_lag(setup.twin) : recorded_lag(setup);
+  for (const Way& way : {Way{"lag", Reading::recorded, lag, 0.85, 1.15},
                          Way{"lag.sensor", Reading::sensor, sensor_lag(setup), kUnset, kUnset}}) {
     theory.lag = way.lag;
     const double slow = cell_of({runs[0]}, way.reading, true).rmse;
@@ -211,26 +214,30 @@ IndentRuns runs_with_time(const IndentStudy& study, double time, std::size_t eac
   return runs;
 }
 
+// %: rms of the logarithm of the twin's RMSE over the paper's, over the consistent cells.
+double misfit_of_cells(const IndentStudy& study, const std::vector<Cell>& cells) {
+  std::vector<double> misfit;
+  for (std::size_t i = 0; i < kCells; ++i)
+    if (study.paper[i].consistent) misfit.push_back(std::log(cells[i].rmse / study.paper[i].rmse));
+  return 100.0 * rms(misfit);
+}
+
 // A row of the table over the press time; adds a point to the line of each cell.
-std::vector<std::string> sweep_row(const IndentStudy& study, double time, const std::vector<Cell>& cells,
+std::vector<std::string> sweep_row(const IndentStudy& study, double time, const IndentRuns& runs,
                                    std::vector<Series>& lines) {
+  const std::vector<Cell> cells = cells_of(runs, Reading::recorded);
   std::vector<std::string> row{fmt::format("{:g}", time)};
-  double misfit = 0.0, count = 0.0;
   for (std::size_t i = 0; i < kCells; ++i) {
     lines[i].add(time, cells[i].rmse);
     row.push_back(fixed(cells[i].rmse, 4));
-    if (!study.paper[i].consistent) continue;
-    misfit += std::pow(std::log(cells[i].rmse / study.paper[i].rmse), 2);
-    count += 1.0;
   }
-  row.push_back(fixed(100.0 * std::sqrt(misfit / count), 1));
+  row.push_back(fixed(misfit_of_cells(study, cells), 1));
+  row.push_back(fixed(misfit_of_cells(study, cells_of(runs, Reading::sensor)), 1));
   return row;
 }
 
 void add_sweep(const IndentStudy& study, BenchResult& result) {
-  const std::vector<double> times =
-      study.context.quick ? std::vector<double>{4.0} : std::vector<double>{3.0, 4.0, 6.0, 9.0, 13.5};
-  const std::size_t each = study.context.quick ? 1 : 2;
+  const std::vector<double> times{3.0, 4.0, 6.0, 9.0, 13.5, 20.0};
   Plot plot{"indentation_press_time", "Table 2 over the press time, which the paper does not give",
             "press time (s)", "RMSE (N)", true};
   Table table{"indentation_press_time",
@@ -247,12 +254,13 @@ void add_sweep(const IndentStudy& study, BenchResult& result) {
     table.columns.push_back(fmt::format("{} {} (N)", cell.indentation, cell.way));
   }
   table.columns.emplace_back("misfit (%)");
+  table.columns.emplace_back("misfit of the sensor's force (%)");
   std::vector<Series> lines;
   for (const PaperCell& cell : study.paper)
     lines.push_back({.name = fmt::format("{} {}", cell.indentation, cell.way), .mark = Mark::both});
   for (const double time : times) {
-    const IndentRuns runs = runs_with_time(study, time, each);
-    table.rows.push_back(sweep_row(study, time, cells_of(runs, Reading::recorded), lines));
+    const IndentRuns runs = runs_with_time(study, time, 2);
+    table.rows.push_back(sweep_row(study, time, runs, lines));
     for (const std::vector<IndentRun>& of : runs)
       for (const IndentRun& run : of) result.simulated += run.simulated;
   }
@@ -334,6 +342,7 @@ Misfit misfit_of(const IndentStudy& study, const Push& push,
     parts.push_back(models::load_response(study.context.models + "/responses/" + d.response + ".toml"));
   Misfit misfit;
   misfit.weights = models::weights(directions, way_of_probe(setup.scene));
+  if (study.context.mutated("unmixed")) misfit.weights = {1.0, 0.0, 0.0};
   const Response rule(models::mixed(parts, misfit.weights), 0.0, Reversal::prandtl_ishlinskii);
   const Response nearest(parts.front(), 0.0, Reversal::prandtl_ishlinskii);
   const models::LoopData loop =
@@ -357,11 +366,30 @@ std::vector<double> path_of(const std::vector<double>& turns) {
   return path;
 }
 
+// The set-up with another law between the two curves.
+models::Setup with_reversal(models::Setup setup, Reversal reversal) {
+  for (BehaviourSpec& behaviour : setup.scene.behaviours) behaviour.reversal = reversal;
+  return setup;
+}
+
+// The error of the path over the time step, for both laws between the curves.
+void add_path_precision(const BenchContext& context, BenchResult& result) {
+  for (const char* law : {"prandtl_ishlinskii", "energy_stop"})
+    add_work_precision(
+        {fmt::format("indentation.{}", law),
+         "indentation",
+         {fmt::format("behaviour.tennis_ball_A.reversal={}", law), "user.press_s=2", "user.release_s=2",
+          "truth.hand.drift_mm=0"},  // compares the path of the machine alone
+         kUnset,
+         30e-6},
+        context, result);
+}
+
 }  // namespace
 
 std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                BenchResult& result) {
-  const std::vector<std::vector<IndentRun>> runs = study.all(kAccuracy, study.context.quick ? 1 : study.runs);
+  const std::vector<std::vector<IndentRun>> runs = study.all(kAccuracy, study.runs);
   const std::vector<Cell> cells = cells_of(runs, Reading::recorded);
   std::string words;
   for (const std::string& word : kAccuracy) words += " --set " + word;
@@ -382,9 +410,48 @@ std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>
   for (const std::vector<IndentRun>& of : runs)
     for (const IndentRun& run : of) result.simulated += run.simulated;
   add_price(study, standard, cells, result);
-  add_trade_off(study, result);
-  if (study.context.full) add_pushed(study, result);
+  if (study.context.full) {
+    add_trade_off(study, result);
+    add_pushed(study, result);
+  }
   return cells;
+}
+
+void add_energy_stop(const IndentStudy& study, Bench& bench) {
+  for (std::size_t i = 0; i < indentations().size(); ++i) {
+    const models::Setup setup = with_reversal(
+        indent_setup(study.context.models, indentations()[i], {}, study.context.set), Reversal::energy_stop);
+    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 1);
+    for (const bool press : {true, false})
+      bench.figure(fmt::format("energy_stop.rmse.{}.{}", indentations()[i].name, press ? "press" : "release"),
+                   cell_of(runs, Reading::recorded, press).rmse, "N",
+                   "the other law: its blend from one curve to the other takes 1.5 mm of travel");
+    for (const IndentRun& run : runs) bench.result.simulated += run.simulated;
+  }
+}
+
+void add_converged(const IndentStudy& study, BenchResult& result) {
+  constexpr std::size_t kHands = 3;
+  for (const Indentation& indentation : indentations()) {
+    const auto runs = [&](const Words& own) {
+      const std::vector<IndentRun> all = indent_runs(
+          indent_setup(study.context.models, indentation, own, study.context.set), study.seed, kHands);
+      for (const IndentRun& run : all) result.simulated += run.simulated;
+      return all;
+    };
+    const std::vector<IndentRun> ships = runs({}),
+                                 fine = runs({"truth.world.timestep_us=20", "truth.world.integrator=rk4"});
+    for (const bool press : {true, false}) {
+      const double is = cell_of(ships, Reading::truth, press).rmse,
+                   converged = cell_of(fine, Reading::truth, press).rmse;
+      result.figures.push_back(
+          {fmt::format("indentation.converged.{}.{}", indentation.name, press ? "press" : "release"), kUnset,
+           is / converged, "x", Role::ours, 0.95, 1.05,
+           fmt::format("true force against the curve, {:.4f} N rms at the step that ships, {:.4f} N at 20 us",
+                       is, converged)});
+    }
+  }
+  add_path_precision(study.context, result);
 }
 
 double sensor_lag(const models::Setup& setup) {
@@ -413,14 +480,14 @@ double predicted_rmse(const LagTheory& theory, double time) {
 }
 
 void add_press_time(const IndentStudy& study, BenchResult& result) {
-  add_sweep(study, result);
+  if (study.context.full) add_sweep(study, result);
   add_lag(study, result);
 }
 
 void add_directions(const IndentStudy& study, BenchResult& result) {
   const std::string path = study.context.models + "/directions/tennis_ball_any.toml";
   const std::vector<models::Direction> directions = models::load_directions(path);
-  std::vector<Misfit> all(study.context.quick ? 2 : pushes().size());
+  std::vector<Misfit> all(pushes().size());
   in_parallel(all.size(), [&](std::size_t i) { all[i] = misfit_of(study, pushes()[i], directions); });
   Table table{
       "indentation_directions",
@@ -431,8 +498,9 @@ void add_directions(const IndentStudy& study, BenchResult& result) {
       "measured."};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string id = fmt::format("indentation.directions.{}", pushes()[i].name);
-    result.figures.push_back({id + ".rmse", kUnset, all[i].rule, "N", Role::ours, kUnset, 0.25,
-                              "response mixed of A, B and C against the rig's own push there"});
+    result.figures.push_back(
+        {id + ".rmse", kUnset, all[i].rule, "N", Role::ours, kUnset, 0.9 * all[i].nearest,
+         "response mixed of A, B and C against the rig's own push there: closer than A"});
     result.figures.push_back({id + ".unmixed.rmse", kUnset, all[i].nearest, "N", Role::ours, kUnset, kUnset,
                               "A alone against the same push: what mixing is worth"});
     std::vector<std::string> row{pushes()[i].name};
@@ -446,7 +514,8 @@ void add_directions(const IndentStudy& study, BenchResult& result) {
 
 void add_minor_loops(const IndentStudy& study, BenchResult& result) {
   const ResponseSpec ball = models::load_response(study.context.models + "/responses/tennis_ball.toml");
-  const Response felt(ball, 0.0, Reversal::prandtl_ishlinskii);
+  const Response felt(
+      ball, 0.0, study.context.mutated("other_law") ? Reversal::energy_stop : Reversal::prandtl_ishlinskii);
   Plot plot{"indentation_minor_loops", "Turning at 2 and at 4 mm", "deflection (mm)", "force (N)"};
   for (const int turn : {2, 4}) {
     sim::BallPlant plant{};

@@ -14,9 +14,9 @@
 #include "benchmarks/indentation/indent_run.h"
 #include "benchmarks/kit/entry.h"
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/precision.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/control/stages/step_context.h"
+#include "models/setup/scene_file.h"
 #include "sim/truth/random.h"
 #include "trial/measure/press_measure.h"
 
@@ -41,14 +41,35 @@ class Recorder {
     sensor.add(recorded, -dot(glance.out.force_unfiltered, normal));
     filtered.add(recorded, -glance.out.force.xyz[2]);
     truth.add(deflection, force);
+    const double noise = sensor.force.back() - force;
+    noise_sum_ += noise;
+    noise_square_ += noise * noise;
     greatest = std::max(greatest, deflection);
     if (std::isnan(force_at_limit) && deflection >= object.limit - trial::near_limit(object.limit))
       force_at_limit = force;
     limit = object.limit;
   }
+  // N rms about the mean
+  [[nodiscard]] double noise() const {
+    const auto n = static_cast<double>(sensor.size());
+    return std::sqrt(std::max(0.0, noise_square_ / n - noise_sum_ * noise_sum_ / (n * n)));
+  }
   Branch sensor, filtered, truth;
   double greatest = 0.0, force_at_limit = kUnset, limit = kUnset;
+
+ private:
+  double noise_sum_ = 0.0, noise_square_ = 0.0;
 };
+
+// The bend of the force over a period of 8 Hz: a quarter of it is the amplitude of a tremor, and the slow
+// rise of a press has next to none.
+double tremor_of(const std::vector<double>& force, double dt) {
+  const auto half = static_cast<std::size_t>(std::lround(0.5 / 8.0 / dt));
+  std::vector<double> bend;
+  for (std::size_t i = 0; i + 2 * half < force.size(); ++i)
+    bend.push_back(0.25 * (force[i] - 2.0 * force[i + half] + force[i + 2 * half]));
+  return rms(bend);
+}
 
 // The plots of Figs 8 and 10 and of Table 2.
 
@@ -126,37 +147,102 @@ RunSpread spread_of(const std::vector<IndentRun>& runs, Reading reading) {
   return spread;
 }
 
-void add_cells(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
-  const std::vector<Cell> recorded = cells_of(runs, Reading::recorded);
-  const std::vector<Cell> sensor = cells_of(runs, Reading::sensor), truth = cells_of(runs, Reading::truth);
-  Table table{
+// Where the twin is: a mean of two runs and three deviations, over seeds 1 to 4. A, B and C differ by less.
+struct CellBounds {
+  Bounds rmse, mae, bias, sensor, truth;
+};
+constexpr CellBounds kPress{between(0.088, 0.109), between(0.078, 0.098), between(0.062, 0.092),
+                            between(0.13, 0.19), between(0.12, 0.18)};
+constexpr CellBounds kRelease{between(0.106, 0.125), between(0.080, 0.102), between(0.015, 0.052),
+                              between(0.155, 0.22), between(0.15, 0.22)};
+
+std::string with_span(const Cell& c) {
+  return fmt::format("{:.3f} ({:.3f}..{:.3f})", c.rmse, c.least, c.most);
+}
+
+Table cell_table() {
+  return {
       "indentation_table2",
-      "Error between felt and reference force (VHMR Table 2)",
-      {"indentation", "way", "paper RMSE (N)", "RMSE (N)", "paper MAE (N)", "mean |e| (N)", "|mean e| (N)",
-       "RMSE of the sensor's force (N)", "RMSE of the true force (N)"},
+      "Error between felt and reference force (VHMR Table 2), by three readings of the force",
+      {"indentation", "way", "paper RMSE (N)", "RMSE, filtered (N)", "RMSE, sensor (N)", "RMSE, true (N)",
+       "paper MAE (N)", "mean |e|, filtered (N)", "sensor (N)", "true (N)", "|mean e|, filtered (N)",
+       "sensor (N)", "true (N)"},
       {},
-      "MAE of the paper can be either mean. Its RMSE of A, release, is below its own MAE: nobody's target."};
+      "In brackets: least to greatest run. The paper can have used the filtered force or the sensor's, "
+      "and not the true one: its sensor sits behind the gripper. The RMSE does not tell which: the paper "
+      "names neither filter nor press time, and the sensor's comes down to it in presses of 18 s. Its MAE "
+      "can be either mean. Its RMSE of A, release, is below its own MAE: nobody's target."};
+}
+
+void add_cell(const PaperCell& paper, const std::array<Cell, 3>& read, Bench& bench) {
+  const auto& [recorded, sensor, truth] = read;
+  const CellBounds& here = paper.way == "press" ? kPress : kRelease;
+  const std::string where = paper.indentation + "." + paper.way;
+  const auto spread = [](const Cell& c) { return Value(c.rmse, c.least, c.most); };
+  bench.figure("rmse." + where, spread(recorded), "N",
+               {paper.rmse, paper.consistent ? Role::calibrated : Role::predicted}, here.rmse,
+               paper.consistent ? "one press time for all cells is calibrated"
+                                : "the paper's RMSE is below its MAE and cannot be right");
+  bench.figure("mae." + where, recorded.mae, "N", predicted(paper.mae), here.mae,
+               "the paper's MAE read as mean |e|");
+  bench.figure("bias." + where, recorded.bias, "N", predicted(paper.mae), here.bias,
+               "the paper's MAE read as |mean e|");
+  bench.figure("sensor.rmse." + where, spread(sensor), "N", here.sensor,
+               "the force sensor before the filter, at the recorded deflection");
+  bench.figure("truth.rmse." + where, spread(truth), "N", here.truth,
+               "true contact force at the true deflection");
+}
+
+void add_cells(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
+  const std::array<std::vector<Cell>, 3> read{
+      cells_of(runs, Reading::recorded), cells_of(runs, Reading::sensor), cells_of(runs, Reading::truth)};
+  const std::size_t shift = study.context.mutated("exchange_cells") ? 1 : 0;
+  Table table = cell_table();
   for (std::size_t i = 0; i < kCells; ++i) {
     const PaperCell& paper = study.paper[i];
-    const Cell& c = recorded[i];
-    const std::string where = paper.indentation + "." + paper.way;
-    const double printed = paper.consistent ? paper.rmse : kUnset;
-    bench.figure("rmse." + where, {c.rmse, c.least, c.most}, "N",
-                 {paper.rmse, paper.consistent ? Role::calibrated : Role::predicted},
-                 between(0.6 * printed, 1.6 * printed),
-                 paper.consistent ? "one press time for all cells is calibrated"
-                                  : "the paper's RMSE is below its MAE and cannot be right");
-    bench.figure("mae." + where, c.mae, "N", predicted(paper.mae), {}, "the paper's MAE read as mean |e|");
-    bench.figure("bias." + where, c.bias, "N", predicted(paper.mae), {}, "the paper's MAE read as |mean e|");
-    for (const auto& [name, cell, note] :
-         {std::tuple{"sensor", sensor[i], "the force sensor before the filter, at the recorded deflection"},
-          std::tuple{"truth", truth[i], "true contact force at the true deflection"}})
-      bench.figure(fmt::format("{}.rmse.{}", name, where), {cell.rmse, cell.least, cell.most}, "N", note);
+    const std::size_t at = (i + shift) % kCells;
+    const std::array<Cell, 3> here{read[0][at], read[1][at], read[2][at]};
+    add_cell(paper, here, bench);
     const auto n = [](double x) { return fixed(x, 4); };
-    table.add(paper.indentation, paper.way, n(paper.rmse), n(c.rmse), n(paper.mae), n(c.mae), n(c.bias),
-              n(sensor[i].rmse), n(truth[i].rmse));
+    table.add(paper.indentation, paper.way, n(paper.rmse), with_span(here[0]), with_span(here[1]),
+              with_span(here[2]), n(paper.mae), n(here[0].mae), n(here[1].mae), n(here[2].mae),
+              n(here[0].bias), n(here[1].bias), n(here[2].bias));
   }
   bench.result.tables.push_back(std::move(table));
+}
+
+// N, of press and release together
+double distance_to(const Response& curve, const std::vector<IndentRun>& runs) {
+  double square = 0.0, count = 0.0;
+  for (const IndentRun& run : runs)
+    for (const bool press : {true, false}) {
+      const Branch& branch = press ? run.recorded.press : run.recorded.release;
+      const auto n = static_cast<double>(branch.size());
+      square += n * std::pow(errors_of(branch, curve, press).rmse, 2);
+      count += n;
+    }
+  return std::sqrt(square / count);
+}
+
+// The forces of A, B and C lie nearer to their own curve than to the two others.
+void add_apart(const IndentStudy& study, const IndentRuns& runs, Bench& bench) {
+  std::vector<double> noise, tremor;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    double others = INFINITY;
+    for (std::size_t j = 0; j < study.curves.size(); ++j)
+      if (j != i) others = std::min(others, distance_to(study.curves[j], runs[i]));
+    bench.figure(fmt::format("apart.{}.ratio", indentations().at(i).name),
+                 distance_to(study.curves[i], runs[i]) / others, "", at_most(0.8),
+                 "recorded force: RMSE against its own curve over that against the nearest of the others");
+    for (const IndentRun& run : runs[i]) {
+      noise.push_back(run.noise);
+      tremor.push_back(run.tremor);
+    }
+  }
+  bench.figure("sensor.noise.rms", median_of(noise), "N", between(0.013, 0.017),
+               "force before the filter less true force, about its mean");
+  bench.figure("truth.tremor.rms", median_of(tremor), "N", between(0.009, 0.016),
+               "what the hand's tremor leaves in the true force");
 }
 
 // Spread of equal presses at equal deflection, group by group.
@@ -169,17 +255,18 @@ void add_repeatability(const std::vector<IndentRun>& a, std::size_t group, doubl
   std::vector<double> of_groups;
   for (std::size_t g = 0; (g + 1) * group <= a.size(); ++g)
     of_groups.push_back(of_group(g, Reading::recorded).most);
-  const auto usual = std::count_if(of_groups.begin(), of_groups.end(), [&](double x) { return x <= within; });
-  bench.figure("repeatability_N", median_of(of_groups), "N", predicted(within), {},
+  bench.figure("repeatability_N", median_of(of_groups), "N", predicted(within), between(0.05, 0.26),
                fmt::format("greatest difference of {} runs of A at equal deflection: median and span over {} "
                            "such groups; of the first at {:.2f} mm",
-                           group, a.size() / group, first.at * 1e3));
-  bench.figure("repeatability.within.percent",
-               100.0 * static_cast<double>(usual) / static_cast<double>(of_groups.size()), "%",
-               predicted(kUnset), at_least(25.0),
-               "of these groups, those whose runs lie within the paper's 0.2 N");
+                           group, of_groups.size(), first.at * 1e3));
   bench.figure("sensor.repeatability_N", sensor.most, "N",
                "the same of the force before the filter: tremor is in it");
+  if (!bench.context.full) return;
+  const auto usual = std::count_if(of_groups.begin(), of_groups.end(), [&](double x) { return x <= within; });
+  bench.figure("repeatability.within.percent",
+               100.0 * static_cast<double>(usual) / static_cast<double>(of_groups.size()), "%",
+               predicted(kUnset), at_least(50.0),
+               "of these groups, those whose runs lie within the paper's 0.2 N: the usual one does");
 }
 
 void add_peak(const std::vector<IndentRun>& a, Bench& bench) {
@@ -190,7 +277,7 @@ void add_peak(const std::vector<IndentRun>& a, Bench& bench) {
     peak.most = std::max(peak.most, run.force_at_limit);
   }
   bench.figure(
-      "peak_N", peak, "N", between(11, 13),
+      "peak_N", peak, "N", between(11.7, 12.05),
       "A: true force when the true deflection first comes within 0.05 mm of 6 mm; 12 +- 1 N in Fig 8");
 }
 
@@ -204,7 +291,7 @@ void add_overshoot(const IndentRuns& runs, Bench& bench) {
       presses += 1;
       bench.result.simulated += run.simulated;
     }
-  bench.figure("overshoot_mm", over * 1e3, "mm", at_most(0.05),
+  bench.figure("overshoot_mm", over * 1e3, "mm", at_most(0.02),
                "true deflection beyond the limit of 6 mm, the worst of all runs");
   bench.figure("contacts_per_press.ratio", static_cast<double>(contacts) / static_cast<double>(presses), "",
                exactly(1), "a press is one contact");
@@ -214,62 +301,16 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, Bench&
   const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
   const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
   const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
-  // Fig 10 shows one group of five runs, and their spread is largely chance (0.14 to 0.25 N). The paper's
-  // spread must be a usual one among ten such groups.
-  const std::size_t count = study.context.quick ? runs.front().size() : 10 * paper_runs;
-  const std::vector<IndentRun> a = indent_runs(
-      indent_setup(study.context.models, indentations().front(), {}, study.context.set), study.seed, count);
-  add_repeatability(a, std::min(paper_runs, a.size()), within, bench);
+  // Fig 10 shows one group of five runs, and their spread is largely chance.
+  const std::size_t count = study.context.full ? 10 * paper_runs : paper_runs;
+  HandSpread hand;
+  if (study.context.mutated("restless_hand")) hand.time *= 3.0;
+  const std::vector<IndentRun> a =
+      indent_runs(indent_setup(study.context.models, indentations().front(), {}, study.context.set),
+                  study.seed, count, hand);
+  add_repeatability(a, paper_runs, within, bench);
   add_peak(a, bench);
   add_overshoot(runs, bench);
-}
-
-// The set-up with another law between the two curves.
-models::Setup with_reversal(models::Setup setup, Reversal reversal) {
-  for (BehaviourSpec& behaviour : setup.scene.behaviours) behaviour.reversal = reversal;
-  return setup;
-}
-
-void add_energy_stop(const IndentStudy& study, Bench& bench) {
-  for (std::size_t i = 0; i < (study.context.quick ? 1 : indentations().size()); ++i) {
-    const models::Setup setup = with_reversal(
-        indent_setup(study.context.models, indentations()[i], {}, study.context.set), Reversal::energy_stop);
-    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 1);
-    for (const bool press : {true, false})
-      bench.figure(fmt::format("energy_stop.rmse.{}.{}", indentations()[i].name, press ? "press" : "release"),
-                   cell_of(runs, Reading::recorded, press).rmse, "N",
-                   "the other law: its blend from one curve to the other takes 1.5 mm of travel");
-    for (const IndentRun& run : runs) bench.result.simulated += run.simulated;
-  }
-}
-
-// Checks that the ball's force does not depend on the time step: equal hands at the shipped step and at a
-// converged one.
-
-// RMSE of the true force at the shipped step over that at a converged one.
-void add_converged(const IndentStudy& study, BenchResult& result) {
-  if (study.context.quick) return;
-  const std::size_t hands = 3, which = study.context.full ? indentations().size() : 1;
-  for (std::size_t i = 0; i < which; ++i) {
-    const Indentation& indentation = indentations().at(i);
-    const auto runs = [&](const Words& own) {
-      const std::vector<IndentRun> all = indent_runs(
-          indent_setup(study.context.models, indentation, own, study.context.set), study.seed, hands);
-      for (const IndentRun& run : all) result.simulated += run.simulated;
-      return all;
-    };
-    const std::vector<IndentRun> ships = runs({}),
-                                 fine = runs({"truth.world.timestep_us=20", "truth.world.integrator=rk4"});
-    for (const bool press : {true, false}) {
-      const double is = cell_of(ships, Reading::truth, press).rmse,
-                   converged = cell_of(fine, Reading::truth, press).rmse;
-      result.figures.push_back(
-          {fmt::format("indentation.converged.{}.{}", indentation.name, press ? "press" : "release"), kUnset,
-           is / converged, "x", Role::ours, 0.95, 1.05,
-           fmt::format("true force against the curve, {:.4f} N rms at the step that ships, {:.4f} N at 20 us",
-                       is, converged)});
-    }
-  }
 }
 
 // Fig 8, and the errors that remain of it.
@@ -356,42 +397,39 @@ void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard
   result.plots.push_back(std::move(plot));
 }
 
+// The polynomials that the test rig's presses A, B and C were fitted with, whatever the scene renders.
+std::vector<Response> rig_curves(const BenchContext& context) {
+  std::vector<Response> curves;
+  for (const char* name : {"tennis_ball", "tennis_ball_B", "tennis_ball_C"})
+    curves.emplace_back(models::load_response(fmt::format("{}/responses/{}.toml", context.models, name)),
+                        0.0);
+  if (context.mutated("exchange_curves")) std::rotate(curves.begin(), curves.begin() + 2, curves.end());
+  return curves;
+}
+
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;
-  const IndentStudy study{context, paper_cells(context.models), (context.seed - 1) * 1000 + 1,
-                          context.repeats > 0 ? static_cast<std::size_t>(context.repeats)
-                          : context.quick     ? std::size_t{2}
-                                              : std::size_t{10}};
-  const auto tell = [&](double done) {
-    if (context.progress) context.progress(done);
-  };
+  const IndentStudy study{context, paper_cells(context.models), rig_curves(context),
+                          (context.seed - 1) * 1000 + 1, context.count(context.full ? 20 : 5, 2)};
   const IndentRuns runs = study.all({}, study.runs);
-  tell(0.3);
+  bench.progress(0.3);
   add_cells(study, runs, bench);
+  add_apart(study, runs, bench);
   add_single_figures(study, runs, bench);
-  add_energy_stop(study, bench);
-  tell(0.4);
+  bench.progress(0.5);
   const std::vector<Cell> standard = cells_of(runs, Reading::recorded);
   add_table2_plot(study, standard, add_accuracy(study, standard, result), result);
-  tell(0.7);
   add_loops(runs, result);
   add_fig10(runs.front(), result);
+  bench.progress(0.7);
   add_press_time(study, result);
-  tell(0.9);
   add_directions(study, result);
   add_minor_loops(study, result);
-  add_converged(study, result);
-  if (!context.quick)
-    for (const char* law : {"prandtl_ishlinskii", "energy_stop"})
-      add_work_precision(
-          {fmt::format("indentation.{}", law),
-           "indentation",
-           {fmt::format("behaviour.tennis_ball_A.reversal={}", law), "user.press_s=2", "user.release_s=2",
-            "truth.hand.drift_mm=0"},  // compares the path of the machine alone
-           kUnset,
-           30e-6},
-          context, result);
+  if (context.full) {
+    add_energy_stop(study, bench);
+    add_converged(study, result);
+  }
   result.note =
       "Calibrated on Table 2: the press time of the hand, one for all cells. The hand's impedance, tremor "
       "and drift are those of the other scenes.";
@@ -454,6 +492,8 @@ IndentRun indent_run(const models::Setup& setup, std::uint64_t seed, const trial
   run.loop = recorder.filtered;
   run.greatest = recorder.greatest;
   run.force_at_limit = recorder.force_at_limit;
+  run.noise = recorder.noise();
+  run.tremor = tremor_of(recorder.truth.force, trial.scene().dt);
   run.simulated = result.simulated;
   run.contacts = result.contacts;
   return run;
@@ -484,9 +524,11 @@ const Words& still_hand() {
   return kStill;
 }
 
-std::vector<IndentRun> indent_runs(const models::Setup& setup, std::uint64_t first, std::size_t count) {
+std::vector<IndentRun> indent_runs(const models::Setup& setup, std::uint64_t first, std::size_t count,
+                                   const HandSpread& spread) {
   std::vector<IndentRun> runs(count);
-  in_parallel(count, [&](std::size_t i) { runs[i] = indent_run(varied(setup, first + i), first + i); });
+  in_parallel(count,
+              [&](std::size_t i) { runs[i] = indent_run(varied(setup, first + i, spread), first + i); });
   return runs;
 }
 
@@ -529,8 +571,11 @@ std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading) {
 
 IndentRuns IndentStudy::all(const Words& own, std::size_t count) const {
   IndentRuns every;
-  for (const Indentation& which : indentations())
-    every.push_back(indent_runs(indent_setup(context.models, which, own, context.set), seed, count));
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    every.push_back(
+        indent_runs(indent_setup(context.models, indentations().at(i), own, context.set), seed, count));
+    for (IndentRun& run : every.back()) run.reference = curves[i];
+  }
   return every;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/indentation/indent_run.h"
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/kit.h"
 
 namespace enc::bench::indentation {
 
@@ -32,8 +32,9 @@ using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation 
 struct IndentStudy {
   const BenchContext& context;
   std::vector<PaperCell> paper;
-  std::uint64_t seed;  // seed of the first run
-  std::size_t runs;    // of each indentation
+  std::vector<Response> curves;  // the rig's fit of A, B and C: the references
+  std::uint64_t seed;            // seed of the first run
+  std::size_t runs;              // of each indentation
   [[nodiscard]] IndentRuns all(const Words& own, std::size_t count) const;
 };
 
@@ -49,6 +50,11 @@ struct LagTheory {
 // The paper does not give the press time: RMSE over it. Also checks whether halving it has the effect that
 // lag x speed x slope predicts.
 void add_press_time(const IndentStudy& study, BenchResult& result);
+// The error of the other law between the two curves.
+void add_energy_stop(const IndentStudy& study, Bench& bench);
+// Neither force nor path depends on the time step: ratio of the true force's error at the shipped time step
+// to that at a converged one.
+void add_converged(const IndentStudy& study, BenchResult& result);
 // A set of devices that follows the curves more closely, and its cost. Returns its six cells.
 [[nodiscard]] std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                              BenchResult& result);
