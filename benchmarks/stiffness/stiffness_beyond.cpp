@@ -43,8 +43,11 @@ std::vector<Cell> cells_of(const BenchContext& context) {
       for (const Hand& hand : kHands)
         for (const double filter : {2.0, 5.0, 30.0})
           for (const double servo : {15.0, 60.0}) cells.push_back({hand, filter, servo, limited, ramp});
-  if (context.quick) cells = {cells[12], cells[42], cells[72]};
-  return cells;
+  if (context.full) return cells;
+  std::vector<Cell> some;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (context.quick ? i == 12 || i == 42 || i == 72 : i % 11 == 1) some.push_back(cells[i]);
+  return some;
 }
 
 models::Setup setup_of(const BenchContext& context, const Cell& cell) {
@@ -80,6 +83,7 @@ void judge(const BenchContext& context, Cell& cell) {
   cell.still = loop.still();
   cell.said = loop.softest(kDepth, kForce, cell.ramp);
   cell.least = cell.said < kWithin * loop.least_felt(kDepth);
+  if (context.mutated("softer")) cell.said /= kWithin;
   cell.there = widest(context, with_stiffness(setup, cell.said));
   cell.softer = widest(context, with_stiffness(setup, cell.said / kWithin));
 }
@@ -114,8 +118,11 @@ struct BeyondExtent {
   Words hold;
 };
 BeyondExtent beyond_extent(const BenchContext& context) {
-  BeyondExtent e{{10, 20, 30, 100, 1000, 10000, 100000}, {1, 2, 3}, 3, {"pusher.hold_s=12"}};
-  if (context.quick) e = {{10, 1000}, {2}, 1, {"pusher.hold_s=6"}};
+  BeyondExtent e{{10, 20, 30, 100, 1000, 10000, 100000},
+                 {1, 2, 3},
+                 context.full ? std::size_t{3} : 1,
+                 {"pusher.hold_s=12"}};
+  if (context.quick) e.hold = {"pusher.hold_s=6"};
   if (context.repeats > 0) e.pushes = static_cast<std::size_t>(context.repeats);
   return e;
 }
