@@ -45,6 +45,8 @@ TEST(VisHapLaboratory, EachDeviceAlone) {
   const tests::Result hand = there.run({"arm", "camera"}, {"--for-s", "1"});
   EXPECT_THAT(hand.out, ContainsRegex("\nlog .*answered: [1-9][0-9]* hands, "));
   const tests::Result arm = there.run({"camera", "hand_tracker"}, kArmed);
+  EXPECT_THAT(there.run({"camera", "hand_tracker"}, {"--armed", "--lockstep"}).err,
+              HasSubstr("its time goes on by itself; leave out --lockstep"));
   EXPECT_EQ(arm.code, 2);
   EXPECT_THAT(arm.err, AllOf(HasSubstr("works within the haptic loop"), HasSubstr("not armed for it")));
 }

@@ -53,6 +53,7 @@ TEST(VisHapLockstep, WhatDoesNotFitIsOneLine) {
   const tests::Result run = there.run({}, kLockstep);
   EXPECT_EQ(run.code, 3) << run.out;
   EXPECT_THAT(run.err, HasSubstr("no fake camera listens there"));
+  EXPECT_THAT(there.run({"camera", "hand_tracker"}, {}).err, HasSubstr("begin the fake without --lockstep"));
 }
 
 }  // namespace
