@@ -189,11 +189,26 @@ SessionSample sample_of(const trial::Glance& glance) {
           glance.out.view.tool};
 }
 
-SessionRun run_once(const models::Setup& setup, std::uint64_t seed, std::vector<SessionSample>* drawn) {
+// A mutant (mutants.cpp): the contact force pulls, the hand touches with the other tool, and a set-point in a
+// hundred is 1 mm off.
+void see_changed(const trial::Glance& glance, SessionMeasure& measure) {
+  sim::Truth truth = glance.truth;
+  Outputs out = glance.out;
+  truth.contact_force = -1.0 * truth.contact_force;
+  if (truth.touching && truth.tool >= 0) truth.tool = 1 - truth.tool;
+  if (glance.tick.index % 100 == 0)
+    out.manipulator.tip = out.manipulator.tip * Pose<'H', 'H'>::shift(1e-3, 0, 0);
+  measure.see(
+      {glance.scene, glance.tick, truth, glance.in, out, glance.simulated, glance.state, glance.gate});
+}
+
+SessionRun run_once(const BenchContext& context, const models::Setup& setup, std::uint64_t seed,
+                    std::vector<SessionSample>* drawn) {
+  const bool changed = context.mutated("changed_truth");
   SessionMeasure measure(setup);
   trial::TrialOptions options{.seed = seed};
   options.watch = [&](const trial::Glance& glance) {
-    measure.see(glance);
+    changed ? see_changed(glance, measure) : measure.see(glance);
     if (drawn != nullptr) drawn->push_back(sample_of(glance));
   };
   SessionRun run;
@@ -238,8 +253,9 @@ class Figures {
 };
 
 // Seeds 1 to 80 had 3 presses of two contacts in 1,823, one of them by a fault (docs/notes/session.md). So
-// their mean in 20 hands is at most 1.9 (95 %), and at most 6 of 462 presses have two (99 %).
-constexpr double kLeastSingle = 98.7;  // %
+// their mean in 20 hands is at most 1.9 (95 %), and at most 6 of 462 presses have two (99 %). Of the 90
+// presses of four hands at most 3 have two.
+constexpr double kLeastSingle = 96.0, kLeastSingleOf20 = 98.7;  // %
 
 void Figures::add_counts() {
   std::int64_t presses = 0, single = 0, none = 0, aborted = 0, in_aborted = 0, bounces = 0, longest = 0,
@@ -259,7 +275,7 @@ void Figures::add_counts() {
   });
   add("presses.one_contact_percent",
       presses > 0 ? 100.0 * static_cast<double>(single) / static_cast<double>(presses) : kUnset, "%",
-      kLeastSingle, 100,
+      runs_.size() < 20 ? kLeastSingle : kLeastSingleOf20, 100,
       fmt::format("{} presses of {} hands; {} without a contact", presses, runs_.size(), none));
   add("aborted.contacts", static_cast<double>(in_aborted), "", 0, 0,
       fmt::format("in {} reaches that turn back before the touch", aborted));
@@ -366,11 +382,13 @@ void add_precision(const BenchContext& context, BenchResult& result) {
 void add_training(Bench& bench, const std::vector<SessionRun>& session) {
   if (!bench.context.set.empty()) return;  // the settings address the session's own objects
   std::vector<std::string> set;
-  if (bench.context.quick) set = {"user.session.duration_s=20"};
+  if (!bench.context.full) set = {"user.session.duration_s=20"};
+  if (bench.context.mutated("left_at_once"))
+    set.insert(set.end(), {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01"});
   const models::Setup setup = load_scene(bench.context, "training", set);
   const std::vector<SessionRun> training =
-      bench.each(bench.seeds(bench.context.count(5, 1)),
-                 [&](std::uint64_t seed) { return run_once(setup, seed, nullptr); });
+      bench.each(bench.seeds(bench.context.full ? 5 : 1),
+                 [&](std::uint64_t seed) { return run_once(bench.context, setup, seed, nullptr); });
   Table table{"training",
               "Presses of a session, and among hard objects beside a soft one",
               {"scene", "hands", "presses", "one contact, %", "impact median, N", "95 %, N", "most, N",
@@ -410,11 +428,12 @@ void run(Bench& bench) {
   if (context.quick) set = {"user.session.duration_s=10", "user.session.change_share=[0.1, 0.2]"};
   set.insert(set.end(), context.set.begin(), context.set.end());
   const models::Setup setup = models::load(context.models + "/scenes/session.toml", "sim", set);
-  const std::size_t hands = context.count(20, 2);
+  const std::size_t hands = context.count(context.full ? 20 : 4, 2);
   std::vector<SessionRun> runs(hands);
   std::vector<SessionSample> drawn;
   in_parallel(
-      hands, [&](std::size_t i) { runs[i] = run_once(setup, context.seed + i, i == 0 ? &drawn : nullptr); },
+      hands,
+      [&](std::size_t i) { runs[i] = run_once(context, setup, context.seed + i, i == 0 ? &drawn : nullptr); },
       context.progress);
   for (const SessionRun& run : runs) result.simulated += run.simulated;
   Figures figures(runs, result);
@@ -424,7 +443,7 @@ void run(Bench& bench) {
   figures.add_change();
   add_session_plots(runs, drawn, result);
   add_training(bench, runs);
-  if (!context.quick) add_precision(context, result);
+  if (context.full) add_precision(context, result);
 }
 
 const Entry kEntry{
