@@ -212,6 +212,8 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   command->add_flag("--partial", options.partial, "export the complete part of a cut-off record");
   command->add_flag("--ledger", options.ledger,
                     "write the energy balance of each contact instead of the ticks");
+  command->add_flag("--truth", options.truth,
+                    "table only: run the twin again and add columns with its ground truth");
   force_option(command, options.force);
   return command;
 }

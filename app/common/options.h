@@ -66,7 +66,8 @@ struct ExportOptions {
   std::string rig;               // scene only; empty: its own
   std::vector<std::string> set;  // scene only, "name=value"
   bool partial = false, force = false;
-  bool ledger = false;  // record only: export its energy balance instead of its ticks
+  bool ledger = false;                      // record only: export its energy balance instead of its ticks
+  bool truth = false;                       // table only: with the twin's ground truth
 };
 struct ParamsOptions : SceneOptions {
   bool json = false;

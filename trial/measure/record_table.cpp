@@ -26,20 +26,6 @@ void add(std::string& row, double x) {
 
 void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 
-// Pressing force on the object, N. A probe's force is that measured in this tick, unfiltered. A contact's
-// force is the filtered one that the object answers to.
-double pressing(const Scene& scene, const Outputs& out) {
-  if (scene.indentation() != nullptr)
-    return dot(out.force_unfiltered, scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
-  return -out.force.xyz[2];
-}
-
-// Number of the push or contact in a row; 0: neither.
-std::int32_t repeat(const Outputs& out) {
-  const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
-  return pressed ? out.contacts : 0;
-}
-
 std::string as_cell(std::string text) {
   std::erase_if(text, [](char c) { return c == ',' || c == '"' || c == '\n'; });
   return text;
@@ -61,6 +47,17 @@ std::string source_of(const models::Setup& setup) {
 }
 
 }  // namespace
+
+double pressing_force(const Scene& scene, const Outputs& out) {
+  if (scene.indentation() != nullptr)
+    return dot(out.force_unfiltered, scene.indentation()->X_WN * Vec<'N'>(0, 0, 1));
+  return -out.force.xyz[2];
+}
+
+std::int32_t contact_number(const Outputs& out) {
+  const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
+  return pressed ? out.contacts : 0;
+}
 
 RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
     : scene_(scene), family_(family_of(scene)), source_(source_of(setup)) {
@@ -91,7 +88,7 @@ void RecordTable::add_markers(std::string& row, const TrackedTool& tool) const {
 std::string_view RecordTable::header() {
   return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
          "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
-         "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s\n";
+         "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s,gap_mm\n";
 }
 
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
@@ -100,8 +97,8 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   for (const double x : tip.xyz) add(row, kMmPerM * x);
   for (const double x : out.force_unfiltered.xyz) add(row, x);
   add(row, kMmPerM * out.deflection);
-  add(row, pressing(scene_, out));
-  const std::int32_t number = repeat(out);
+  add(row, pressing_force(scene_, out));
+  const std::int32_t number = contact_number(out);
   row += fmt::format(",{}", number);
   const bool seen = news(in.tool);
   seen ? add_tip(row, in.tool) : add_empty(row, 4);
@@ -109,7 +106,23 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   seen ? add_markers(row, in.tool.value) : add_empty(row, 8);
   add(row, family_.tip_stamp(in));
   add(row, stamp_of(in.wrench));
+  add(row, kMmPerM * out.gap);
   return row + '\n';
+}
+
+std::string_view RecordTable::truth_header() {
+  return ",true_tool_x_mm,true_tool_y_mm,true_tool_z_mm,true_tip_x_mm,true_tip_y_mm,true_tip_z_mm,"
+         "true_force_x_N,true_force_y_N,true_force_z_N,true_hand_x_N,true_hand_y_N,true_hand_z_N,"
+         "true_touching,true_press";
+}
+
+std::string RecordTable::truth_cells(const sim::Truth& truth) {
+  std::string cells;
+  for (const double x : truth.tool_tip.xyz) add(cells, kMmPerM * x);
+  for (const double x : truth.tip.xyz) add(cells, kMmPerM * x);
+  for (const double x : truth.contact_force.xyz) add(cells, x);
+  for (const double x : truth.hand_force.xyz) add(cells, x);
+  return cells + fmt::format(",{:d},{}", truth.touching, truth.press);
 }
 
 std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {

@@ -2,14 +2,22 @@
 // (docs/guide/rig.md).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/record/record.h"
+#include "sim/truth/truth.h"
 #include "trial/family.h"
 
 namespace enc::trial {
+
+// Pressing force on the object, N. A probe's force is that measured in this tick, unfiltered. A contact's
+// force is the filtered one that the object answers to.
+[[nodiscard]] double pressing_force(const Scene& scene, const Outputs& out);
+// Number of the push or contact in a tick; 0: neither.
+[[nodiscard]] std::int32_t contact_number(const Outputs& out);
 
 class RecordTable {
  public:
@@ -19,6 +27,10 @@ class RecordTable {
   // number is empty.
   [[nodiscard]] static std::string_view header();
   [[nodiscard]] std::string row(const Tick& tick, const Inputs& in, const Outputs& out);  // in order
+
+  // Further columns with the twin's ground truth: text to append to the header and to a row.
+  [[nodiscard]] static std::string_view truth_header();
+  [[nodiscard]] static std::string truth_cells(const sim::Truth& truth);
 
  private:
   // True if the tracker has a new pose since the last row.

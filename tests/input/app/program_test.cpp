@@ -339,6 +339,7 @@ TEST(Export, McapIsAFileOfItsOwn) {
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--csv", "-"}), HasSubstr("--csv: only of a table"));
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--ledger"}), HasSubstr("--ledger: only of a table"));
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--rig", "sim"}), HasSubstr("--rig: only of a scene"));
+  EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--truth"}), HasSubstr("--truth: only of a table"));
   EXPECT_THAT(line({"export", kWall, folder.file("w.xml"), "--mcap", mcap}),
               HasSubstr("--mcap: only of a record"));
   EXPECT_THAT(line({"export", kWall, "--mcap", mcap}), HasSubstr("wall.toml: is a scene"));

@@ -87,7 +87,7 @@ std::vector<Row> rows_of(const std::string& csv) {
       text,
       "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
       "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
-      "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s");
+      "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s,gap_mm");
   while (std::getline(in, text)) {
     Row row;
     std::istringstream cells(text);

@@ -1,5 +1,8 @@
 // Exports a record as a table or as MCAP, for other programs (docs/guide/rig.md). It works tick by tick, so a
 // long record is never in memory as a whole.
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -13,6 +16,7 @@
 #include "app/common/options.h"
 #include "app/common/words.h"
 #include "app/process.h"
+#include "app/view/recorded/source.h"
 #include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
@@ -66,10 +70,13 @@ void refuse_others(const ExportOptions& options) {
           options.record +
           ": is a scene, and nothing says where its world shall go; expected a record, or a scene and "
           "a file; name one, such as world.xml");
+    refuse(options.truth && options.ledger, "--truth", "the table of ticks",
+           "one of them, because the ledger is ground truth already");
     if (options.mcap.empty()) return;
     constexpr const char* kAlone = "one of them at a time";
     refuse(!options.csv.empty(), "--csv", "a table, and --mcap is given", kAlone);
     refuse(options.ledger, "--ledger", "a table, and --mcap is given, which has the ledger, too", kAlone);
+    refuse(options.truth, "--truth", "a table, and --mcap is given", kAlone);
     if (options.mcap == "-")
       throw Error(
           "--mcap -: MCAP is not written to standard output; expected a file; name one, such as r.mcap");
@@ -80,6 +87,7 @@ void refuse_others(const ExportOptions& options) {
   refuse(!options.mcap.empty(), "--mcap", "a record that is written as MCAP", kInstead);
   refuse(options.partial, "--partial", "a record that is written as a table", kInstead);
   refuse(options.ledger, "--ledger", "a record: a scene has no ledger before it has run", kInstead);
+  refuse(options.truth, "--truth", "a record that is written as a table", kInstead);
   if (options.xml == "-")
     throw Error("-: a world is not written to standard output; expected a file; name one, such as world.xml");
   if (is_record(options.record))
@@ -155,6 +163,52 @@ bool write_table(const ExportOptions& options, const std::string& csv, bool stop
   return true;
 }
 
+template <std::size_t N>
+bool same_bits(const std::array<double, N>& a, const std::array<double, N>& b) {
+  using Bits = std::array<std::uint64_t, N>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+// True if the twin's machine and sensor reported the recorded bits at the recorded time: its truth is then
+// that of the run.
+bool repeats(const trial::Trial& twin, const RecordedTick& frame) {
+  const Inputs &now = twin.inputs(), &then = frame.in;
+  return twin.now().t == frame.tick.t && twin.result().hash == frame.hash &&
+         same_bits(now.tip.value.X_RH.xyz, then.tip.value.X_RH.xyz) &&
+         same_bits(now.wrench.value.force.xyz, then.wrench.value.force.xyz) &&
+         same_bits(now.arm.value.joints, then.arm.value.joints);
+}
+
+bool write_truth(const ExportOptions& options, const std::string& csv, bool stoppable) {
+  Playback twin(options.record);
+  constexpr const char* kRemedy = "leave out --truth";
+  if (!twin.simulated())
+    throw Error(
+        fmt::format("{}: has no ground truth: a device was real, or the record does not say how its hand was "
+                    "steered; expected a whole record of the twin; {}",
+                    options.record, kRemedy));
+  Output output(csv, models::existing(options.force));
+  trial::RecordTable table(twin.setup(), twin.trial().scene());
+  std::string row(trial::RecordTable::header());
+  row.insert(row.size() - 1, trial::RecordTable::truth_header());
+  output.write(row);
+  const auto see = [&](const trial::Glance& glance) {
+    row = table.row(glance.tick, glance.in, glance.out);
+    row.insert(row.size() - 1, trial::RecordTable::truth_cells(glance.truth));
+  };
+  while (twin.next(see)) {
+    if (stoppable && trial::Signals::caught() != 0) return false;
+    if (!repeats(twin.trial(), twin.frame()))
+      throw Error(fmt::format(
+          "{}: the twin does not repeat the run from tick {} on; expected a record of this version "
+          "that was not made on the wall clock; {}",
+          options.record, twin.frame().tick.index, kRemedy));
+    output.write(row);
+  }
+  output.end();
+  return true;
+}
+
 }  // namespace
 
 int export_record(const ExportOptions& options) {
@@ -177,8 +231,9 @@ int export_record(const ExportOptions& options) {
     output.end();
     if (!record.damage().empty()) lack = record.damage() + "; the ledger is as it was read";
   } else {
-    const bool whole = mcap ? write_mcap(options, record, setup, scene)
-                            : write_table(options, csv, signals.has_value(), record, setup, scene);
+    const bool whole = mcap            ? write_mcap(options, record, setup, scene)
+                       : options.truth ? write_truth(options, csv, signals.has_value())
+                                       : write_table(options, csv, signals.has_value(), record, setup, scene);
     if (!whole) return 128 + trial::Signals::caught();
     lack = lack_of(record, mcap ? "file" : "table");
   }
