@@ -218,6 +218,19 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   return command;
 }
 
+CLI::App* add_plot(CLI::App& app, PlotOptions& options) {
+  CLI::App* command = add_command(
+      app, "plot", "Draw force, deflection, gap and modes of a record, and force over deflection (SVG).",
+      "plot press.encrec press.svg");
+  command->add_option("record", options.record, "file written by run --record")->required();
+  command->add_option("svg", options.svg, "SVG file to write; -: standard output")
+      ->required()
+      ->check(unnamed);
+  command->add_flag("--partial", options.partial, "draw the complete part of a cut-off record");
+  force_option(command, options.force);
+  return command;
+}
+
 CLI::App* add_params(CLI::App& app, ParamsOptions& options) {
   CLI::App* command =
       add_command(app, "params", "List every name that --set takes: unit, value, source, confidence (CSV).",
@@ -351,6 +364,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   add(app, add_devices, devices, code);
   add(app, add_replay, replay, code);
   add(app, add_export, export_record, code);
+  add(app, add_plot, plot, code);
   add(app, add_view, view, code);
   add(app, add_tour, tour, code);
   add(app, add_params, params, code);

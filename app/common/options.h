@@ -69,6 +69,11 @@ struct ExportOptions {
   bool ledger = false;                      // record only: export its energy balance instead of its ticks
   bool truth = false;                       // table only: with the twin's ground truth
 };
+struct PlotOptions {
+  std::string record;
+  std::string svg;  // file; "-": standard output
+  bool partial = false, force = false;
+};
 struct ParamsOptions : SceneOptions {
   bool json = false;
 };
@@ -93,6 +98,7 @@ int fake(const LaboratoryOptions& options);
 int devices(const LaboratoryOptions& options);
 int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);
+int plot(const PlotOptions& options);
 int params(const ParamsOptions& options);
 int doctor();
 int scenes();

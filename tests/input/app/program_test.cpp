@@ -371,6 +371,25 @@ TEST(Export, McapReplacesNothingUnasked) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// `plot` draws each record, and refuses in one line.
+TEST(Plot, DrawsARecord) {
+  const test::TemporaryFolder folder;
+  const std::string svg = folder.file("p.svg");
+  const Result drawn = run_program({"plot", kRecord, svg});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out + drawn.err, "");
+  const std::string picture = test::bytes_of(svg);
+  EXPECT_THAT(picture,
+              AllOf(StartsWith("<svg "), HasSubstr(">force, N</text>"), HasSubstr(">deflection, mm</text>"),
+                    HasSubstr(">gap, mm</text>"), HasSubstr(">contact</text>"), HasSubstr("</svg>\n")));
+  EXPECT_THAT(picture, Not(HasSubstr("nan")));
+  EXPECT_EQ(run_program({"plot", kRecord, "-"}).out, picture);
+  EXPECT_THAT(line({"plot", kRecord, svg}), HasSubstr("is there already"));
+  EXPECT_THAT(line({"plot", kRecord, kRecord, "--force"}), HasSubstr("is read by this command"));
+  EXPECT_THAT(line({"plot", kWall, folder.file("w.svg")}), HasSubstr("not a record"));
+  EXPECT_EQ(run_program({"plot", kRecord}).code, 2);
+}
+
 // The program reports missing parts where people look: in the terminal, as for a table, and in the file.
 TEST(Export, McapSaysWhatOfItsRecordIsMissing) {
   const test::TemporaryFolder folder;
