@@ -194,9 +194,14 @@ setup_pyopenhaptics() {
   setup_judge pyopenhaptics pyOpenHaptics==1.0.1 13975e926723dd54b5def5038e29f0b23ca9b4b6d5f7b22962d70c55178c14ef "10 kB" pass
 }
 
-# mcap is the reader of MCAP files of those who made the format. It needs lz4 and zstandard only for chunks that are compressed.
+# mcap is the reader of MCAP files of those who made the format. It takes Debian's zstandard for chunks that are compressed.
 setup_mcap() {
   setup_judge mcap mcap==1.6.0 7cd37fba2cf51d033f2139ca837d2ed3024dcec3cd9f8ecdf3d4d15930df6e17 "20 kB" "import mcap.reader"
+}
+
+# mcap-ros2-support reads messages of ROS 2 in these files; it imports mcap.
+setup_mcap_ros2() {
+  setup_judge mcap_ros2 mcap-ros2-support==0.6.0 0b5f86c88432a1370b6c8f0e8a26d1403dc02495d751052e3dd9f9a0679645ef "20 kB" pass
 }
 
 # pymodbus is a client and a server of Modbus TCP.

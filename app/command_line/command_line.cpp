@@ -205,8 +205,13 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->check(unnamed);
   command->add_option("--csv", options.csv, "CSV file to write (record only); default: -, standard output")
       ->check(unnamed);
-  command->add_option("--mcap", options.mcap, "MCAP file to write, for Foxglove (record only)")
-      ->check(unnamed);
+  CLI::Option* mcap =
+      command->add_option("--mcap", options.mcap, "MCAP file to write, for Foxglove (record only)")
+          ->check(unnamed);
+  command
+      ->add_flag("--ros2", options.ros2, "messages of ROS 2, for ros2 bag and PlotJuggler, instead of JSON")
+      ->needs(mcap);
+  command->add_flag("--uncompressed", options.uncompressed, "no zstd, for readers without it")->needs(mcap);
   command->add_option("--rig", options.rig, "rig, as for run (scene only)")->check(unnamed);
   command->add_option("--set", options.set, "override, as for run (scene only)");
   command->add_flag("--partial", options.partial, "export the complete part of a cut-off record");

@@ -68,6 +68,7 @@ struct ExportOptions {
   bool partial = false, force = false;
   bool ledger = false;                      // record only: export its energy balance instead of its ticks
   bool truth = false;                       // table only: with the twin's ground truth
+  bool ros2 = false, uncompressed = false;  // MCAP only
 };
 struct PlotOptions {
   std::string record;

@@ -141,8 +141,13 @@ bool take_all(RecordReader& record, bool stoppable, const Take& take) {
 bool write_mcap(const ExportOptions& options, RecordReader& record, const models::Setup& setup,
                 const Scene& scene) {
   models::OutFile out(options.mcap, models::existing(options.force));
-  trial::McapWriter file([&](std::string_view bytes) { out.write(bytes); }, trial::program_words());
-  trial::RecordMcap mcap(file, setup, scene, record.texts());
+  using trial::ChunkCompression, trial::McapMessages;
+  trial::McapWriter file(
+      [&](std::string_view bytes) { out.write(bytes); }, trial::program_words(),
+      {.compression = options.uncompressed ? ChunkCompression::none : ChunkCompression::zstd,
+       .profile = options.ros2 ? "ros2" : ""});
+  trial::RecordMcap mcap(file, setup, scene, record.texts(),
+                         options.ros2 ? McapMessages::ros2 : McapMessages::json);
   if (!take_all(record, true, [&](const RecordedTick& frame) { mcap.add(frame); })) return false;
   const std::string lack = lack_of(record, "file");
   mcap.end(record.end_texts(), lack.empty() ? "whole" : lack);

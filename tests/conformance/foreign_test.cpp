@@ -168,6 +168,8 @@ TEST(NetftForeign, PynetftDrivesTheFake) {
 
 const std::string kMcap = tests::source_dir() + "/.deps/mcap";
 const std::string kMcapScript = tests::source_dir() + "/tests/conformance/foreign/mcap_reader.py";
+const std::string kRos2 = tests::source_dir() + "/.deps/mcap_ros2";
+const std::string kRos2Script = tests::source_dir() + "/tests/conformance/foreign/mcap_ros2_reader.py";
 const std::string kPress = tests::source_dir() + "/tests/data/press.encrec";
 const std::string kArmPress = tests::source_dir() + "/tests/data/arm_press.encrec";
 
@@ -177,8 +179,10 @@ class McapForeign : public testing::Test {
     if (!std::filesystem::exists(kMcap)) GTEST_SKIP() << "no " << kMcap << ": ./check fetches it";
   }
   [[nodiscard]] std::string file() const { return folder_.file("r.mcap"); }
-  void written(const std::string& record) const {
-    const tests::Result r = tests::run_program({"export", record, "--mcap", file()});
+  void written(const std::string& record, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"export", record, "--mcap", file()};
+    words.insert(words.end(), more.begin(), more.end());
+    const tests::Result r = tests::run_program(words);
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.out + r.err, "");
   }
@@ -216,7 +220,7 @@ TEST_F(McapForeign, ItsReaderFindsEachTickOfAPress) {
 // An arm pushes and carries no pose: other channels, the joints with their own names.
 TEST_F(McapForeign, ItsReaderFindsEachTickOfAnArm) {
   const std::int64_t ticks = RecordReader(kArmPress).ticks();
-  written(kArmPress);
+  written(kArmPress, {"--uncompressed"});
   const tests::Result said = judged();
   ASSERT_EQ(said.code, 0) << said.out << said.err;
   EXPECT_THAT(said.out, AllOf(HasSubstr(of_each_tick("/arm", ticks, "encounter.Arm")),
@@ -232,8 +236,11 @@ TEST_F(McapForeign, ItsReaderFindsTheChunksOfALongRun) {
       tests::run_program({"run", tests::shipped_scene("tracking"), "--for-s", "5", "--record", record});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::int64_t ticks = RecordReader(record).ticks();
-  written(record);
-  EXPECT_GT(std::filesystem::file_size(file()), 3U << 20U);
+  written(record, {"--uncompressed"});
+  const std::uintmax_t plain = std::filesystem::file_size(file());
+  EXPECT_GT(plain, 3U << 20U);
+  written(record, {"--force"});
+  EXPECT_LT(4 * std::filesystem::file_size(file()), plain);
   const tests::Result said = judged();
   ASSERT_EQ(said.code, 0) << said.out << said.err;
   EXPECT_THAT(said.out, AllOf(HasSubstr(of_each_tick("/core", ticks, "encounter.Core")),
@@ -244,13 +251,37 @@ TEST_F(McapForeign, ItsReaderFindsTheChunksOfALongRun) {
 
 // The judge must be able to fail: one byte of a message differs.
 TEST_F(McapForeign, ItsReaderRefusesAChangedByte) {
-  written(kPress);
+  written(kPress, {"--uncompressed"});
   std::string bytes = bytes_of(file());
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   std::ofstream(file(), std::ios::binary) << bytes;
   const tests::Result said = judged();
   EXPECT_NE(said.code, 0);
   EXPECT_THAT(said.err, HasSubstr("crc validation failed"));
+}
+
+// The reader of ROS 2 messages finds in them what the JSON messages say, on both machines and with a gripper.
+TEST_F(McapForeign, Ros2MessagesSayWhatJsonSays) {
+  if (!std::filesystem::exists(kRos2)) GTEST_SKIP() << "no " << kRos2 << ": ./check fetches it";
+  const std::string carried = folder_.file("carried.encrec"), ros2 = folder_.file("ros2.mcap");
+  ASSERT_EQ(
+      tests::run_program({"run", tests::shipped_scene("tracking"), "--for-s", "1", "--record", carried}).code,
+      0);
+  const auto compared = [&](const std::string& record) {
+    written(record, {"--force"});
+    EXPECT_EQ(tests::run_program({"export", record, "--mcap", ros2, "--ros2", "--force"}).code, 0);
+    const tests::Result said =
+        tests::run({"/usr/bin/python3", "-B", kRos2Script, kMcap, kRos2, file(), ros2});
+    EXPECT_EQ(said.code, 0) << said.out << said.err;
+    return said.out;
+  };
+  EXPECT_THAT(compared(kPress), AllOf(HasSubstr("/tf_static 1 tf2_msgs/msg/TFMessage\n"),
+                                      HasSubstr(of_each_tick("/wrench", RecordReader(kPress).ticks(),
+                                                             "geometry_msgs/msg/WrenchStamped")),
+                                      HasSubstr(" geometry_msgs/msg/PoseStamped\n"), HasSubstr("/surface ")));
+  EXPECT_THAT(compared(kArmPress),
+              HasSubstr(of_each_tick("/arm", RecordReader(kArmPress).ticks(), "encounter_msgs/msg/Arm")));
+  EXPECT_THAT(compared(carried), HasSubstr(" encounter_msgs/msg/Gripper\n"));
 }
 
 }  // namespace

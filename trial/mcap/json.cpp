@@ -50,6 +50,11 @@ void JsonMessage::text(std::string_view name, std::string_view /*about*/, std::s
   add_quoted(out_, x);
 }
 
+void JsonMessage::text_if(std::string_view name, std::string_view about,
+                          const std::optional<std::string_view>& x) {
+  if (x) text(name, about, *x);
+}
+
 void JsonSchema::add(std::string_view name, std::string_view about, std::string_view type, bool required) {
   const auto add_name = [&](std::string& to) {
     if (!to.empty()) to += ',';

@@ -1,6 +1,5 @@
-// The fields of a message, named once: one visitor writes them as JSON, another one their JSON Schema, as
-// core/base/fields.h does for a record. An unknown number is left out. It is not null: a schema could allow
-// null only with a list of types, which viewers such as Foxglove refuse.
+// The fields of a message, named once: one visitor writes them as JSON, another one their JSON Schema. An
+// unknown number is left out: a schema could allow null only with a list of types, which Foxglove refuses.
 #pragma once
 
 #include <array>
@@ -17,6 +16,7 @@ concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
 class JsonMessage {
  public:
+  static constexpr bool kRos = false;  // true in ros2.h
   explicit JsonMessage(std::string& out) : out_(out) {}
 
   template <class Inner>
@@ -52,9 +52,7 @@ class JsonMessage {
   }
   void flag(std::string_view name, std::string_view about, bool x);
   void text(std::string_view name, std::string_view about, std::string_view x);
-  void text_if(std::string_view name, std::string_view about, const std::optional<std::string_view>& x) {
-    if (x) text(name, about, *x);
-  }
+  void text_if(std::string_view name, std::string_view about, const std::optional<std::string_view>& x);
 
  private:
   void key(std::string_view name);
@@ -70,6 +68,7 @@ class JsonMessage {
 // The JSON Schema of a message, from the calls that write it; their values are ignored.
 class JsonSchema {
  public:
+  static constexpr bool kRos = false;
   template <class Inner>
   [[nodiscard]] static std::string of(std::string_view title, Inner&& inner) {
     JsonSchema schema;

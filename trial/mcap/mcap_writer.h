@@ -1,5 +1,5 @@
 // Writes an MCAP file (https://mcap.dev/spec) from front to back: only the container, independent of its
-// content. Chunks are not compressed, and only the chunk being filled is in memory.
+// content. Only the chunk being filled is in memory.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace enc::trial {
@@ -15,13 +16,21 @@ namespace enc::trial {
 // CRC-32 as in zip, continued from `before`, the CRC of the preceding bytes.
 [[nodiscard]] std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
+enum class ChunkCompression : std::uint8_t { none, zstd };
+
 class McapWriter {
  public:
   using Sink = std::function<void(std::string_view)>;  // receives the bytes of the file, in order
 
   static constexpr std::size_t kChunk = std::size_t{1} << 20U;
-  // library: the writing program, "encounter 0.1.0". A chunk is closed at `chunk` bytes.
-  McapWriter(Sink sink, std::string_view library, std::size_t chunk = kChunk);
+  struct Form {
+    ChunkCompression compression = ChunkCompression::none;
+    std::string_view profile{};  // "ros2", or empty
+    std::size_t chunk = kChunk;  // bytes at which a chunk is closed
+  };
+  // library: the writing program, "encounter 0.1.0".
+  McapWriter(Sink sink, std::string_view library, const Form& form);
+  McapWriter(Sink sink, std::string_view library) : McapWriter(std::move(sink), library, Form{}) {}
 
   // Adds a schema or a channel; returns the number by which others refer to it.
   [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view encoding,
@@ -58,6 +67,7 @@ class McapWriter {
 
   Sink sink_;
   std::size_t chunk_size_;
+  ChunkCompression compression_;
   std::uint64_t at_ = 0;   // bytes so far
   std::uint32_t crc_ = 0;  // CRC of these bytes
   std::string chunk_;      // records

@@ -17,6 +17,7 @@
 #include "models/schema/wording.h"
 #include "trial/family.h"
 #include "trial/mcap/json.h"
+#include "trial/mcap/ros2.h"
 
 namespace enc::trial {
 namespace {
@@ -44,6 +45,19 @@ void moment_fields(F& f, Time t) {
   f.integer("sec", "", nanoseconds(t) / kSecond);
   f.integer("nsec", "", nanoseconds(t) % kSecond);
 }
+// ROS 2 only: the header of a stamped message.
+template <class F>
+void header_field(F& f, Time t, std::string_view frame) {
+  if constexpr (F::kRos)
+    f.object("header", "", [&](auto& header) {
+      header.object("stamp", "", [&](auto& stamp) {
+        constexpr std::uint64_t kSecond = 1'000'000'000;
+        stamp.integer("sec", "", static_cast<std::int32_t>(nanoseconds(t) / kSecond));
+        stamp.integer("nanosec", "", static_cast<std::uint32_t>(nanoseconds(t) % kSecond));
+      });
+      header.text("frame_id", "", frame);
+    });
+}
 template <class F, class T>
 void stamp_field(F& f, const Measurement<T>& said) {
   f.number("stamp_s", "when it was true", stamp_of(said));
@@ -66,19 +80,22 @@ void turn_fields(F& f, const std::array<double, 4>& xyzw) {
   f.number("w", "", xyzw[3]);
 }
 
-// foxglove.PoseInFrame: viewers know these names.
+// foxglove.PoseInFrame or geometry_msgs/PoseStamped: viewers know these names.
 template <class F, char A, char B>
 void pose_fields(F& f, Time t, const Pose<A, B>& X) {
   static constexpr char kFrame = A;
-  f.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
-  f.text("frame_id", "", std::string_view(&kFrame, 1));
+  header_field(f, t, std::string_view(&kFrame, 1));
+  if constexpr (!F::kRos) {
+    f.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
+    f.text("frame_id", "", std::string_view(&kFrame, 1));
+  }
   f.object("pose", "", [&](auto& pose) {
     pose.object("position", "m", [&](auto& inner) { three_fields(inner, X.xyz); });
     pose.object("orientation", "", [&](auto& inner) { turn_fields(inner, X.xyzw); });
   });
 }
 
-// foxglove.FrameTransforms
+// foxglove.FrameTransforms or tf2_msgs/TFMessage
 struct FixedFrame {
   std::string_view parent, child;
   std::array<double, 4> xyzw{};
@@ -87,16 +104,35 @@ struct FixedFrame {
 template <class F>
 void frames_fields(F& f, Time t, const std::vector<FixedFrame>& frames) {
   f.list("transforms", "", frames, [&](auto& one, const FixedFrame& frame) {
-    one.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
-    one.text("parent_frame_id", "", frame.parent);
-    one.text("child_frame_id", "", frame.child);
-    one.object("translation", "m", [&](auto& inner) { three_fields(inner, frame.xyz); });
-    one.object("rotation", "", [&](auto& inner) { turn_fields(inner, frame.xyzw); });
+    const auto turned = [&](auto& inner) { turn_fields(inner, frame.xyzw); };
+    const auto moved = [&](auto& inner) { three_fields(inner, frame.xyz); };
+    header_field(one, t, frame.parent);
+    if constexpr (F::kRos) {
+      one.text("child_frame_id", "", frame.child);
+      one.object("transform", "", [&](auto& transform) {
+        transform.object("translation", "m", moved);
+        transform.object("rotation", "", turned);
+      });
+    } else {
+      one.object("timestamp", "", [&](auto& inner) { moment_fields(inner, t); });
+      one.text("parent_frame_id", "", frame.parent);
+      one.text("child_frame_id", "", frame.child);
+      one.object("translation", "m", moved);
+      one.object("rotation", "", turned);
+    }
   });
 }
 
 template <class F>
 void wrench_fields(F& f, const Measurement<Wrench>& wrench) {
+  if constexpr (F::kRos) {  // geometry_msgs/WrenchStamped
+    header_field(f, wrench.t, "F");
+    f.object("wrench", "", [&](auto& inner) {
+      vector_field(inner, "force", "N", wrench.value.force);
+      vector_field(inner, "torque", "Nm", wrench.value.torque);
+    });
+    return;
+  }
   f.text("frame", "of both, which is the sensor's", "F");
   vector_field(f, "force_N", "on the haptic-tip's side: weight, inertia and zero error are in it",
                wrench.value.force);
@@ -109,6 +145,7 @@ template <class F>
 void arm_fields(F& f, const std::vector<std::string>& joints, const std::vector<std::string>& speeds,
                 const Inputs& in, const Outputs& out) {
   const ArmSample& arm = in.arm.value;
+  header_field(f, in.arm.t, "R");
   for (std::size_t i = 0; i < joints.size(); ++i) f.number(joints[i], "of the encoder", arm.joints[i]);
   for (std::size_t i = 0; i < speeds.size(); ++i) f.number(speeds[i], "", arm.joint_velocities[i]);
   vector_field(f, "tip_m", "where the encoders say that the tip is, in R", arm.tip);
@@ -137,6 +174,7 @@ void core_fields(F& f, const Scene& scene, const std::vector<std::string>& objec
                  const std::vector<std::string>& tools, const RecordedTick& frame) {
   const Inputs& in = frame.in;
   const Outputs& out = frame.out;
+  header_field(f, frame.tick.t, "W");
   f.integer("tick", "number of the cycle", frame.tick.index);
   f.text("mode", "away, follow, contact, restore, hold, probe or travel", mode_word(out.mode));
   f.text("why", "reasons and notices; empty: none", why_text(out.why));
@@ -161,6 +199,7 @@ void core_fields(F& f, const Scene& scene, const std::vector<std::string>& objec
 
 template <class F>
 void surface_fields(F& f, const std::vector<std::string>& objects, const Measurement<DentSample>& dent) {
+  header_field(f, dent.t, "O");
   f.text_if("object", "that is dented", name_at(objects, dent.value.object));
   f.number("depth_m", "of the tip's lowest point below the undeformed surface", dent.value.depth);
   vector_field(f, "tip_m", "centre of the tip that dents it, in O", dent.value.tip.centre);
@@ -170,6 +209,7 @@ void surface_fields(F& f, const std::vector<std::string>& objects, const Measure
 
 template <class F>
 void gripper_fields(F& f, const Measurement<GripSample>& grip, const Grip& told) {
+  header_field(f, grip.t, "R");
   f.flag("told_closed", "what it is told", told.closed);
   f.number("told_force_N", "", told.force);
   f.text("phase", "open, closing, closed or opening", word_if_any(grip.value.phase));
@@ -228,9 +268,10 @@ Time stamp_or(const Measurement<T>& said, Time now) {
 }  // namespace
 
 RecordMcap::RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene,
-                       const RecordTexts& texts)
+                       const RecordTexts& texts, McapMessages form)
     : file_(file),
       scene_(scene),
+      ros2_(form == McapMessages::ros2),
       about_{{kTicks, ""}, {kMissed, ""}, {kState, ""}},
       objects_(names_of(setup.scene.objects)),
       tools_(names_of(setup.scene.tools)) {
@@ -253,17 +294,19 @@ template <class Fields>
 std::uint16_t RecordMcap::channel(std::string_view topic, std::string_view schema_name, Fields&& fields) {
   auto schema = schemas_.find(schema_name);
   if (schema == schemas_.end()) {
-    const std::string text = JsonSchema::of(schema_name, fields);
-    schema = schemas_.emplace(schema_name, file_.add_schema(schema_name, "jsonschema", text)).first;
+    const std::uint16_t number =
+        ros2_ ? file_.add_schema(ros2_schema(schema_name), "ros2msg", Ros2Schema::of(fields))
+              : file_.add_schema(schema_name, "jsonschema", JsonSchema::of(schema_name, fields));
+    schema = schemas_.emplace(schema_name, number).first;
   }
-  return file_.add_channel(topic, schema->second, "json");
+  return file_.add_channel(topic, schema->second, ros2_ ? "cdr" : "json");
 }
 
 // The content of a channel is defined once: here for its schema, in add() for its messages.
 void RecordMcap::add_channels() {
   constexpr std::string_view kPose = "foxglove.PoseInFrame";
   const RecordedTick any;
-  frames_ = channel("/frames", "foxglove.FrameTransforms",
+  frames_ = channel(ros2_ ? "/tf_static" : "/frames", "foxglove.FrameTransforms",
                     [](auto& f) { frames_fields(f, Time{}, std::vector<FixedFrame>{}); });
   const auto pose = [](auto& f) { pose_fields(f, Time{}, Pose<'C', 'T'>{}); };
   if (scene_.has_tracker) tool_ = channel("/tool", kPose, pose);
@@ -288,7 +331,10 @@ void RecordMcap::add_channels() {
 template <class Fields>
 void RecordMcap::say(std::uint16_t channel, Time log, Time publish, Fields&& fields) {
   message_.clear();
-  JsonMessage(message_).whole(fields);
+  if (ros2_)
+    CdrMessage(message_).whole(fields);
+  else
+    JsonMessage(message_).whole(fields);
   file_.message(channel, nanoseconds(log), nanoseconds(publish), message_);
 }
 

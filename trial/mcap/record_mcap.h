@@ -15,10 +15,14 @@
 
 namespace enc::trial {
 
+// JSON with JSON Schemas, or CDR with ros2msg schemas.
+enum class McapMessages : std::uint8_t { json, ros2 };
+
 class RecordMcap {
  public:
   // Attaches the scene and the record's other texts. Setup, scene and file must outlive this.
-  RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene, const RecordTexts& texts);
+  RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene, const RecordTexts& texts,
+             McapMessages form = McapMessages::json);
 
   void add(const RecordedTick& frame);  // in order
   // Adds the texts of the end and `state`, the condition of the record: "whole", or its damage. Closes the
@@ -35,6 +39,7 @@ class RecordMcap {
 
   McapWriter& file_;
   const Scene& scene_;
+  bool ros2_;
   RecordTexts about_;                               // short texts of the record
   std::vector<std::string> objects_, tools_;        // names, by index
   std::vector<std::string> joints_, joint_speeds_;  // names of fields

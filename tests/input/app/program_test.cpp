@@ -340,6 +340,8 @@ TEST(Export, McapIsAFileOfItsOwn) {
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--ledger"}), HasSubstr("--ledger: only of a table"));
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--rig", "sim"}), HasSubstr("--rig: only of a scene"));
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--truth"}), HasSubstr("--truth: only of a table"));
+  EXPECT_THAT(line({"export", kRecord, "--ros2"}), HasSubstr("--ros2 requires --mcap"));
+  EXPECT_THAT(line({"export", kRecord, "--uncompressed"}), HasSubstr("--uncompressed requires --mcap"));
   EXPECT_THAT(line({"export", kWall, folder.file("w.xml"), "--mcap", mcap}),
               HasSubstr("--mcap: only of a record"));
   EXPECT_THAT(line({"export", kWall, "--mcap", mcap}), HasSubstr("wall.toml: is a scene"));

@@ -165,7 +165,7 @@ TEST(McapWriter, TheBytesOfATinyFile) {
 TEST(McapWriter, ChunksAreOfTheirSizeAndIndexesNameWhatIsThere) {
   constexpr std::size_t kSize = 500;
   std::string file;
-  McapWriter writer([&](std::string_view bytes) { file += bytes; }, "L", kSize);
+  McapWriter writer([&](std::string_view bytes) { file += bytes; }, "L", {.chunk = kSize});
   const std::uint16_t schema = writer.add_schema("S", "jsonschema", "{}");
   const std::uint16_t often = writer.add_channel("/often", schema, "json");
   const std::uint16_t seldom = writer.add_channel("/seldom", schema, "json");
@@ -251,7 +251,7 @@ TEST(McapWriter, BytesLeaveAsChunksAreFull) {
         bytes += piece.size();
         most = std::max(most, piece.size());
       },
-      "L", 1000);
+      "L", {.chunk = 1000});
   const std::uint16_t channel = writer.add_channel("/t", writer.add_schema("S", "jsonschema", "{}"), "json");
   for (std::uint64_t i = 0; i < 1000; ++i) writer.message(channel, i, i, std::string(100, 'x'));
   EXPECT_GT(bytes, 120'000U);
