@@ -175,6 +175,14 @@ enc_test(hygiene 2)
 # Where the kernel lets nobody count system calls, the list of tests says so.
 add_test(NAME hygiene.system_calls COMMAND test_hygiene --gtest_filter=SystemCalls.*)
 set_tests_properties(hygiene.system_calls PROPERTIES LABELS "hygiene;optimised" TIMEOUT 60 SKIP_REGULAR_EXPRESSION "SKIPPED")
+# The Python package beside the program, with Debian's numpy.
+find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(DEBIAN_PYTHON AND NOT ENCOUNTER_SANITIZE)
+  add_test(NAME python COMMAND ${DEBIAN_PYTHON} -B ${PROJECT_SOURCE_DIR}/tests/python/encounter_test.py)
+  set_tests_properties(python PROPERTIES LABELS "python;optimised" TIMEOUT 300 ENVIRONMENT
+    "ENCOUNTER_PROGRAM=${PROJECT_BINARY_DIR}/encounter;ENCOUNTER_MODELS=${PROJECT_SOURCE_DIR}/models;PYTHONPATH=${PROJECT_SOURCE_DIR}/python")
+  add_dependencies(tests_optimised program)
+endif()
 enc_test(fuzz 4)
 if(ENCOUNTER_VISION)
   enc_test(threads 1 enc_trackers enc_arm enc_gcs enc_igtl enc_netft enc_vision)

@@ -1,0 +1,142 @@
+"""The Python package beside the program: python3 encounter_test.py, with ENCOUNTER_PROGRAM, ENCOUNTER_MODELS and PYTHONPATH
+set (cmake/tests.cmake). Needs numpy."""
+import contextlib
+import csv
+import importlib.util
+import io
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy
+
+import encounter
+
+PROGRAM = encounter.program_file()
+DATA = pathlib.Path(__file__).resolve().parents[1] / "data"
+
+
+def program(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+def hash_of(text):
+    return text.rpartition("state hash")[2].split()[0]
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def press(self, scene="tennis_ball", **how):
+        return encounter.run(scene, record=self.folder / "r.encrec", force=True, **{"for_s": 4, **how})
+
+
+class Runs(InFolder):
+    def test_a_run_is_the_programs(self):
+        run = encounter.run("tennis_ball", for_s=2, seed=3)
+        said = program("run", "tennis_ball", "--for-s", 2, "--seed", 3)
+        self.assertEqual(run.state_hash, hash_of(said))
+        self.assertEqual((run.code, run.record, run.figures["simulated_s"]), (0, None, 2.001))
+
+    def test_set_takes_values_of_python(self):
+        values = {"object.ball.radius_mm": 30, "truth.tracker.bias_mm": [0, 0, 0.25], "truth.ball.set": "vented"}
+        run = encounter.run("tennis_ball", values, for_s=0.5)
+        words = []
+        for value in ("object.ball.radius_mm=30", "truth.tracker.bias_mm=[0,0,0.25]", "truth.ball.set=vented"):
+            words += ["--set", value]
+        self.assertEqual(run.state_hash, hash_of(program("run", "tennis_ball", "--for-s", 0.5, *words)))
+        self.assertNotEqual(run.state_hash, encounter.run("tennis_ball", for_s=0.5).state_hash)
+
+    def test_a_mistake_is_the_programs_line(self):
+        with self.assertRaisesRegex(encounter.Error, r"--set object.ball.radius=30: .*radius_mm") as refusal:
+            encounter.run("tennis_ball", {"object.ball.radius": 30})
+        self.assertEqual(refusal.exception.code, 2)
+
+    def test_a_run_that_ends_in_hold_has_its_figures(self):
+        gone = {"truth.tracker.blackout_at_s": 1, "truth.tracker.blackout_for_s": 100}
+        run = encounter.run("plane", gone, for_s=1.5)
+        self.assertEqual((run.code, run.figures["holds"][0]["why"]), (4, "tool lost"))
+
+
+class Records(InFolder):
+    # Written again, each value is the text of the table.
+    def expect_equal(self, record, table):
+        rows = list(csv.reader(table.splitlines()))
+        self.assertEqual(list(record), rows[0])
+        for (name, column), cells in zip(record.items(), zip(*rows[1:])):
+            if column.dtype.kind == "f":
+                texts = ["" if x != x else repr(x).removesuffix(".0") for x in column.tolist()]
+            else:
+                texts = [str(x) for x in column.tolist()]
+            self.assertEqual(texts, [cell.removesuffix(".0") for cell in cells], name)
+
+    def test_columns_equal_the_table_of_each_kind_of_record(self):
+        kinds = {"tennis_ball": 1, "wall": 1.5, "keypad": 0.5, "tracking": 1, "rig_identify": 1, "hit_ball": 0.5}
+        for scene, seconds in kinds.items():
+            with self.subTest(scene):
+                record = self.press(scene, for_s=seconds).record
+                self.expect_equal(encounter.read(record), program("export", record))
+                self.expect_equal(encounter.read(record, truth=True), program("export", record, "--truth"))
+
+    def test_units_stand_in_the_names(self):
+        record = encounter.read(DATA / "press.encrec")
+        self.assertEqual(record.units["force_N"], "N")
+        self.assertEqual(record.units["gap_mm"], "mm")
+        self.assertNotIn("mode", record.units)
+        self.assertEqual(record["mode"].dtype.kind, "U")
+        self.assertEqual(record["repeat"].dtype.kind, "i")
+
+    # The report's peak is that of the truth, which the record alone does not hold.
+    def test_truth_is_that_of_the_run(self):
+        run = self.press("plane", for_s=4)
+        record = encounter.read(run.record, truth=True)
+        force = record["true_force_z_N"]
+        self.assertAlmostEqual(numpy.abs(force).max(), run.figures["presses"][0]["peak_force_N"], delta=0.05)
+        touching = record["true_touching"] == 1
+        self.assertTrue(touching.any() and not touching.all())
+        self.assertEqual(numpy.abs(force[~touching]).max(), 0.0)
+
+    def test_truth_of_another_run_is_refused(self):
+        with self.assertRaisesRegex(encounter.Error, "press.encrec: .*leave out --truth"):
+            encounter.read(DATA / "press.encrec", truth=True)
+
+    def test_a_ledger_has_a_row_for_each_contact(self):
+        run = self.press("wall", for_s=4)
+        ledger = encounter.read(run.record).ledger()
+        self.assertEqual(len(ledger["contact"]), len(run.figures["ledger"]))
+        self.assertEqual(ledger["contact"].dtype.kind, "i")
+
+    def test_a_cut_record_needs_partial(self):
+        whole = pathlib.Path(self.press(for_s=1).record)
+        cut = self.folder / "cut.encrec"
+        cut.write_bytes(whole.read_bytes()[:-5000])
+        with self.assertRaisesRegex(encounter.Error, "--partial"):
+            encounter.read(cut)
+        ticks = len(encounter.read(cut, partial=True)["time_s"])
+        self.assertTrue(0 < ticks < len(encounter.read(whole)["time_s"]))
+
+
+class Notebook(InFolder):
+    def test_its_cells_run(self):
+        book = json.loads((pathlib.Path(__file__).resolve().parents[2] / "python/press.ipynb").read_text())
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.folder)
+        names = {}
+        for cell in book["cells"]:
+            needs = cell["metadata"].get("tags", [])
+            if cell["cell_type"] == "code" and all(importlib.util.find_spec(name) for name in needs):
+                with contextlib.redirect_stdout(io.StringIO()):
+                    exec("".join(cell["source"]), names)
+        self.assertEqual(len({run.state_hash for run in names["runs"].values()}), 2)
+        self.assertLess(numpy.sqrt(numpy.nanmean(names["error"] ** 2)), 0.2)
+
+
+if __name__ == "__main__":
+    unittest.main()
