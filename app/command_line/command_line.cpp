@@ -113,6 +113,10 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   command->add_option("--record", options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
   command
+      ->add_option("--mcap", options.mcap,
+                   "write the run to this MCAP file, for Foxglove (not with real devices)")
+      ->check(unnamed);
+  command
       ->add_option("--frames", options.frames,
                    "write the images of the scene's camera to this new folder (PNG)")
       ->check(unnamed);

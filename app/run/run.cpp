@@ -7,7 +7,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "app/built.h"
@@ -15,6 +14,7 @@
 #include "app/modules/modules.h"
 #include "app/process.h"
 #include "app/run/console.h"
+#include "app/run/run_files.h"
 #include "app/run/run_report.h"
 #include "app/run/run_window.h"
 #include "app/stability_text.h"
@@ -38,51 +38,6 @@ double pace_of(const std::string& text) {
   if (bad != std::errc() || end != text.data() + text.size() || !(factor > 0.0) || !std::isfinite(factor))
     throw Error("--pace '" + text + "': expected free, wall, or a positive number such as 0.1 or 10");
   return factor;
-}
-
-// Refuses standard output as the record's file, because the report would be written into it. /dev/null is
-// allowed.
-void refuse_output(const std::string& path) {
-  struct stat output {
-  }, there{};
-  if (fstat(STDOUT_FILENO, &output) != 0 || stat(path.c_str(), &there) != 0) return;
-  if (output.st_dev != there.st_dev || output.st_ino != there.st_ino) return;
-  if (S_ISCHR(output.st_mode) && isatty(STDOUT_FILENO) == 0) return;
-  throw Error(path + ": is standard output, where the report goes; expected another file; choose one");
-}
-
-// A record, written to a temporary file until it is sealed.
-struct Recording {
-  models::OutFile file;
-  RecordWriter writer;
-  std::optional<trial::RecordThread> thread;
-
-  // beside: the run keeps the wall clock, so a separate thread writes to the disk and no tick waits for it.
-  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool beside)
-      : file(options.record, models::existing(options.force)),
-        writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1,
-               file.stream()) {
-    file.spare();  // a killed run leaves a readable record
-    if (beside) thread.emplace(writer);
-  }
-  void end() {
-    thread.reset();
-    writer.close();
-    if (!writer.full()) file.keep();
-  }
-};
-
-std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
-                                      const trial::Trial& trial, trial::WallTime started) {
-  if (options.record.empty()) return nullptr;
-  for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
-  RecordTexts texts = models::record_texts(setup);
-  texts["scene"] = options.scene;
-  texts["rig"] = setup.rig_path;
-  texts["seed"] = std::to_string(options.seed);
-  texts.merge(trial::provenance_texts(started, trial.result().keeps_wall_time));
-  texts["stability"] = stability_lines(trial.certificates());
-  return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().keeps_wall_time);
 }
 
 // Warnings about unstable rendering, printed before anything moves.
@@ -253,12 +208,10 @@ RecordTexts end_texts(const std::string& ledger, const trial::SteeringLog& hand)
   return texts;
 }
 
-// Seals the record with the texts that only the end of the run provides.
-void seal(Recording& record, const trial::RunMeasures& measured, const trial::SteeringLog& hand) {
+// Seals the files with the texts that only the end of the run provides.
+void seal(RunFiles& files, const trial::RunMeasures& measured, const trial::SteeringLog& hand) {
   const auto contacts = measured.ledger.contacts();
-  const RecordTexts texts = end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), hand);
-  if (!texts.empty()) record.writer.end_with(texts);
-  record.end();
+  files.end(end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), hand));
 }
 
 // The run's surroundings besides the loop; null: absent.
@@ -274,15 +227,15 @@ struct RunOutcome {
   double started;  // CPU s from the start of the process to the first tick
   trial::TrialResult result;
 };
-RunOutcome run_to_end(trial::Trial& trial, Recording* record, const RunSurroundings& beside) {
-  trial.record_to(record != nullptr ? &record->writer : nullptr);
+RunOutcome run_to_end(trial::Trial& trial, RunFiles& files, const RunSurroundings& beside) {
+  trial.record_to(files.record());
   beside.person.listen();
   if (beside.shown != nullptr) beside.shown->begin(trial.setup());
   const WindowScope watched(beside.window, trial);
   const double started = cpu_seconds();
   trial::TrialResult result = trial.run();
   // Seal first, because a terminal may block the printing.
-  if (record != nullptr) seal(*record, beside.measured, beside.hand);
+  seal(files, beside.measured, beside.hand);
   beside.person.end_listening();
   if (beside.shown != nullptr) beside.shown->end();
   if (beside.terminal && beside.shown == nullptr) clear_progress();
@@ -330,6 +283,8 @@ int run(const RunOptions& options, const RunWindow* window) {
   if (attended) person.stops_when_suspended();
   trial::TrialOptions how = trial_options(options, person);
   trial::RunMeasures measured(setup, how);
+  RunFiles files(options);
+  files.watch(how);
   if (window != nullptr) join(*window, person, how);
   const Steering steering(options, setup, window, how);
   std::optional<RunDisplay> shown;
@@ -342,9 +297,9 @@ int run(const RunOptions& options, const RunWindow* window) {
   if (attended && !options.yes)
     if (const int code = asked_first(person, trial); code != 0) return code;
   const trial::WallTime begun = trial::wall_time();
-  const std::unique_ptr<Recording> record = record_for(options, setup, trial, begun);
+  files.begin(trial, begun);
   const RunSurroundings beside{person, window, shown ? &*shown : nullptr, terminal, measured, steering.log()};
-  const auto [started, result] = run_to_end(trial, record.get(), beside);
+  const auto [started, result] = run_to_end(trial, files, beside);
   const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
   RunReport report{setup, trial.scene(), result, measured, strengths, trial.certificates(), options};
   report.started = started;
@@ -352,8 +307,8 @@ int run(const RunOptions& options, const RunWindow* window) {
   report.steered = !steering.log().empty();
   complete(trial, report);
   print(report);
-  if (record && record->writer.full())
-    throw Error(record->writer.error() + "; replay --partial reads what was written");
+  if (const std::string error = files.record_error(); !error.empty())
+    throw Error(error + "; replay --partial reads what was written");
   return exit_code(report, person);
 }
 

@@ -373,6 +373,18 @@ TEST(Export, McapReplacesNothingUnasked) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// A run that writes MCAP itself writes what an export of its record writes.
+TEST(Export, ARunWritesTheMcapOfItsRecord) {
+  const test::TemporaryFolder folder;
+  const std::string record = folder.file("r.encrec"), direct = folder.file("direct.mcap"),
+                    mcap = folder.file("r.mcap");
+  ASSERT_EQ(
+      run_program({"run", kWall, "--for-s", "1.2", "--record", record, "--mcap", direct}, kShipped).code, 0);
+  ASSERT_EQ(run_program({"export", record, "--mcap", mcap}).code, 0);
+  EXPECT_TRUE(test::bytes_of(direct) == test::bytes_of(mcap));
+  EXPECT_THAT(line({"run", kWall, "--for-s", "0.1", "--mcap", direct}), HasSubstr("is there already"));
+}
+
 // `plot` draws each record, and refuses in one line.
 TEST(Plot, DrawsARecord) {
   const test::TemporaryFolder folder;
