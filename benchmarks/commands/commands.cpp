@@ -78,7 +78,7 @@ void check_pictures(const trial::QuestionnaireOptions& o, const questionnaire::F
   const std::string plot = questionnaire::opinion_plot(form, items, {}).id;
   for (const std::string& name :
        {questionnaire::opinion_table(form, items, {}).id + ".csv",
-        questionnaire::experience_table(form, {}).id + ".csv", plot + ".plot.csv", plot + ".svg"}) {
+        questionnaire::experience_table(form, items, {}).id + ".csv", plot + ".plot.csv", plot + ".svg"}) {
     const fs::path path = fs::path(o.out) / name;
     if (fs::weakly_canonical(path) == fs::weakly_canonical(o.store))
       throw Error(o.store + ": is a table of --out, too; expected another file for the answers; choose one");
@@ -216,7 +216,7 @@ void write_pictures(const std::string& folder, const questionnaire::Form& form,
   };
   const Plot plot = questionnaire::opinion_plot(form, items, rows);
   for (const Table& t :
-       {questionnaire::opinion_table(form, items, rows), questionnaire::experience_table(form, rows)})
+       {questionnaire::opinion_table(form, items, rows), questionnaire::experience_table(form, items, rows)})
     write(at / (t.id + ".csv"), table_csv(t));
   write(at / (plot.id + ".plot.csv"), plot_csv(plot));
   const Drawing drawing = draw(plot);
@@ -547,7 +547,8 @@ int questionnaire_command(const trial::QuestionnaireOptions& options) {
   const Table table = questionnaire::opinion_table(form, items, answers.rows);
   fmt::print("{} {}\n{}mean of all {:.1f}\n\n{}\n{}", table.title, form.source, table_text(table),
              questionnaire::global_mean(answers.rows),
-             table_text(questionnaire::experience_table(form, answers.rows)), proxies_text(items, verdicts));
+             table_text(questionnaire::experience_table(form, items, answers.rows)),
+             proxies_text(items, verdicts));
   for (const Contradiction& c : found) fmt::print("note        {}: {}; {}\n", c.where, c.printed, c.found);
   return 0;
 }

@@ -18,11 +18,18 @@ std::string tenth(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x)
 
 std::vector<ItemReference> items_of(const Form& form, const std::string& models) {
   std::vector<ItemReference> items;
-  std::optional<Reference> means;
+  std::optional<Reference> means, groups;
   if (!form.reference.empty()) means = Reference::load(models, form.reference);
+  if (!form.groups_reference.empty()) groups = Reference::load(models, form.groups_reference);
   for (const Item& item : form.items) {
-    ItemReference one{item.name, item.text, kUnset, {}};
+    ItemReference one{item.name, item.text, kUnset, {}, {}};
     if (means) one.paper = means->number(means->row({{"item", item.name}}), "mean");
+    one.with_experience.assign(form.experience.size(), kUnset);
+    for (std::size_t row = 0; groups && row < groups->rows(); ++row)
+      for (std::size_t e = 0; e < form.experience.size(); ++e)
+        if (groups->text(row, "item") == item.name &&
+            groups->text(row, "experience") == form.experience[e].name)
+          one.with_experience[e] = groups->number(row, "mean");
     std::istringstream ids(item.figures);
     for (std::string id; ids >> id;) one.figures.push_back(id);
     items.push_back(std::move(one));
@@ -103,7 +110,8 @@ Table opinion_table(const Form& form, const std::vector<ItemReference>& items,
   return table;
 }
 
-Table experience_table(const Form& form, const std::vector<Answer>& rows) {
+Table experience_table(const Form& form, const std::vector<ItemReference>& items,
+                       const std::vector<Answer>& rows) {
   Table table{"answers_experience", "Means with and without experience", {"item"}};
   std::vector<std::vector<Answer>> groups;
   for (std::size_t e = 0; e < form.experience.size(); ++e)
@@ -112,9 +120,17 @@ Table experience_table(const Form& form, const std::vector<Answer>& rows) {
       table.columns.push_back(
           fmt::format("{}{} ({})", yes ? "" : "no ", form.experience[e].name, groups.back().size()));
     }
+  std::vector<std::size_t> stated;  // experiences of which the study states a mean
+  for (std::size_t e = 0; e < form.experience.size(); ++e)
+    if (std::any_of(items.begin(), items.end(),
+                    [&](const ItemReference& item) { return std::isfinite(item.with_experience[e]); })) {
+      stated.push_back(e);
+      table.columns.push_back("paper, " + form.experience[e].name);
+    }
   for (std::size_t i = 0; i < form.items.size(); ++i) {
     std::vector<std::string> row{form.items[i].name};
     for (const std::vector<Answer>& group : groups) row.push_back(tenth(opinion_of(form, group, i).mean));
+    for (const std::size_t e : stated) row.push_back(tenth(items[i].with_experience[e]));
     table.rows.push_back(std::move(row));
   }
   return table;

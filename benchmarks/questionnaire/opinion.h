@@ -14,7 +14,9 @@ namespace enc::bench::questionnaire {
 
 struct ItemReference {
   std::string name, text;
-  double paper = kUnset;             // mean of the paper's participants, on its scale
+  double paper = kUnset;  // mean of the paper's participants, on its scale
+  std::vector<double>
+      with_experience{};             // the same of those with each experience of the form; unset: not stated
   std::vector<std::string> figures;  // ids
 };
 // Includes the means of the study that the form names, if it names one.
@@ -38,8 +40,9 @@ struct Opinion {
 
 [[nodiscard]] Table opinion_table(const Form& form, const std::vector<ItemReference>& items,
                                   const std::vector<Answer>& rows);
-// Means of people with and of people without each experience.
-[[nodiscard]] Table experience_table(const Form& form, const std::vector<Answer>& rows);
+// Means of people with and of people without each experience, beside those that the study states.
+[[nodiscard]] Table experience_table(const Form& form, const std::vector<ItemReference>& items,
+                                     const std::vector<Answer>& rows);
 [[nodiscard]] Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
                                 const std::vector<Answer>& rows);
 

@@ -58,6 +58,10 @@ void describe(Visitor& v, Form& f) {
   v.value(key("source", "source of the wording"), &f.source);
   v.value(key("reference", "file in benchmarks/reference with published means", Presence::defaulted),
           &f.reference);
+  v.value(key("groups_reference",
+              "file in benchmarks/reference with published means of people with an experience",
+              Presence::defaulted),
+          &f.groups_reference);
   list(v, "step", f.steps, no_more);
   list(v, "experience", f.experience, no_more);
   list(v, "group", f.groups, no_more);

@@ -23,7 +23,8 @@ struct Form {
   std::int64_t format = 1;
   std::string title, source;
   std::string reference;  // file in benchmarks/reference with the means of a published study; may be empty
-  std::vector<Wording> steps;  // the first is 1
+  std::string groups_reference{};  // likewise, of people with one experience
+  std::vector<Wording> steps;      // the first is 1
   std::vector<Wording> experience, groups;
   std::vector<Item> items;
   std::string name{};  // file name, without ".toml"

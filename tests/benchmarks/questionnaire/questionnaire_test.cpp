@@ -73,6 +73,9 @@ TEST(QuestionnaireForm, IsThePapers) {
   const std::vector<ItemReference> items = items_of(form, kModels);
   double sum = 0.0;
   for (const ItemReference& item : items) sum += item.paper;
+  EXPECT_EQ(items[4].with_experience[1], 6.0);  // VR/MR devices
+  EXPECT_EQ(items[6].with_experience[2], 5.5);  // visuo-haptics
+  EXPECT_TRUE(std::isnan(items[0].with_experience[0]));
   EXPECT_NEAR(sum / 11.0, 5.3, 0.05);
 }
 
@@ -231,8 +234,8 @@ TEST(QuestionnaireOpinion, IsMeanRangeAndCounts) {
   const std::vector<ItemReference> items = items_of(form, kModels);
   EXPECT_THAT(opinion_table(form, items, rows).rows[0],
               ElementsAre("1", "It is good.", "1.7", "1-2", "1", "2", "0", ""));
-  EXPECT_THAT(experience_table(form, rows).columns, ElementsAre("item", "vr (2)", "no vr (1)"));
-  EXPECT_THAT(experience_table(form, rows).rows[0], ElementsAre("1", "1.5", "2.0"));
+  EXPECT_THAT(experience_table(form, items, rows).columns, ElementsAre("item", "vr (2)", "no vr (1)"));
+  EXPECT_THAT(experience_table(form, items, rows).rows[0], ElementsAre("1", "1.5", "2.0"));
   // Without answers there is no mean and no division by zero.
   EXPECT_THAT(opinion_table(form, items, {}).rows[0],
               ElementsAre("1", "It is good.", "", "", "0", "0", "0", ""));
