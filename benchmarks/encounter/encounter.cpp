@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/encounter/follow.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/mutants.h"
 #include "benchmarks/kit/precision.h"
@@ -76,14 +77,18 @@ void run(Bench& bench) {
        .log_y = true,
        .series = {misses, bounds},
        .caption = "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
+  add_follow(bench);
   add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=20", "user.press_s=0.8",
                               "user.hold_s=0.1", "user.release_s=0.8", "user.depth_mm=2"});
 }
 
 const Mutants kMutants{"encounter",
-                       {{.what = "machine 15 mm beside where it is believed",
+                       {{.what = "machine 15 mm beside where it is believed; a tip twice as fast; no pause",
                          .set = {"truth.hexapod.misplaced_mm=[15,0,0]"},
-                         .kills = {"miss.*.median", "miss.*.max"}}}};
+                         .changes = {"tip_twice_as_fast", "never_pauses"},
+                         .kills = {"miss.*.median", "miss.*.max", "met.*.percent", "follow.behind.*",
+                                   "follow.top_speed.*", "follow.pause_saves.percent"}}}};
+const Reads kReads{"encounter", {.scenes = {"tennis_ball", "plane"}}};
 const Entry kEntry{"encounter", "tennis_ball",
                    "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
                    run};
