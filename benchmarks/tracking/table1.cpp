@@ -140,12 +140,19 @@ SpannedTable twin_table(const Group& slow, const Group& fast, BiasSide side) {
   return twin;
 }
 
-// Bounds: 12 % (0 and 20 mm/s), 13 % (40 mm/s), 6 % (norms).
+// One delay for all axes cannot have these within 10 %: x's lag is 14 % longer than z's
+// (docs/notes/tracking.md).
+bool apart(const Statistic& statistic, std::size_t s, std::size_t a) {
+  const bool rmse = statistic.what == &Cell::rmse;
+  return (a == 2 && s > 0 && rmse) || (a == 0 && s == 2 && !rmse);
+}
+
+// Bounds: 10 %, of three cells 12.5 %; 6 % (norms).
 void add_table_figures(BenchResult& result, const Table1& paper, const SpannedTable& twin,
                        const Table1& theory) {
   const auto add = [&](const Statistic& statistic, std::size_t s, std::size_t a) {
     const auto what = statistic.what;
-    const double share = a == 3 ? 0.06 : s == 2 ? 0.13 : 0.12;
+    const double share = a == 3 ? 0.06 : apart(statistic, s, a) ? 0.125 : 0.1;
     const double value = paper[s][a].*what * 1e3;
     Figure f{fmt::format("tracking.{}.{}.{}", statistic.id, kTableAxes[a], kTableSpeeds[s]),
              value,
