@@ -232,7 +232,8 @@ void add_restitutions(const Hits& hits, Bench& bench) {
     returned = std::max(returned, hits.all[i].restitution);
   }
   const std::string hand = kEvenHand;
-  bench.figure("hit.restitution_error.max", 100.0 * worst, "%", at_most(10.0),
+  // Not 5 %: the law keeps 5 % of the parting speed back, so that no hit gives more than it got.
+  bench.figure("hit.restitution_error.max", 100.0 * worst, "%", at_most(7.0),
                "measured over set, which is 0.4 to 1" + hand);
   bench.figure("hit.restitution_off.max", off, "", at_most(0.1),
                "measured less set, which is 0.2 to 1" + hand);
@@ -361,7 +362,7 @@ void run_drum(Bench& bench) {
       sideways = std::max(sideways, one.sideways / one.normal);
     }
   const double friction = setup.twin.arm.prop_friction;
-  bench.figure("drum.speed_error", error, "%", at_most(10.0),
+  bench.figure("drum.speed_error", error, "%", at_most(7.0),
                "of the touched surface, prop's own motion and belt's together, on average while the finger "
                "slides 25 mm along it, faster than it runs, or back, seen by the tracker that ships; the "
                "worse of both, of all seeds");
