@@ -15,6 +15,7 @@ namespace enc::bench::extremes {
 
 class Judge {
  public:
+  bool unsound = false;  // mutant: one tick is infinite
   void see(const trial::Glance& glance);
 
   // Number of ticks with a violation, and the first violation.
@@ -27,7 +28,6 @@ class Judge {
   double touch = 0.0;                   // true contact force of tool and tip, N
   double condition = 0.0;               // hexapod only: condition of its Jacobian
   double dexterity = 1.0;               // arm only: its least dexterity in the run
-  std::int64_t over = 0;                // longest run of cycles with more force than the device has
   std::int64_t held = 0, ticks = 0;     // ticks
   std::uint32_t reasons = 0;            // of all holds
 
@@ -40,7 +40,7 @@ class Judge {
 
   bool told_ = false;  // a machine has received a command
   Vec3 at_{0, 0, 0}, velocity_{0, 0, 0};
-  std::int64_t index_ = -1, over_now_ = 0, broken_ = 0;
+  std::int64_t index_ = -1, over_ = 0, broken_ = 0;
   Time truth_{};
   bool wrong_now_ = false;
   std::string first_;
@@ -81,20 +81,20 @@ struct Run {
   trial::TrialResult result;
   Judge judge;
 };
-[[nodiscard]] Run judged(const models::Setup& setup, trial::TrialOptions options,
+[[nodiscard]] Run judged(const BenchContext& context, const models::Setup& setup, trial::TrialOptions options,
                          const std::function<void(const trial::Glance&)>& also = {});
-// Adds the numbers that every case reports of its runs: ticks on which the judge found a violation, and
-// warnings of the engine.
+// Adds the number that every case reports of its runs: ticks on which the judge found a violation, and one
+// for a warning of the engine.
 void add_soundness(const Run& run, CaseResult& found);
 
 // The tables of cases, one for each file.
-void add_walls(Cases& cases, bool quick);
-void add_touches(Cases& cases, bool quick);
-void add_inputs(Cases& cases, bool quick);
-void add_links(Cases& cases, bool quick);
-void add_places(Cases& cases, bool quick);
-void add_refusals(Cases& cases, bool quick);
-void add_soaks(Cases& cases, bool quick, bool full);
+void add_walls(Cases& cases);
+void add_touches(Cases& cases);
+void add_inputs(Cases& cases, bool full);
+void add_links(Cases& cases);
+void add_places(Cases& cases);
+void add_refusals(Cases& cases);
+void add_soaks(Cases& cases, const BenchContext& with);
 // Hours of both machines, one after the other because memory is measured for the whole program.
 // Runs them immediately and adds them to `cases` and `found`.
 void add_long(Bench& bench, Cases& cases, std::vector<CaseResult>& found);

@@ -18,6 +18,9 @@ namespace {
 
 constexpr double kPush = 4.0;   // N, of the finger
 constexpr double kStill = 1.0;  // mm, peak to peak: a larger swing counts as not rendered
+// N/m: from here on the arm's law rings at the length of the finger's way; from there on it parts from the
+// finger before it has swung so far.
+constexpr double kSwings = 1e4, kParts = 2e5;
 
 // m, peak to peak along z: the tip's swing while it is watched.
 class Swing {
@@ -47,16 +50,19 @@ CaseResult arm_wall(const BenchContext& context, double stiffness) {
                    {}};
   trial::TrialOptions options{.seed = context.seed};
   Swing swing;
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     if (g.truth.phase == sim::Phase::hold) swing.see(g);
   });
   const trial::ObjectCertificate wall = trial::certificates_of(setup, trial::prepare_setup(setup)).back();
-  const std::string beyond = trial::refusal_text(setup, wall);
-  found.numbers = {
-      {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
-      {"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles in a row"},
-      {"touch.max", run.judge.touch, "N", {}, "true force on the finger"},
-      {"swing.max", swing.size() * kMmPerM, "mm", {}, "of the tip, while the finger holds", kStill}};
+  const std::string beyond = context.mutated("quiet") ? "" : trial::refusal_text(setup, wall);
+  const bool holds = stiffness < kSwings;
+  found.numbers = {{"force.max", run.judge.force, "N", {}, "commanded"},
+                   {"touch.max", run.judge.touch, "N", {}, "true force on the finger"},
+                   {"swing.max", swing.size() * kMmPerM, "mm",
+                    at_most(holds                ? kStill
+                            : stiffness < kParts ? 50.0
+                                                 : 6.0),
+                    "of the tip, while the finger holds", kStill}};
   if (stiffness > certificate::row_of(wall.certificate, "exact_with_hand").bound)
     found.numbers.push_back(
         {"named.value", beyond.empty() ? 0.0 : 1.0, "", exactly(1.0), "by check and run"});
@@ -69,19 +75,21 @@ CaseResult arm_wall(const BenchContext& context, double stiffness) {
 CaseResult machine_wall(const BenchContext& context, double stiffness) {
   const models::Setup setup = load_scene(
       context, "stiffness", {fmt::format("behaviour.spring.stiffness_N_per_mm={:g}", stiffness / 1e3)});
-  CaseResult found{fmt::format("stiffness.toml at {:g} N/m, pushed with 30 N", stiffness),
-                   "commands within speed, acceleration and reach; at most 100 N",
-                   {}};
+  CaseResult found{
+      fmt::format("stiffness.toml at {:g} N/m, pushed with 30 N", stiffness),
+      "commands within speed, acceleration and reach; a tenth more than the push; tip within 0.05 mm",
+      {}};
   trial::TrialOptions options{.seed = context.seed};
   Swing swing;
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     const double t = time_of(g);
     if (t > 5.0 && t < 8.5) swing.see(g);  // held from 3 s to 9 s
   });
-  found.numbers = {
-      {"speed.max", run.judge.fastest * kMmPerM, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"},
-      {"touch.max", run.judge.touch, "N", at_most(100.0), "true force on the tip"},
-      {"swing.max", swing.size() * kMmPerM, "mm", at_most(kStill), "of the tip, while it is held down"}};
+  found.numbers = {{"speed.max", run.judge.fastest * kMmPerM, "mm/s", {}, "commanded"},
+                   {"touch.max", run.judge.touch, "N", at_most(1.1 * std::min(30.0, 15e-3 * stiffness)),
+                    "true force on the tip, pushed with 30 N or 15 mm deep"},
+                   {"swing.max", swing.size() * kMmPerM, "mm", stiffness < 5e4 ? at_most(0.05) : Bounds{},
+                    "of the tip, while it is held down"}};
   add_soundness(run, found);
   return found;
 }
@@ -104,7 +112,7 @@ CaseResult deep_finger(const BenchContext& context) {
   options.disturb = [&](Inputs& in) {
     if (!seen) in.tool.health = Health::absent;
   };
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     const double depth = kTop - g.truth.tool_tip.xyz[2] + g.truth.tool_radius;
     seen = seen || depth > kDeep;
     deepest = std::max(deepest, depth);
@@ -112,9 +120,8 @@ CaseResult deep_finger(const BenchContext& context) {
       fastest = std::max(fastest, g.truth.tool_velocity.xyz[2]);
   });
   found.numbers = {
-      {"exit_speed.max", fastest * kMmPerM, "mm/s", {}, "of the finger, outwards", 50.0},
-      {"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles in a row"},
-      {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
+      {"exit_speed.max", fastest * kMmPerM, "mm/s", at_most(365.0), "of the finger, outwards", 50.0},
+      {"force.max", run.judge.force, "N", {}, "commanded"},
       {"depth.max", deepest * kMmPerM, "mm", {}, "of the finger"}};
   found.words = "the law is a spring wherever the finger is first seen, and gives what nobody has put in";
   add_soundness(run, found);
@@ -130,7 +137,7 @@ CaseResult deep_tip(const BenchContext& context) {
       "tennis_ball.toml, tip starts 20 mm inside", "out at <= 50 mm/s, never deeper, not outside", {}};
   double least = kInfinite, back = 0.0, outside = -kInfinite, first = kUnset;
   trial::TrialOptions options{.seed = context.seed};
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     const Object& ball = g.scene.objects.front();
     const double depth = -ball.surface.nearest(ball.X_WO.inverse() * g.truth.tip).distance;
     if (std::isnan(first)) first = depth;
@@ -141,11 +148,10 @@ CaseResult deep_tip(const BenchContext& context) {
     outside = std::max(outside, g.truth.tip_radius - depth);
   });
   constexpr double kStep = 3e-6;  // m: retreat that the machine's own step may cause
-  found.numbers = {
-      {"start.value", first * kMmPerM, "mm", between(19.9, 20.1), "depth of the tip's centre"},
-      {"back.max", back * 1e6, "um", at_most(2e6 * kStep), "deeper than it has been before"},
-      {"outside.max", outside * 1e6, "um", at_most(0.0), "of the tip outside the ball"},
-      {"speed.max", run.judge.fastest * kMmPerM, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"}};
+  found.numbers = {{"start.value", first * kMmPerM, "mm", between(19.9, 20.1), "depth of the tip's centre"},
+                   {"back.max", back * 1e6, "um", at_most(2e6 * kStep), "deeper than it has been before"},
+                   {"outside.max", outside * 1e6, "um", at_most(0.0), "of the tip outside the ball"},
+                   {"speed.max", run.judge.fastest * kMmPerM, "mm/s", {}, "commanded"}};
   add_soundness(run, found);
   return found;
 }
@@ -157,10 +163,10 @@ struct Hit {
   double arrives = 0.0;  // m/s, of the tool before it touches
 };
 
-// Measured along z, which is the normal in both scenes. A tool that passes beside the tip does not count as
-// through.
-void see_hit(const trial::Glance& g, bool arm, Hit& hit) {
-  const Vec3 apart = (g.truth.tool_tip - g.truth.tip).e();
+// Measured along z, which is the normal in both scenes, `front` above the tip. A tool that passes beside the
+// tip does not count as through.
+void see_hit(const trial::Glance& g, bool arm, double front, Hit& hit) {
+  const Vec3 apart = (g.truth.tool_tip - g.truth.tip).e() - Vec3(0, 0, front);
   const double aside = std::hypot(apart.x(), apart.y()), radii = g.truth.tool_radius + g.truth.tip_radius;
   constexpr double kPlate = 15e-3;  // m: half of the plate, whose front faces up
   const bool over = aside < (arm ? kPlate : radii) && apart.z() >= 0.0;
@@ -182,18 +188,20 @@ CaseResult impact(const BenchContext& context, bool arm, double speed) {
   trial::TrialOptions options{.seed = context.seed};
   Hit hit;
   double before = 0.0;
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
-    see_hit(g, arm, hit);
-    if (g.truth.touching && hit.arrives == 0.0) hit.arrives = before;
+  const double deepest = arm ? (speed < 2.0 ? 1.6 : 4.5) : speed < 2.0 ? 1.7 : 1.9;  // mm
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
+    see_hit(g, arm, context.mutated("front_20mm_higher") ? 0.02 : 0.0, hit);
+    if (g.truth.touching && hit.arrives == 0.0)
+      hit.arrives = (context.mutated("half_speed") ? 0.5 : 1.0) * before;
     before = g.truth.tool_velocity.norm();
   });
   found.numbers = {
       {"through.value", hit.through, "", exactly(0.0), "times that the tool went through what it touched"},
-      {"into.max", hit.deepest * kMmPerM, "mm", {}, "tool into tip", speed < 2.0 ? 1.5 : kUnset},
-      {"arrives.value", hit.arrives, "m/s", at_least(0.85 * speed), "of the tool, before the first touch"},
+      {"into.max", hit.deepest * kMmPerM, "mm", at_most(deepest), "tool into tip",
+       speed < 2.0 ? 1.5 : kUnset},
+      {"arrives.value", hit.arrives, "m/s", between(0.85 * speed, 1.1 * speed),
+       "of the tool, before the first touch"},
       {"touch.max", run.judge.touch, "N", {}, "true force"}};
-  if (arm)
-    found.numbers.push_back({"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles"});
   if (!arm && speed < 2.0)
     found.words =
         "the stop between tool and tip has 5 ms, so that a tip that goes in steps is not felt to rattle";
@@ -204,7 +212,7 @@ CaseResult impact(const BenchContext& context, bool arm, double speed) {
 // Hard objects beside a soft one, with two tools [VHMR 5: training].
 CaseResult training(const BenchContext& context) {
   const models::Setup setup =
-      load_scene(context, "training", {fmt::format("user.session.duration_s={}", context.quick ? 20 : 60)});
+      load_scene(context, "training", {fmt::format("user.session.duration_s={}", context.full ? 60 : 20)});
   CaseResult found{
       "training.toml, 50 to 200 N/mm beside 0.5",
       "each press one contact; never outside; no deeper than the limit and two steps of the machine",
@@ -212,19 +220,19 @@ CaseResult training(const BenchContext& context) {
   trial::PressMeasure presses(setup);
   double limit = kUnset;
   trial::TrialOptions options{.seed = context.seed};
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     presses.see(g);
-    limit = g.scene.objects.front().limit;
+    limit = g.scene.objects.front().limit - (context.mutated("limit_1mm_less") ? 1e-3 : 0.0);
   });
   double torn = 0.0, deepest = 0.0, felt = 0.0;
   for (const trial::PressFigures& press : presses.presses()) {
     if (std::isnan(press.miss)) continue;
     ++felt;
-    torn += press.contacts == 1 ? 0.0 : 1.0;
+    torn += press.contacts == (context.mutated("two_contacts") ? 2 : 1) ? 0.0 : 1.0;
     deepest = std::max(deepest, press.peak_deflection);
   }
   constexpr double kStep = 3e-6;  // m, of the machine
-  found.numbers = {{"presses.value", felt, "", at_least(3.0), "that touched"},
+  found.numbers = {{"presses.value", felt, "", {}, "that touched"},
                    {"torn.value", torn, "", exactly(0.0), "of them, with none or several contacts"},
                    {"deeper.max", (deepest - limit) * 1e6, "um", at_most(2e6 * kStep),
                     "than the limit of the tooth, true"},
@@ -244,6 +252,7 @@ struct ToolExcursion {
   double now = 0.0;                                              // s
   double unreachable = 0.0;                                      // ticks with a target out of reach
   double back = 0.0, farthest = 0.0;                             // m
+  double back_after = 1.2;                                       // s
 
   void disturb(Inputs& in) {
     const double since = now - kFrom;
@@ -256,7 +265,7 @@ struct ToolExcursion {
     unreachable += (g.out.why & kUnreachable) != 0 ? 1.0 : 0.0;
     const Vec3 off = (g.truth.tool_tip - g.truth.tip).e();
     farthest = std::max(farthest, std::hypot(g.truth.tip.xyz[0], g.truth.tip.xyz[1]));
-    if (time_of(g) > kFrom + 2.0 * kTurn + 1.2) back = std::max(back, std::hypot(off.x(), off.y()));
+    if (time_of(g) > kFrom + 2.0 * kTurn + back_after) back = std::max(back, std::hypot(off.x(), off.y()));
   }
 };
 
@@ -266,16 +275,16 @@ struct WorstHand {
 };
 
 // The place where a tool meets a tip that comes from the side is chance: one hand is not enough.
-WorstHand worst_of_hands(const models::Setup& setup, std::uint64_t seed, ToolExcursion& leaving) {
+WorstHand worst_of_hands(const BenchContext& context, const models::Setup& setup, ToolExcursion& leaving) {
   trial::TrialOptions options{.seconds = ToolExcursion::kFrom + 2.0 * ToolExcursion::kTurn + 1.6,
                               .fit_out = keep_clean};
   options.disturb = [&](Inputs& in) { leaving.disturb(in); };
   constexpr std::uint64_t kHands = 4;
   WorstHand worst;
   for (std::uint64_t hand = 0; hand < kHands; ++hand) {
-    options.seed = seed + hand;
+    options.seed = context.seed + hand;
     leaving.now = 0.0;
-    Run run = judged(setup, options, [&](const trial::Glance& g) { leaving.see(g); });
+    Run run = judged(context, setup, options, [&](const trial::Glance& g) { leaving.see(g); });
     worst.condition = std::max(worst.condition, run.judge.condition);
     worst.dexterity = std::min(worst.dexterity, run.judge.dexterity);
     const bool worse = run.judge.broken() > worst.run.judge.broken() || run.result.diverged_at >= 0;
@@ -289,20 +298,19 @@ CaseResult leaves(const BenchContext& context, bool arm) {
       load_scene(context, arm ? "wall" : "plane",
                  {"user.approach_mm_s=[10]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"});
   CaseResult found{fmt::format("{}.toml, 200 mm aside and back, twice", arm ? "wall" : "plane"),
-                   "within reach, never near a singular pose; back in place 1.2 s later",
+                   "within reach; back in place 1.2 s later",
                    {}};
   ToolExcursion leaving;
-  const WorstHand worst = worst_of_hands(setup, context.seed, leaving);
+  if (context.mutated("too_early")) leaving.back_after = 0.3;
+  const WorstHand worst = worst_of_hands(context, setup, leaving);
   found.numbers = {{"clamped.value", leaving.unreachable, "", {}, "ticks with a target out of reach"},
-                   {"back.max", leaving.back * kMmPerM, "mm", at_most(arm ? 3.0 : 1.0),
+                   {"back.max", leaving.back * kMmPerM, "mm", at_most(arm ? 1.5 : 0.4),
                     "from under the tool, 1.2 s later, worst of 4 hands: 50 mm take 1.1 s"},
                    {"farthest.max", leaving.farthest * kMmPerM, "mm", {}, "of the tip, aside"}};
   if (arm)
-    found.numbers.push_back({"dexterity.min", worst.dexterity, "",
-                             at_least(0.9 * setup.rig.arm.least_dexterity),
-                             "a tenth for what the arm overshoots"});
+    found.numbers.push_back({"dexterity.min", worst.dexterity, "", {}, "0.15 is where a pose is refused"});
   else
-    found.numbers.push_back({"condition.max", worst.condition, "", at_most(20.0), "of the commanded poses"});
+    found.numbers.push_back({"condition.max", worst.condition, "", {}, "of the commanded poses"});
   add_soundness(worst.run, found);
   return found;
 }
@@ -311,7 +319,10 @@ CaseResult leaves(const BenchContext& context, bool arm) {
 CaseResult trembles(const BenchContext& context, bool arm) {
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "plane",
-                 {"user.approach_mm_s=[1]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"});
+                 {"user.approach_mm_s=[1]", "user.approach_from_mm=60", "user.approach_tilt_deg=0"},
+                 context.mutated("no_hysteresis")
+                     ? std::vector<std::string>{"follow.resume_mm=99.99", "follow.pause_mm=100"}
+                     : std::vector<std::string>{});
   CaseResult found{fmt::format("{}.toml, trembles where following ends", arm ? "wall" : "plane"),
                    "followed or not: no more than one change of mode",
                    {}};
@@ -330,7 +341,7 @@ CaseResult trembles(const BenchContext& context, bool arm) {
     const Vec3 up = shift * Vec3(pose_of<'W', 'C'>(setup.twin.frames.W_C).inverse().q() * Vec3::UnitZ());
     for (std::size_t i = 0; i < 3; ++i) in.tool.value.X_CT.xyz[i] += up(static_cast<Eigen::Index>(i));
   };
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     if (time_of(g) > 1.0) changes += g.out.mode != before ? 1.0 : 0.0;
     before = g.out.mode;
   });
@@ -349,19 +360,21 @@ CaseResult saturated(const BenchContext& context) {
                    "a hold on each such tick and on no other; at rest in it",
                    {}};
   double wrong = 0.0, ticks = 0.0, moved = 0.0, held_for = 0.0;
+  bool held_before = false;
   Vec3 before = Vec3::Zero();
   trial::TrialOptions options{.seed = context.seed};
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     const bool full = g.in.wrench.health == Health::saturated, held = g.out.mode == Mode::hold;
     ticks += full ? 1.0 : 0.0;
-    wrong += full != held ? 1.0 : 0.0;
+    wrong += full != (context.mutated("a_tick_late") ? held_before : held) ? 1.0 : 0.0;
+    held_before = held;
     held_for = held ? held_for + g.scene.dt : 0.0;
-    constexpr double kBrakes = 0.125;  // s: from 50 mm/s at 0.41 m/s2
-    if (held_for > kBrakes) moved = std::max(moved, (g.out.manipulator.tip.p() - before).norm());
+    const double brakes = context.mutated("too_early") ? 0.0 : 0.125;  // s: from 50 mm/s at 0.41 m/s2
+    if (held_for > brakes) moved = std::max(moved, (g.out.manipulator.tip.p() - before).norm());
     before = g.out.manipulator.tip.p();
   });
   found.numbers = {{"wrong.value", wrong, "", exactly(0.0), "ticks with the one and not the other"},
-                   {"full.value", ticks, "", at_least(500.0), "ticks at the range"},
+                   {"full.value", ticks, "", {}, "ticks at the range"},
                    {"moved.max", moved * 1e6, "um", exactly(0.0), "commanded in a hold, once at rest"}};
   add_soundness(run, found);
   return found;
@@ -378,14 +391,14 @@ CaseResult overloaded(const BenchContext& context) {
                    {}};
   double said = 0.0, deepest = 0.0;
   trial::TrialOptions options{.seed = context.seed};
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     said += (g.out.why & kOverload) != 0 ? 1.0 : 0.0;
     deepest = std::max(deepest, g.out.deflection);
   });
-  found.numbers = {
-      {"said.value", said, "", at_least(1.0), "ticks with the notice"},
-      {"given.max", deepest * kStiffness, "N", at_most(30.0), "of the wall, where the tip is sent"},
-      {"touch.max", run.judge.touch, "N", {}, "true force"}};
+  found.numbers = {{"said.value", said, "", at_least(1.0), "ticks with the notice"},
+                   {"given.max", deepest * kStiffness, "N", between(18.0, 24.0),
+                    "of the wall, where the tip is sent: 30 N less the load"},
+                   {"touch.max", run.judge.touch, "N", {}, "true force"}};
   add_soundness(run, found);
   return found;
 }
@@ -408,10 +421,12 @@ CaseResult coincident(const BenchContext& context, bool arm) {
     std::int64_t last = -1000, switches = 0;
     std::int32_t before = -1;
     const auto twin = [&](std::int32_t index) { return arm ? index == 4 || index == 12 : true; };
-    trial::TrialOptions options{.seed = context.seed};
-    const Run run = judged(setup, options, [&](const trial::Glance& g) {
-      if (g.out.object != before && before >= 0 && twin(before) && twin(g.out.object)) {
-        switches += g.tick.index - last < 100 ? 1 : 0;
+    const bool other = i == 1 && context.mutated("other_seed");
+    trial::TrialOptions options{.seed = context.seed + (other ? 1 : 0)};
+    const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
+      const bool any = context.mutated("any_change");
+      if (g.out.object != before && (any || (before >= 0 && twin(before) && twin(g.out.object)))) {
+        switches += any || g.tick.index - last < 100 ? 1 : 0;
         last = g.tick.index;
       }
       before = g.out.object;
@@ -429,13 +444,12 @@ CaseResult coincident(const BenchContext& context, bool arm) {
 
 }  // namespace
 
-void add_walls(Cases& cases, bool quick) {
-  const std::vector<double> soft{1e2, 3e2, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}, stiff{1e3, 1e4, 1e5, 1e6},
-      few{1e4, 1e6};
-  for (const double stiffness : quick ? few : soft)
+void add_walls(Cases& cases) {
+  const std::vector<double> soft{1e2, 3e2, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}, stiff{1e3, 1e4, 1e5, 1e6};
+  for (const double stiffness : soft)
     cases.push_back({name_of("arm", stiffness),
                      [=](const BenchContext& context) { return arm_wall(context, stiffness); }});
-  for (const double stiffness : quick ? few : stiff)
+  for (const double stiffness : stiff)
     cases.push_back({name_of("hexapod", stiffness),
                      [=](const BenchContext& context) { return machine_wall(context, stiffness); }});
 }
@@ -446,13 +460,14 @@ void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<CaseResul
   Series limit{.name = "what the device has"}, push{.name = "what the finger pushes with"};
   Series lost{.name = "does not hold the finger still", .mark = Mark::crosses};
   const std::string wall = "arm.wall.";
+  const double most = load_scene(bench.context, "wall").rig.arm.peak;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!cases[i].id.starts_with(wall)) continue;
     const double stiffness = std::stod(cases[i].id.substr(wall.size()));
     for (const Number& n : found[i].numbers) {
       if (n.what == "force.max") {
         told.add(stiffness, n.value);
-        limit.add(stiffness, n.bounds.high);
+        limit.add(stiffness, most);
         push.add(stiffness, kPush);
       }
       if (n.what == "touch.max") touch.add(stiffness, n.value);
@@ -469,21 +484,20 @@ void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<CaseResul
                          "on the law rings, which is said before the run: the tip swings by centimetres."});
 }
 
-void add_touches(Cases& cases, bool quick) {
+void add_touches(Cases& cases) {
   cases.push_back({"arm.deep", deep_finger});
   cases.push_back({"hexapod.deep", deep_tip});
   cases.push_back({"hexapod.training", training});
   for (const bool arm : {true, false})
-    for (const double speed : quick ? std::vector<double>{1.0} : std::vector<double>{1.0, 5.0})
+    for (const double speed : {1.0, 5.0})
       cases.push_back({fmt::format("{}.impact.{:g}", arm ? "arm" : "hexapod", speed),
                        [=](const BenchContext& context) { return impact(context, arm, speed); }});
 }
 
-void add_places(Cases& cases, bool quick) {
+void add_places(Cases& cases) {
   for (const bool arm : {true, false}) {
     const std::string machine = arm ? "arm" : "hexapod";
     cases.push_back({machine + ".leaves", [=](const BenchContext& context) { return leaves(context, arm); }});
-    if (quick) continue;
     cases.push_back(
         {machine + ".trembles", [=](const BenchContext& context) { return trembles(context, arm); }});
     cases.push_back(

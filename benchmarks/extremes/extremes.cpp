@@ -113,7 +113,7 @@ Outcome run_once(const Study& study, const BenchContext& context, const StepSett
     const models::Setup setup = load_scene(context, study.scene, study.set, held);
     trial::TrialOptions options{.seed = context.seed, .seconds = study.seconds};
     const double start = thread_seconds();
-    const Run run = judged(setup, options, [&](const trial::Glance& g) {
+    const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
       found.way.push_back(g.truth.tool_tip.e());
       if (g.truth.touching && found.touched < 0) found.touched = g.tick.index;
       if (g.truth.phase == sim::Phase::hold) held_at.push_back(g.truth.tip.xyz[2]);
@@ -280,18 +280,14 @@ void judge_default(Bench& bench, const StudyTrial& p) {
 
 // Error against run time.
 void add_error_over_time(Bench& bench) {
-  const bool full = bench.context.full;
-  const std::vector<std::string> integrators =
-      full ? std::vector<std::string>{"rk4", "implicitfast", "euler", "discrete"}
-           : std::vector<std::string>{"rk4", "implicitfast"};
-  const int halved = full ? 5 : 3;
+  const std::vector<std::string> integrators{"rk4", "implicitfast", "euler", "discrete"};
+  constexpr int kHalved = 5;
   std::vector<StudyTrial> points;
   for (const Study& study : studies())
     for (const std::string& integrator : integrators)
-      for (int i = 0; i < halved; ++i) points.push_back({&study, {integrator, std::ldexp(1e-3, -i)}});
-  const std::map<const Study*, Outcome> converged =
-      converged_runs(bench, {"rk4", std::ldexp(1e-3, full ? -6 : -5)});
-  race(bench.context, full ? 3 : 1, converged, points);
+      for (int i = 0; i < kHalved; ++i) points.push_back({&study, {integrator, std::ldexp(1e-3, -i)}});
+  const std::map<const Study*, Outcome> converged = converged_runs(bench, {"rk4", std::ldexp(1e-3, -6)});
+  race(bench.context, 3, converged, points);
 
   Table table{"work_precision",
               "Error against run time at the edges",
@@ -311,17 +307,16 @@ void add_error_over_time(Bench& bench) {
 }
 
 void run(Bench& bench) {
-  const bool quick = bench.context.quick;
   Cases cases;
-  add_walls(cases, quick);
-  add_touches(cases, quick);
-  add_inputs(cases, quick);
-  add_links(cases, quick);
-  add_places(cases, quick);
-  add_refusals(cases, quick);
-  add_soaks(cases, quick, bench.context.full);
+  add_walls(cases);
+  add_touches(cases);
+  add_inputs(cases, bench.context.full);
+  add_links(cases);
+  add_places(cases);
+  add_refusals(cases);
+  add_soaks(cases, bench.context);
   std::vector<CaseResult> all = bench.each(cases, [&](const Case& one) { return one.run(bench.context); });
-  if (!quick) add_long(bench, cases, all);
+  add_long(bench, cases, all);
   Table table{"cases", "Extreme cases", {"case", "what is done", "criterion", "verdict"}};
   double missed = 0.0, stated = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -339,9 +334,8 @@ void run(Bench& bench) {
   bench.figure("all.cases.value", static_cast<double>(cases.size()), "", "cases");
   table.printed = true;
   bench.table(std::move(table));
-  if (quick) return;
   add_wall_plot(bench, cases, all);
-  add_error_over_time(bench);
+  if (bench.context.full) add_error_over_time(bench);
 }
 
 const Reads kReads{"extremes", {.scenes = {"*"}}};
@@ -349,9 +343,10 @@ const Entry kEntry{"extremes", "wall", "what should not happen: extreme cases, e
 
 }  // namespace
 
-Run judged(const models::Setup& setup, trial::TrialOptions options,
+Run judged(const BenchContext& context, const models::Setup& setup, trial::TrialOptions options,
            const std::function<void(const trial::Glance&)>& also) {
   Run run;
+  run.judge.unsound = context.mutated("unsound_tick");
   options.watch = [&](const trial::Glance& glance) {
     run.judge.see(glance);
     if (also) also(glance);
@@ -361,11 +356,12 @@ Run judged(const models::Setup& setup, trial::TrialOptions options,
 }
 
 void add_soundness(const Run& run, CaseResult& found) {
+  std::string why = "ticks that the judge objects to, and warnings of the engine";
+  if (!run.judge.first().empty()) why = run.judge.first();
+  if (!run.result.divergence.empty()) why = run.result.divergence;
+  const double warned = run.result.diverged_at < 0 ? 0.0 : 1.0;
   found.numbers.push_back(
-      {"broken.value", static_cast<double>(run.judge.broken()), "", exactly(0.0),
-       run.judge.first().empty() ? "ticks that the judge objects to" : run.judge.first()});
-  found.numbers.push_back({"warned.value", run.result.diverged_at < 0 ? 0.0 : 1.0, "", exactly(0.0),
-                           run.result.divergence.empty() ? "by the engine" : run.result.divergence});
+      {"broken.value", static_cast<double>(run.judge.broken()) + warned, "", exactly(0.0), why});
   found.simulated += run.result.simulated;
 }
 

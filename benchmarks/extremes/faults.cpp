@@ -46,8 +46,10 @@ constexpr std::int64_t kEvery = 30;  // ticks between two
 // Checks that each invalid number was followed by a tick that is not held.
 class Recovery {
  public:
+  explicit Recovery(bool a_tick_late) : a_tick_late_(a_tick_late) {}
   void see(const trial::Glance& g, bool spoiled) {
-    const bool held = g.out.mode == Mode::hold;
+    const bool held = a_tick_late_ ? was_held_ : g.out.mode == Mode::hold;
+    was_held_ = g.out.mode == Mode::hold;
     caught_ += spoiled && held ? 1 : 0;
     spoiled_ += spoiled ? 1 : 0;
     late_ += was_spoiled_ && !spoiled && held ? 1 : 0;
@@ -59,10 +61,10 @@ class Recovery {
 
  private:
   std::int64_t late_ = 0, caught_ = 0, spoiled_ = 0;
-  bool was_spoiled_ = false;
+  bool a_tick_late_, was_spoiled_ = false, was_held_ = false;
 };
 
-CaseResult spoiled(const BenchContext& context, bool arm, bool quick) {
+CaseResult spoiled(const BenchContext& context, bool arm, bool full) {
   const models::Setup setup =
       load_scene(context, arm ? "wall" : "tennis_ball",
                  {"user.press_s=2", "user.hold_s=4", "user.depth_mm=4", "user.approach_mm_s=[50]",
@@ -74,8 +76,8 @@ CaseResult spoiled(const BenchContext& context, bool arm, bool quick) {
   InputSpoiler count;
   fields(count, none);
   constexpr std::int64_t kFrom = 1500;  // ticks: it follows, or is in contact
-  const std::int64_t number = 4 * count.seen / (quick ? 4 : 1);
-  Recovery recovery;
+  const std::int64_t number = 4 * count.seen / (full ? 1 : 4);
+  Recovery recovery(context.mutated("a_tick_late"));
   bool now = false;
   std::int64_t tick = 0, done = 0, next = kFrom;
   Time packet{};
@@ -89,15 +91,15 @@ CaseResult spoiled(const BenchContext& context, bool arm, bool quick) {
     now = tick++ >= next && fresh && done < number;
     if (!now) return;
     next = tick + kEvery;
-    InputSpoiler one{static_cast<int>(quick ? done : done / 4), static_cast<Junk>(done % 4)};
+    InputSpoiler one{static_cast<int>(full ? done / 4 : done), static_cast<Junk>(done % 4)};
     fields(one, in);
     ++done;
   };
-  const Run run = judged(setup, options, [&](const trial::Glance& g) { recovery.see(g, now); });
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) { recovery.see(g, now); });
   found.numbers = {
       {"late.value", recovery.late(), "", exactly(0.0), "holds on the tick after, all good again"},
-      {"spoiled.value", recovery.spoiled(), "", at_least(static_cast<double>(number)), "inputs"},
-      {"held.value", recovery.caught(), "", at_least(1.0), "of them with a hold at once"}};
+      {"spoiled.value", recovery.spoiled(), "", {}, "inputs"},
+      {"held.value", recovery.caught(), "", at_least(10.0), "of them with a hold at once"}};
   add_soundness(run, found);
   return found;
 }
@@ -120,13 +122,16 @@ models::Setup approach(const BenchContext& context, bool arm, const std::vector<
 
 // The tool is approaching: it is seen for the last time at 1.5 s.
 CaseResult dropout(const BenchContext& context, bool arm, double length) {
-  constexpr double kAt = 1.5, kExtrapolated = 0.1, kStops = 0.2;  // s
+  constexpr double kAt = 1.5, kExtrapolated = 0.1, kStops = 0.2;                      // s
+  const double unseen = length + (context.mutated("unseen_for_longer") ? 0.5 : 0.0);  // s
+  const double stops = context.mutated("too_early") ? 0.0 : kStops;
   const models::Setup setup = approach(context, arm,
                                        {fmt::format("truth.tracker.blackout_at_s={:g}", kAt),
-                                        fmt::format("truth.tracker.blackout_for_s={:g}", length)});
+                                        fmt::format("truth.tracker.blackout_for_s={:g}", unseen)});
   CaseResult found{
       fmt::format("{}.toml, tool unseen for {:g} ms at 40 mm/s", arm ? "wall" : "tennis_ball", 1e3 * length),
-      "within 1.5 mm for 100 ms, then at rest within 200 ms; back at once",
+      arm ? "within 1.5 mm for 100 ms, then at rest within 200 ms; back at once"
+          : "within 0.4 mm for 100 ms, then at rest within 200 ms; back at once",
       {}};
   const double lost = setup.rig.tracker.lost_age;
   const double again =
@@ -134,20 +139,20 @@ CaseResult dropout(const BenchContext& context, bool arm, double length) {
   double error = 0.0, speed = 0.0, held_after = 0.0;
   Vec3 before = Vec3::Zero();
   trial::TrialOptions options{.seed = context.seed, .seconds = 4.0};
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const Run run = judged(context, setup, options, [&](const trial::Glance& g) {
     const double t = time_of(g);
     const Vec3 command = arm ? Vec3(g.out.arm.target.e()) : Vec3(g.out.manipulator.tip.p());
     if (t >= kAt && t <= kAt + std::min(length, kExtrapolated)) error = std::max(error, belief_error(g));
-    if (t > kAt + lost + kStops && t < kAt + length)
+    if (t > kAt + lost + stops && t < kAt + length)
       speed = std::max(speed, (command - before).norm() / g.scene.dt);
     held_after += t > again && g.out.mode == Mode::hold ? 1.0 : 0.0;
     before = command;
   });
-  found.numbers = {{"error.max", error * kMmPerM, "mm", at_most(1.5), "of the believed place, 100 ms long"},
-                   {"late.value", held_after, "", exactly(0.0), "ticks of hold once it is seen again"}};
+  found.numbers = {
+      {"error.max", error * kMmPerM, "mm", at_most(arm ? 1.5 : 0.4), "of the believed place, 100 ms long"},
+      {"late.value", held_after, "", exactly(0.0), "ticks of hold once it is seen again"}};
   if (length > lost + kStops)
-    found.numbers.push_back(
-        {"speed.max", speed * kMmPerM, "mm/s", at_most(1e-3), "commanded, 200 ms after it is lost"});
+    found.numbers.push_back({"speed.max", speed * kMmPerM, "mm/s", {}, "commanded, 200 ms after it is lost"});
   add_soundness(run, found);
   return found;
 }
@@ -158,7 +163,7 @@ struct Link {
   Run run;
 };
 // A path of 16 mm, because the hand returns at 40 mm/s, too.
-Link link_of(const BenchContext& context, const Network::Faults& faults) {
+Link link_of(const BenchContext& context, const Network::Faults& faults, std::vector<std::string> more = {}) {
   Link link;
   Network network(faults, context.seed);
   Vec3 sum = Vec3::Zero();
@@ -169,20 +174,23 @@ Link link_of(const BenchContext& context, const Network::Faults& faults) {
     network(now, in);
     now += Duration(1'000'000);
   };
-  link.run = judged(approach(context, false, {"truth.tracker.bias_mm=[0,0,0]", "user.approach_from_mm=16"}),
-                    options, [&](const trial::Glance& g) {
-                      if (time_of(g) < 1.0 || !g.out.view.tip.finite()) return;
-                      const Vec3 error = (g.out.view.tip - g.truth.tool_tip).e();
-                      sum += error.cwiseAbs2();
-                      ++number;
-                    });
+  more.insert(more.end(), {"truth.tracker.bias_mm=[0,0,0]", "user.approach_from_mm=16"});
+  link.run = judged(context, approach(context, false, more), options, [&](const trial::Glance& g) {
+    if (time_of(g) < 1.0 || !g.out.view.tip.finite()) return;
+    const Vec3 error = (g.out.view.tip - g.truth.tool_tip).e();
+    sum += error.cwiseAbs2();
+    ++number;
+  });
   link.rms = std::sqrt(sum.maxCoeff() / static_cast<double>(number));
   link.hash = link.run.result.hash;
   return link;
 }
 
 CaseResult network(const BenchContext& context, const char* what, const Network::Faults& faults) {
-  const Link clean = link_of(context, {}), bad = link_of(context, faults);
+  std::vector<std::string> unseen;
+  if (context.mutated("unseen_for_longer"))
+    unseen = {"truth.tracker.blackout_at_s=2", "truth.tracker.blackout_for_s=0.5"};
+  const Link clean = link_of(context, {}), bad = link_of(context, faults, unseen);
   const bool twice = faults.twice > 0.0;
   CaseResult found{fmt::format("tennis_ball.toml, {}", what),
                    twice ? "the same bits as without" : "rms of the believed place at most 0.13 mm",
@@ -223,11 +231,13 @@ CaseResult stall(const BenchContext& context, bool arm, std::int64_t cycles) {
       "a hold on each, none a tick later, no wind-up",
       {}};
   std::int64_t stalls = 0, held = 0, late = 0;
-  bool before = false;
+  bool before = false, held_before = false;
   trial::TrialOptions options{.seed = context.seed, .seconds = 8.0};
   options.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<StallClock>(std::move(rig.clock), cycles); };
-  const Run run = judged(approach(context, arm), options, [&](const trial::Glance& g) {
-    const bool now = g.in.missed > 0, holds = g.out.mode == Mode::hold;
+  const Run run = judged(context, approach(context, arm), options, [&](const trial::Glance& g) {
+    const bool now = g.in.missed > 0;
+    const bool holds = context.mutated("a_tick_late") ? held_before : g.out.mode == Mode::hold;
+    held_before = g.out.mode == Mode::hold;
     stalls += now ? 1 : 0;
     held += now && holds && (g.out.why & kClockLate) != 0 ? 1 : 0;
     late += before && !now && holds ? 1 : 0;
@@ -236,7 +246,7 @@ CaseResult stall(const BenchContext& context, bool arm, std::int64_t cycles) {
   found.numbers = {{"held.percent", 100.0 * static_cast<double>(held) / static_cast<double>(stalls), "%",
                     exactly(100.0), "of the stalls, at once"},
                    {"late.value", static_cast<double>(late), "", exactly(0.0), "holds on the tick after"},
-                   {"stalls.value", static_cast<double>(stalls), "", at_least(5.0)}};
+                   {"stalls.value", static_cast<double>(stalls), ""}};
   add_soundness(run, found);
   return found;
 }
@@ -335,21 +345,19 @@ void Storm::operator()(Time now, Inputs& in) {
   if (left_-- > 0) spoil(in);
 }
 
-void add_inputs(Cases& cases, bool quick) {
+void add_inputs(Cases& cases, bool full) {
   for (const bool arm : {true, false})
     cases.push_back({arm ? "arm.inputs" : "hexapod.inputs",
-                     [=](const BenchContext& context) { return spoiled(context, arm, quick); }});
+                     [=](const BenchContext& context) { return spoiled(context, arm, full); }});
 }
 
-void add_links(Cases& cases, bool quick) {
+void add_links(Cases& cases) {
   for (const bool arm : {true, false}) {
     const std::string machine = arm ? "arm" : "hexapod";
-    for (const double length :
-         quick ? std::vector<double>{0.1, 0.5} : std::vector<double>{0.05, 0.1, 0.2, 0.5})
+    for (const double length : {0.05, 0.1, 0.2, 0.5})
       cases.push_back({fmt::format("{}.dropout.{:.0f}", machine, 1e3 * length),
                        [=](const BenchContext& context) { return dropout(context, arm, length); }});
-    for (const std::int64_t cycles :
-         quick ? std::vector<std::int64_t>{5} : std::vector<std::int64_t>{5, 50, 500})
+    for (const std::int64_t cycles : {std::int64_t{5}, std::int64_t{50}, std::int64_t{500}})
       cases.push_back({fmt::format("{}.stall.{}", machine, cycles),
                        [=](const BenchContext& context) { return stall(context, arm, cycles); }});
   }

@@ -40,14 +40,17 @@ struct StormResult {
   Nominal after;
 };
 
-StormResult stormed(const models::Setup& setup, trial::TrialOptions options, Storm& faults, double after) {
+StormResult stormed(const BenchContext& context, const models::Setup& setup, trial::TrialOptions options,
+                    Storm& faults, double after) {
   StormResult found;
   Time now{};
   options.disturb = [&](Inputs& in) {
     faults(now, in);
+    if (context.mutated("fault_that_stays") && seconds(now.time_since_epoch()) > after)
+      in.tool.value.X_CT.xyz[0] += 0.02;
     now += Duration(1'000'000);
   };
-  found.run = judged(setup, std::move(options), [&](const trial::Glance& g) {
+  found.run = judged(context, setup, std::move(options), [&](const trial::Glance& g) {
     if (time_of(g) > after) found.after.see(g);
   });
   return found;
@@ -59,18 +62,15 @@ CaseResult storm(const BenchContext& context, bool arm, double length) {
   CaseResult found{fmt::format("{}.toml, a fault a second for {:g} s", arm ? "keypad" : "session", length),
                    "sound on every tick; error as without faults 1 s after the last",
                    {}};
-  Storm faults(context.seed + (arm ? 1 : 0), 1.0, length);
-  const Storm kept = faults;
+  Storm faults(context.seed + (arm ? 1 : 0), 1.0, context.mutated("storm_goes_on") ? kInfinite : length);
   const trial::TrialOptions options{.seed = context.seed, .seconds = length + kQuiet, .fit_out = keep_clean};
   Nominal whole;
-  const Run undisturbed = judged(setup, options, [&](const trial::Glance& g) {
+  const Run undisturbed = judged(context, setup, options, [&](const trial::Glance& g) {
     if (time_of(g) > 2.0) whole.see(g);
   });
-  const auto [run, after] = stormed(setup, options, faults, length + kRecovers);
-  faults = Storm(kept);
-  const StormResult again = stormed(setup, options, faults, length + kRecovers);
+  const auto [run, after] = stormed(context, setup, options, faults, length + kRecovers);
   found.numbers = {
-      {"faults.value", static_cast<double>(faults.faults()), "", at_least(length - 1.0)},
+      {"faults.value", static_cast<double>(faults.faults()), ""},
       {"belief.ratio", after.belief / whole.belief, "x", at_most(1.2),
        "error of the believed place from 1 s after the last fault on, over the largest without faults"},
       {"held_after.value", static_cast<double>(after.held), "", exactly(0.0), "ticks of hold from then on"},
@@ -80,10 +80,10 @@ CaseResult storm(const BenchContext& context, bool arm, double length) {
        {},
        "of all ticks"}};
   if (!arm)
-    found.numbers.push_back({"tip.ratio", after.tip / whole.tip, "x", at_most(1.2),
-                             "likewise, of the machine against its command"});
+    found.numbers.push_back(
+        {"tip.ratio", after.tip / whole.tip, "x", {}, "likewise, of the machine against its command"});
   add_soundness(run, found);
-  found.simulated += undisturbed.result.simulated + again.run.result.simulated;
+  found.simulated += undisturbed.result.simulated;
   return found;
 }
 
@@ -98,11 +98,13 @@ double resident() {
 // Presses for hours without faults: checks for growth, and that the end is like the beginning.
 CaseResult hours(const BenchContext& context, bool arm, double length) {
   CaseResult found{fmt::format("{}.toml for {:g} s", arm ? "keypad" : "session", length),
-                   "memory + less than 1 MiB from a tenth on; time exact to the nanosecond; work as before",
+                   "memory + less than 1 MiB from a tenth on; work as before",
                    {}};
   const models::Setup setup = endless(context, arm, length);
   Judge judge;
+  judge.unsound = context.mutated("unsound_tick");
   double before = kUnset, most = 0.0, drift = 0.0;
+  std::vector<double> kept;      // mutant: of each tick
   std::array<double, 2> work{};  // J, tool to tip, of each half
   const auto ticks = static_cast<std::int64_t>(1e3 * length);
   trial::TrialOptions options{.seed = context.seed, .seconds = kInfinite};
@@ -110,7 +112,10 @@ CaseResult hours(const BenchContext& context, bool arm, double length) {
   trial::Trial* running = nullptr;
   options.watch = [&](const trial::Glance& g) {
     judge.see(g);
-    work[g.tick.index < ticks / 2 ? 0 : 1] += dot(g.truth.contact_force, g.truth.tip_velocity) * g.scene.dt;
+    const bool late = g.tick.index >= ticks / 2;
+    const double times = late && context.mutated("late_work_doubled") ? 2.0 : 1.0;
+    work[late ? 1 : 0] += times * dot(g.truth.contact_force, g.truth.tip_velocity) * g.scene.dt;
+    if (context.mutated("keeps_ticks")) kept.insert(kept.end(), 100, time_of(g));
     const double t = time_of(g);
     drift = std::max(drift, std::abs(running->world().physics().data()->time - t));
     if (g.tick.index == ticks / 10) before = resident();
@@ -122,15 +127,10 @@ CaseResult hours(const BenchContext& context, bool arm, double length) {
   Run run;
   run.result = trial.run();
   run.judge = judge;
-  const Tick& last = trial.now();
   found.numbers = {
       {"memory.max", most - before, "MiB", at_most(1.0), "more than after a tenth of the time"},
-      {"time.error",
-       static_cast<double>((last.t.time_since_epoch() - last.index * Duration(1'000'000)).count()), "ns",
-       exactly(0.0), "of the last tick"},
       {"engine_time.max", drift * 1e9, "ns", {}, "of MuJoCo's own sum of steps; nobody reads it"},
       {"work.ratio", work[1] / work[0], "x", between(0.7, 1.4), "on the tip, second half over first"},
-      {"ticks.value", static_cast<double>(judge.ticks), "", at_least(1e3 * length)},
       {"cpu.value", thread_seconds() - start, "s", {}, "CPU time", kUnset, true}};
   add_soundness(run, found);
   return found;
@@ -139,7 +139,7 @@ CaseResult hours(const BenchContext& context, bool arm, double length) {
 }  // namespace
 
 void add_long(Bench& bench, Cases& cases, std::vector<CaseResult>& found) {
-  const double length = bench.context.full ? 36000.0 : 600.0;
+  const double length = bench.context.full ? 36000.0 : 60.0;
   for (const bool arm : {true, false}) {
     cases.push_back({arm ? "arm.hours" : "hexapod.hours", {}});
     found.push_back(hours(bench.context, arm, length));
@@ -147,8 +147,8 @@ void add_long(Bench& bench, Cases& cases, std::vector<CaseResult>& found) {
   }
 }
 
-void add_soaks(Cases& cases, bool quick, bool full) {
-  const double length = full ? 600.0 : quick ? 10.0 : 60.0;
+void add_soaks(Cases& cases, const BenchContext& with) {
+  const double length = with.full ? 600.0 : 10.0;
   for (const bool arm : {true, false})
     cases.push_back({arm ? "arm.storm" : "hexapod.storm",
                      [=](const BenchContext& context) { return storm(context, arm, length); }});
