@@ -16,10 +16,9 @@ Device held_by(Device device, const Grip& grip) {
 }
 
 std::vector<double> stiffnesses(const BenchContext& context) {
-  const int each = context.full ? 4 : context.quick ? 1 : 2, decades = 8;
+  const double each = context.full ? 4.0 : context.quick ? 0.5 : 1.0, decades = 8.0;
   std::vector<double> all;
-  for (int i = 0; i <= each * decades; ++i)
-    all.push_back(kSoftest * std::pow(10.0, i / static_cast<double>(each)));
+  for (int i = 0; i <= each * decades; ++i) all.push_back(kSoftest * std::pow(10.0, i / each));
   return all;
 }
 

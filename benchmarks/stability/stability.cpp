@@ -33,9 +33,10 @@ struct MarginShift {
 };
 
 // (T/2 + t_d)/(T/2 + t_d - h/2) for the first-order integrators: their position is that of half a step later.
-MarginShift moved_by(const SteppedLoop& s) {
+MarginShift moved_by(const BenchContext& context, const SteppedLoop& s) {
   const Device device{0.1, 0.2, 1e-3, s.delay};
-  const double exact = certificate::critical_stiffness(loop_of(device)), lag = 0.5e-3 + s.delay;
+  const double exact = certificate::critical_stiffness(loop_of(believed(context, device)));
+  const double lag = 0.5e-3 + s.delay;
   const double gained = s.scheme == Scheme::rk4 ? 0.0 : 0.5e-3 / s.steps;
   const double simulated = critical(device, 0.0, {s.scheme, s.steps}, kUnset, 50.0 * exact);
   return {simulated / exact, lag / std::max(0.0, lag - gained)};
@@ -70,9 +71,9 @@ struct Setting {
 
 Device timed_device(double delay) { return {0.1, 0.2, kTimedPeriod, delay}; }
 
-Setting timed(Setting s) {
+Setting timed(const BenchContext& context, Setting s) {
   const Device device = timed_device(s.delay);
-  const double exact = certificate::critical_stiffness(loop_of(device));
+  const double exact = certificate::critical_stiffness(loop_of(believed(context, device)));
   const double found = critical(device, 0.0, {s.scheme, s.steps}, kUnset, 50.0 * exact);
   s.none = std::isinf(found);
   s.error = s.none ? kUnset : std::max(100.0 * std::abs(found / exact - 1.0), 1e-3);
@@ -181,17 +182,18 @@ struct StabilityResult {
 };
 constexpr int kSteps[] = {1, 2, 10};
 
-StabilityResult find(const Case& of, bool quick) {
+StabilityResult find(const Case& of, const BenchContext& context) {
   StabilityResult found;
   const certificate::Damper damper{of.damper, 0.0};
-  found.predicted = certificate::critical_stiffness(loop_of(of.device), damper);
-  for (const certificate::Row& row : certificate::bounds(loop_of(of.device), {0.0, 0.0}, {1.0, damper}))
+  const certificate::SampledLoop loop = loop_of(believed(context, of.device));
+  found.predicted = certificate::critical_stiffness(loop, damper);
+  for (const certificate::Row& row : certificate::bounds(loop, {0.0, 0.0}, {1.0, damper}))
     if (row.name == "gil_hulin") {
       found.formula = row.bound;
       found.applies = row.applies;
     }
   double near = kUnset;
-  for (std::size_t i = 0; i < (quick ? 2U : 3U); ++i) {
+  for (std::size_t i = 0; i < (context.full ? 3U : 2U); ++i) {
     if (kSteps[i] < of.steps) continue;
     near = found.at[i] = critical(of.device, of.damper, {Scheme::rk4, kSteps[i]}, near, kMost);
     const double error = 100.0 * std::abs(found.predicted / near - 1.0);
@@ -232,7 +234,7 @@ void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<S
     most = worse(most, 100.0 * (found[i].formula / simulated - 1.0));
     applied += found[i].applies ? 1 : 0;
   }
-  bench.figure("gil_hulin.cases.value", applied, "", at_least(40.0), "of the cases, that it applies to");
+  bench.figure("gil_hulin.cases.value", applied, "", "of the cases, that it applies to");
   bench.figure("gil_hulin.within.max", within, "%", at_most(5.0),
                "by how much (b + B)/(T/2 + delay) is above what MuJoCo does, where it applies: B up to b, b "
                "(2 T + delay) up to 0.1 m");
@@ -243,8 +245,9 @@ void add_formula(Bench& bench, const std::vector<Case>& all, const std::vector<S
 void add_no_stiffness(Bench& bench) {
   std::vector<double> all;
   for (int i = 0; i <= 32; ++i) all.push_back(1e-2 * std::pow(10.0, 0.25 * i));
-  const auto grown = bench.each(all, [](double stiffness) {
-    return growth(device_of(0.2, 10.0), {stiffness, 20.0}, {Scheme::rk4, 1});
+  const double damper = bench.context.mutated("damper_of_1") ? 1.0 : 20.0;  // N s/m
+  const auto grown = bench.each(all, [&](double stiffness) {
+    return growth(device_of(0.2, 10.0), {stiffness, damper}, {Scheme::rk4, 1});
   });
   bench.figure(
       "damper20.unstable.percent",
@@ -253,7 +256,7 @@ void add_no_stiffness(Bench& bench) {
           static_cast<double>(grown.size()),
       "%", exactly(100.0), "of 33 stiffnesses from 0.01 to 1e6 N/m, 20 N s/m at 10 ms");
   bench.figure("damper20.predicted.value",
-               certificate::critical_stiffness(loop_of(device_of(0.2, 10.0)), {20.0, 0.0}), "N/m",
+               certificate::critical_stiffness(loop_of(device_of(0.2, 10.0)), {damper, 0.0}), "N/m",
                exactly(0.0), "critical stiffness by the eigenvalues: none is stable");
 }
 
@@ -325,7 +328,7 @@ void add_button_map(Bench& bench) {
   double same = 0.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const KeyCell& cell = all[i];
-    const certificate::SampledLoop loop = loop_of(cell.device);
+    const certificate::SampledLoop loop = loop_of(believed(bench.context, cell.device));
     map.cell(cell.panel, cell.delay, cell.stiffness, found[i]);
     const double exact = certificate::critical_stiffness(loop);
     same += (cell.stiffness <= exact) == (found[i] == Rest::still) ? 1.0 : 0.0;
@@ -348,19 +351,18 @@ void add_button_map(Bench& bench) {
 
 // The critical stiffness of linear walls, its error, and that of Gil and Hulin.
 void add_linear_cases(Bench& bench) {
-  const bool quick = bench.context.quick;
   std::vector<Case> all = cases();
-  if (quick) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // T/10 is not possible
-  const auto found = bench.each(all, [&](const Case& of) { return find(of, quick); });
+  if (!bench.context.full) std::erase_if(all, [](const Case& of) { return of.steps > 2; });  // wants T/10
+  const auto found = bench.each(all, [&](const Case& of) { return find(of, bench.context); });
   double worst = 0.0, judged = 0.0;
   for (const StabilityResult& f : found) {
     worst = worse(worst, f.error);
     judged += f.judged > 0 && std::isfinite(f.error) ? 1.0 : 0.0;
   }
-  bench.figure("critical.cases.value", judged, "", at_least(60.0),
+  bench.figure("critical.cases.value", judged, "",
                "that have a critical stiffness on both sides, over b, B, delay, mass, period, hand, each at "
                "time step T, T/2 and T/10 where the delay allows");
-  bench.figure("critical.error.max", worst, "%", at_most(3.0),
+  bench.figure("critical.error.max", worst, "%", at_most(0.1),
                "critical stiffness: exact eigenvalues against MuJoCo");
   add_formula(bench, all, found);
   add_no_stiffness(bench);
@@ -373,7 +375,7 @@ void add_integrators(Bench& bench) {
   for (const Scheme scheme : kSchemes)
     for (const int steps : {1, 2, 10})
       for (const double delay : {0.0, 1e-3, 2e-3, 5e-3}) all.push_back({scheme, steps, delay});
-  const auto found = bench.each(all, moved_by);
+  const auto found = bench.each(all, [&](const SteppedLoop& s) { return moved_by(bench.context, s); });
   Table table{"integrators",
               "Critical stiffness in MuJoCo over the exact one",
               {"integrator", "time step", "delay (ms)", "factor", "expected"},
@@ -392,11 +394,17 @@ void add_integrators(Bench& bench) {
     }
     bench.figure(fmt::format("{}.factor.tenth", name_of(scheme)), largest, "x",
                  "critical stiffness over the exact one, time step T/10, no delay");
-    bench.figure(fmt::format("{}.factor_error.max", name_of(scheme)), worst, "%", at_most(3.0),
+    bench.figure(fmt::format("{}.factor_error.max", name_of(scheme)), worst, "%", at_most(0.2),
                  scheme == Scheme::rk4 ? "against 1, time steps T to T/10, delays 0 to 5 ms"
                                        : "against (T/2 + t_d)/(T/2 + t_d - h/2), the same");
   }
   bench.table(std::move(table));
+}
+
+// A mutant: an arm's force 20 ms late, or with a loop that is not known.
+void loops_late(models::Setup& setup, bool unknown) {
+  if (setup.rig.arm.loop) setup.rig.arm.loop->delay = 0.02;
+  if (unknown) setup.rig.arm.loop.reset();
 }
 
 // The certificates of the scenes that ship.
@@ -408,7 +416,8 @@ void add_scenes(Bench& bench) {
   double beyond = 0.0, unknown = 0.0, objects = 0.0, most = 0.0;
   const std::string& models = bench.context.models;
   for (const std::string& name : models::files_in(models, "scenes")) {
-    const models::Setup setup = models::load(models + "/scenes/" + name + ".toml", {});
+    models::Setup setup = models::load(models + "/scenes/" + name + ".toml", {});
+    if (bench.context.mutated("late_loops")) loops_late(setup, name == "wall");
     const Scene scene = trial::prepare_setup(setup);
     const double start = thread_seconds();
     const std::vector<trial::ObjectCertificate> found = trial::certificates_of(setup, scene, true);
@@ -441,7 +450,7 @@ std::vector<Setting> timed_settings(Bench& bench) {
   for (const double delay : {0.0, 2e-3})
     for (const Scheme scheme : kSchemes)
       for (const int steps : kStepCounts) all.push_back({scheme, steps, delay});
-  all = bench.each(all, timed);
+  all = bench.each(all, [&](const Setting& s) { return timed(bench.context, s); });
   std::vector<std::function<void()>> ways;
   ways.reserve(all.size());
   for (const Setting& s : all)
@@ -503,7 +512,7 @@ void add_error_over_time(Bench& bench) {
   }
   bench.plot(settings_plot(all));
   bench.table(settings_table(all));
-  bench.figure("work_precision.error.max", error, "%", at_most(3.0),
+  bench.figure("work_precision.error.max", error, "%", at_most(0.1),
                "critical stiffness at the default, rk4, a step a period");
   bench.cost("work_precision.default_over_cheapest.cpu", cost / cheapest, "x",
              "CPU time of the default over the cheapest other setting that is within 3 % without a delay");
@@ -546,6 +555,12 @@ void Agreement::see(certificate::Rest told, certificate::Rest seen) {
   places += 1.0;
   rest += known && (told == certificate::Rest::still) == (seen == certificate::Rest::still) ? 1.0 : 0.0;
   same += known && told == seen ? 1.0 : 0.0;
+}
+
+Device believed(const BenchContext& context, Device device) {
+  if (!context.mutated("ten_times_damped")) return device;
+  for (double* one : {&device.damping, &device.hand_damping, &device.friction}) *one *= 10.0;
+  return device;
 }
 
 double worse(double a, double b) { return std::isnan(a) ? a : std::isnan(b) ? b : std::max(a, b); }

@@ -15,6 +15,8 @@ namespace enc::bench::stability {
 // The certificate's input for a device.
 [[nodiscard]] certificate::SampledLoop loop_of(const Device& device);
 [[nodiscard]] certificate::Steps steps_of(const Device& device);
+// The device as the certificate is given it; a mutant has ten times its damping and friction.
+[[nodiscard]] Device believed(const BenchContext& context, Device device);
 
 // MuJoCo's outcome as a value of the certificate.
 [[nodiscard]] certificate::Rest same_as(Outcome outcome);
@@ -49,7 +51,7 @@ inline constexpr std::array kRestWords{"rests", "limit cycle", "runs away", "not
   return kRestWords[static_cast<std::size_t>(rest)];
 }
 
-// Even logarithmic steps: half decades; decades in a quick run, quarters of them in a full one.
+// Even logarithmic steps: decades; two in a quick run, quarters in a full one.
 [[nodiscard]] std::vector<double> stiffnesses(const BenchContext& context);
 
 // A plot of panels over the delays; values outside it become gaps.

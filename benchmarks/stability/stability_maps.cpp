@@ -60,8 +60,8 @@ Device late_device(const Panel& panel, std::size_t delay) {
   return device;
 }
 
-Rest foretold(const Panel& panel, std::size_t delay, double stiffness) {
-  const Device device = late_device(panel, delay);
+Rest foretold(const BenchContext& context, const Panel& panel, std::size_t delay, double stiffness) {
+  const Device device = believed(context, late_device(panel, delay));
   // A device that friction holds against law and hand never moves, however long it is watched.
   const double reads = kLetGo + 0.5 * device.count;
   if (stiffness * reads + device.hand_spring * kLetGo < device.friction) return Rest::still;
@@ -115,7 +115,7 @@ void spot_checks(Bench& bench, const std::vector<Panel>& panels, std::size_t cou
     while (std::abs(std::remainder(device.delay, device.period / steps)) > 1e-9) ++steps;  // as Slide wants
     const double rubbed = exact(loop_of(device), panel.damper, device.friction / (kQuarter * kLetGo));
     const double stiffness = about(rubbed, at.share);
-    return Spot{stiffness, foretold(panel, at.delay, stiffness),
+    return Spot{stiffness, foretold(bench.context, panel, at.delay, stiffness),
                 same_as(let_go(device, {stiffness, panel.damper}, {Scheme::rk4, steps}, kLetGo))};
   });
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -140,7 +140,7 @@ void add_panels(Bench& bench, Map& map, const std::vector<Panel>& panels, const 
   const auto found = bench.each(all, [&](const Cell& c) {
     const Panel& panel = panels[c.panel];
     if (std::isnan(c.stiffness)) return std::pair{Rest::unknown, map_bounds(panel, c.delay)};
-    return std::pair{foretold(panel, c.delay, c.stiffness), Bounds5{}};
+    return std::pair{foretold(bench.context, panel, c.delay, c.stiffness), Bounds5{}};
   });
   for (std::size_t i = 0; i < all.size(); ++i)
     if (std::isnan(all[i].stiffness))
@@ -178,10 +178,10 @@ struct PredictionOutcome {
   Outcome outcome = Outcome::away;
 };
 
-PredictionOutcome judge(const Cell& cell) {
-  const Device& d = cell.device;
-  return {certificate::release(loop_of(d), steps_of(d), cell.stiffness, 0.0, cell.x0).rest,
-          let_go(d, {cell.stiffness, 0.0}, kFine, cell.x0)};
+PredictionOutcome judge(const BenchContext& context, const Cell& cell) {
+  const Device device = believed(context, cell.device);
+  return {certificate::release(loop_of(device), steps_of(device), cell.stiffness, 0.0, cell.x0).rest,
+          let_go(cell.device, {cell.stiffness, 0.0}, kFine, cell.x0)};
 }
 
 struct Grid {
@@ -198,7 +198,7 @@ constexpr Grid kGrids[] = {{"0.1mm", certificate::kSmall, 3000.0, 30e-6, 0.25, 1
 // Damping x delay at one stiffness, and the predicted share of it.
 void add_grid(Bench& bench, const Grid& grid) {
   std::vector<Cell> all;
-  const int rows = bench.context.quick ? 7 : 12, columns = bench.context.quick ? 6 : 11;
+  const int rows = bench.context.full ? 12 : 7, columns = bench.context.full ? 11 : 6;
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < columns; ++k) {
       const double delay = 0.5e-3 * std::round(10.0 * k / (columns - 1));
@@ -206,7 +206,7 @@ void add_grid(Bench& bench, const Grid& grid) {
       all.push_back({rubbed(damping, delay), grid.stiffness, grid.x0});
       all.back().device.count = grid.count;
     }
-  const auto judged = bench.each(all, judge);
+  const auto judged = bench.each(all, [&](const Cell& cell) { return judge(bench.context, cell); });
   Agreement agreed;
   double still = 0.0;
   Table table{fmt::format("regions_{}", grid.name),
@@ -260,7 +260,7 @@ std::vector<Series> bound_lines(const std::vector<double>& delays, double low, d
 void add_map(Bench& bench) {
   std::vector<Cell> all;
   std::vector<double> delays;
-  const int columns = bench.context.quick ? 6 : 21, rows = bench.context.quick ? 9 : 15;
+  const int columns = bench.context.full ? 21 : 6, rows = bench.context.full ? 15 : 9;
   delays.reserve(static_cast<std::size_t>(columns));
   for (int i = 0; i < columns; ++i) delays.push_back(1e-4 * std::round(100.0 * i / (columns - 1)));
   constexpr double kLow = 3.0, kHigh = 3e4;
@@ -421,8 +421,8 @@ void add_spots(Bench& bench, const std::vector<std::string>& titles) {
   const BenchContext& context = bench.context;
   std::vector<Place> places = random_places(context, kHands.size(),
                                             context.full    ? 400
-                                            : context.quick ? 16
-                                                            : 120,
+                                            : context.quick ? 12
+                                                            : 24,
                                             3);
   // The twin's dead time is whole cycles, and at least one.
   std::erase_if(places, [](const Place& at) { return kDelays[at.delay] < kTicks[kOwn]; });
@@ -433,7 +433,9 @@ void add_spots(Bench& bench, const std::vector<std::string>& titles) {
   const auto found = bench.each(places, [&](const Place& at) {
     const models::Setup setup = pushed_setup(context, kHands[at.panel], kTicks[kOwn], kDelays[at.delay]);
     const double stiffness = about(lowest_stable_stiffness(loop_of(setup.rig)), at.share);
-    return Spot{stiffness, foretold(setup, stiffness), pushed(setup, stiffness, context.seed)};
+    models::Setup told = setup;
+    if (context.mutated("ten_times_damped")) told.rig.contact.hand_stiffness *= 10.0;
+    return Spot{stiffness, foretold(told, stiffness), pushed(setup, stiffness, context.seed)};
   });
   Table table{"map_admittance_spots",
               "Spot checks of the admittance's map",
@@ -446,7 +448,7 @@ void add_spots(Bench& bench, const std::vector<std::string>& titles) {
               fmt::format("{:.3g}", stiffness), words_of(told), words_of(seen));
   }
   bench.figure("admittance.agree", 100.0 * same / static_cast<double>(places.size()), "%",
-               places.size() < kEnough ? Bounds{} : at_least(95.0),
+               at_least(places.size() < kEnough ? 85.0 : 95.0),
                fmt::format("of {} random places of the admittance's map: stands still in the twin, as "
                            "foretold",
                            places.size()));
@@ -476,7 +478,7 @@ void add_wall_maps(Bench& bench) {
   Table table{
       "map_spots", "Spot checks of the maps", {"panel", "delay (ms)", "K (N/m)", "foretold", "MuJoCo"}};
   const bool quick = bench.context.quick, full = bench.context.full;
-  const std::size_t count = full ? 300 : quick ? 12 : 50;
+  const std::size_t count = full ? 300 : quick ? 12 : 20;
   Agreement all;
   spot_checks(bench, grips, count, 1, all, table);
   spot_checks(bench, dampings, count, 2, all, table);

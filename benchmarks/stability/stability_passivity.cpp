@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -143,12 +144,12 @@ struct Row {
   BounceResult off{}, on{};
   double off_pressed = 0.0, on_pressed = 0.0;
 };
-Row measured(Row row, bool quick) {
+Row measured(Row row, const BenchContext& context) {
   RenderedWall r{{0.1, row.damping, 1e-3}, {row.stiffness, 0.0}};
   r.device.count = row.count;
-  const int times = quick ? 100 : 1000;
+  const int times = context.full ? 1000 : 100;
   row.off = bounce(r, times, 0.02, 0.3);
-  const double seconds = quick ? 3.0 : 30.0;
+  const double seconds = context.full ? 30.0 : 3.0;
   r.wave = 1e-3;
   row.off_pressed = pressed(r, seconds);
   r.controlled = true;
@@ -156,6 +157,10 @@ Row measured(Row row, bool quick) {
   r.wave = 0.0;
   row.on_pressed = std::max(row.on_pressed, pressed(r, seconds));
   row.on = bounce(r, times, 0.02, 0.3);
+  if (context.mutated("exchange_control")) {
+    std::swap(row.on, row.off);
+    std::swap(row.on_pressed, row.off_pressed);
+  }
   return row;
 }
 
@@ -239,7 +244,7 @@ Pushes pushed(const BenchContext& context, double object, const SpareHand& grip,
                              fmt::format("truth.pusher.damping_Ns_per_m={}", grip.damping),
                              fmt::format("rig.contact.hand_stiffness_N_per_mm={}", grip.believed * 1e-3),
                              fmt::format("rig.contact.hand_damping_Ns_per_m={}", grip.damping),
-                             "pusher.hold_s=6", fmt::format("pusher.repeats={}", context.quick ? 2 : 12),
+                             "pusher.hold_s=6", fmt::format("pusher.repeats={}", context.full ? 12 : 2),
                              fmt::format("rig.admittance.passivity={}", controlled ? "controlled" : "none")}),
       object);
   Pushes all;
@@ -261,9 +266,11 @@ struct Ball {
   double press, release, in, out, acted;  // N, N, J, J, s
 };
 Ball ball(const BenchContext& context, bool controlled) {
-  const models::Setup setup =
-      load_scene(context, "tennis_ball",
-                 {fmt::format("rig.admittance.passivity={}", controlled ? "controlled" : "none")});
+  std::vector<std::string> set{
+      fmt::format("rig.admittance.passivity={}", controlled ? "controlled" : "none")};
+  if (controlled && context.mutated("hasty_press"))
+    set.insert(set.end(), {"user.press_s=0.5", "user.release_s=0.5"});
+  const models::Setup setup = load_scene(context, "tennis_ball", set);
   trial::PressMeasure presses(setup);
   trial::PassivityMeasure passivity;
   trial::TrialOptions options{.seed = context.seed};
@@ -330,7 +337,7 @@ void add_sessions(Bench& bench) {
   const BenchContext& context = bench.context;
   std::vector<Lesson> lessons;
   for (const char* scene : {"session", "training"})
-    for (std::uint64_t i = 0; i < (context.quick ? 1U : context.full ? 16U : 4U); ++i)
+    for (std::uint64_t i = 0; i < (context.full ? 16U : 1U); ++i)
       for (const bool controlled : {false, true}) lessons.push_back({scene, context.seed + i, controlled});
   lessons = bench.each(lessons, [&](const Lesson& asked) {
     Lesson lesson = asked;
@@ -344,6 +351,7 @@ void add_sessions(Bench& bench) {
         std::move(options))
         .run();
     lesson.given = work.most();
+    if (context.mutated("exchange_control")) lesson.controlled = !lesson.controlled;
     return lesson;
   });
   for (const char* scene : {"session", "training"}) {
@@ -354,8 +362,10 @@ void add_sessions(Bench& bench) {
       all = {worse(all.along, one.given.along), worse(all.across, one.given.across)};
     }
     const std::string key = std::string("spare.") + scene;
+    // In few hands of training nothing comes out without the controller, either: that would judge nothing.
+    const bool judged = std::string_view(scene) == "session";
     bench.figure(
-        key + ".energy.max", 1e3 * most[1].along, "mJ", at_most(0.1),
+        key + ".energy.max", 1e3 * most[1].along, "mJ", judged ? at_most(0.1) : Bounds{},
         fmt::format("the same of the scene {} as it ships, along the normal of each contact", scene));
     bench.figure(key + ".none.energy.max", 1e3 * most[0].along, "mJ", "without the controller");
     bench.figure(key + ".across.max", 1e3 * most[1].across, "mJ",
@@ -375,8 +385,7 @@ Rows measured_rows(Bench& bench) {
   for (const double stiffness : {1e3, 1e4, 1e5}) rows.push_back({0.2, stiffness});
   const std::size_t exact = rows.size();
   for (std::size_t i = 0; i < exact; ++i) rows.push_back({rows[i].damping, rows[i].stiffness, 30e-6});
-  const bool quick = bench.context.quick;
-  return {bench.each(rows, [&](const Row& row) { return measured(row, quick); }), unstable, exact};
+  return {bench.each(rows, [&](const Row& row) { return measured(row, bench.context); }), unstable, exact};
 }
 
 Table energy_table(const std::vector<Row>& rows) {
@@ -407,16 +416,16 @@ void add_energies(const Rows& rows, Bench& bench) {
     double& kept = i < rows.exact ? stiff : counted;
     kept = worse(kept, r.on.kept);
   }
-  bench.figure("passivity.bounces.energy.max", 1e3 * bounced, "mJ", at_most(0.1),
-               "more out than in, at any moment of 1000 bounces at three times the bound of stability, with "
+  bench.figure("passivity.bounces.energy.max", 1e3 * bounced, "mJ", at_most(1e-3),
+               "more out than in, at any moment of the bounces at three times the bound of stability, with "
                "the controller");
-  bench.figure("passivity.sliding.energy.max", 1e3 * slid, "mJ", at_most(0.1),
-               "the same, pressed by 1 N for 30 s, at rest and while it slides over a wave");
+  bench.figure("passivity.sliding.energy.max", 1e3 * slid, "mJ", at_most(1e-3),
+               "the same, pressed by 1 N, at rest and while it slides over a wave");
   bench.figure("passivity.none.energy.min", 1e3 * without, "mJ", at_least(0.1),
                "the bounces without it: the least of the three");
-  bench.figure("passivity.stiff.energy.max", 1e3 * stiff, "mJ", at_most(8.5 * 0.3 * 1e-3 * 1e3),
-               "that a bounce gains with it, walls to 1e5 N/m: at most F v T of one cycle");
-  bench.figure("passivity.counts.energy.max", 1e3 * counted, "mJ", at_most(8.5 * 0.3 * 1e-3 * 1e3),
+  bench.figure("passivity.stiff.energy.max", 1e3 * stiff, "mJ", at_most(0.01),
+               "that a bounce gains with it, walls to 1e5 N/m; F v T of one cycle is 2.55 mJ");
+  bench.figure("passivity.counts.energy.max", 1e3 * counted, "mJ", at_most(1.5),
                "the same with counts of 30 um");
 }
 
@@ -430,6 +439,7 @@ std::vector<SparePush> spare_pushes(Bench& bench) {
     SparePush found = row;
     found.off = pushed(bench.context, row.object, row.grip, false);
     found.on = pushed(bench.context, row.object, row.grip, true);
+    if (bench.context.mutated("exchange_control")) std::swap(found.on, found.off);
     return found;
   });
 }
@@ -454,7 +464,8 @@ Table spare_table(const std::vector<SparePush>& rows) {
 void add_passivity(Bench& bench) {
   const Rows rows = measured_rows(bench);
   add_energies(rows, bench);
-  bench.figure("passivity.none.gain", gained(1e3, false), "%", between(7.0, 11.0),
+  bench.figure("passivity.none.gain", gained(bench.context.mutated("stiff_for_soft") ? 1e4 : 1e3, false), "%",
+               between(7.0, 11.0),
                "by which it parts faster from 1e3 N/m, held for 1 ms, than from a wall without sampling; no "
                "controller; theory: 9");
   bench.figure("passivity.gain", gained(1e3, true), "%",
@@ -474,7 +485,8 @@ void add_spare(Bench& bench) {
     most = worse(most, r.on.out);
     without = std::max(without, r.off.out);
     bounces += r.off.bounces;
-    if (r.object >= 1000.0) firm = std::max(firm, std::abs(r.on.put / r.off.put - 1.0));
+    if (r.object >= (bench.context.mutated("soft_for_firm") ? 100.0 : 1000.0))
+      firm = std::max(firm, std::abs(r.on.put / r.off.put - 1.0));
   }
   bench.figure("spare.energy.max", 1e3 * with, "mJ", at_most(0.1),
                "more out than in, at any moment of all contacts, with the controller; hands as believed");
