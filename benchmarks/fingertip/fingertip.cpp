@@ -1,6 +1,8 @@
 // Finds the fingertip in single frames: hands from all sides before many backgrounds. Each frame is searched
 // whole, without the frame before it [VisHap 2.1.2, Fig 3]. Each background has its own person, with a finger
 // of 10 to 25 mm whose K is known, as [VisHap] finds it for a configuration; then K is made wrong.
+#include "benchmarks/fingertip/fingertip.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,7 +113,11 @@ Ring ring_of(const Bench& bench, const sim::CameraModule& camera) {
   shot.pose.along = Vec<'C'>(-0.3, -1.0, 0.2);
   Ring ring{std::vector<Pair>(10), std::vector<Pair>(16)};
   std::uint64_t frame = 0;
-  for (Pair& pair : ring.background) stage->draw(nullptr, shot.look, {}, frame++, pair.left, pair.right);
+  Pair room;
+  for (Pair& pair : ring.background) {
+    expose(*stage, frame++, room);
+    pair = room;
+  }
   double x = -0.07;  // m
   for (Pair& pair : ring.frames) {
     shot.pose.tip = Point<'C'>(x, 0.0, 0.62);
@@ -124,15 +130,13 @@ Ring ring_of(const Bench& bench, const sim::CameraModule& camera) {
 // Time for a stereo frame from pixels to the fingertip, beside OpenCV.
 
 // A finger that moves at 300 mm/s. Without OpenCV there is no race.
-void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
+void race(Bench& bench, const sim::CameraModule& camera, const VisionRig& vision) {
   if (opencv_of(bench) == nullptr) return;
   const OpenCv& opencv = *opencv_of(bench);
   constexpr int kHues = 10;  // either way: wide enough for shaded skin
   const Ring ring = ring_of(bench, camera);
-  SegmentationSpec segmentation;
-  segmentation.model = skin;
-  FingerTracker tracker(head(kWidth), segmentation, FingertipSpec{}, TrackSpec{}, MatchSpec{});
-  const int hue = static_cast<int>(skin.hue / (2.0 * M_PI) * 256.0);
+  FingerTracker tracker(head(kWidth), vision.segmentation, vision.fingertip, vision.track, vision.match);
+  const int hue = static_cast<int>(vision.segmentation.model.hue / (2.0 * M_PI) * 256.0);
   const auto mog2 = opencv.mog2({(hue - kHues) & 255, (hue + kHues) & 255});
   const auto few = opencv.stereo(64, 15), all = opencv.stereo(224, 15);
   Mask mask(kWidth, kWidth * 3 / 4);
@@ -150,12 +154,14 @@ void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) 
     mog2->segment(pair.left.view(), mask);
     stereo.disparity(pair.left.view(), pair.right.view());
   };
-  const Race raced(bench.context.quick ? 16 : 64,
-                   {[&] { seen += see(ring.at(at[0]++)) ? 1U : 0U; }, [&] { theirs(*few, ring.at(at[1]++)); },
-                    [&] { theirs(*all, ring.at(at[2]++)); }},
+  const auto ours = [&, times = bench.context.mutated("ten_times") ? 10 : 1] {
+    for (int i = 0; i < times; ++i) seen += see(ring.at(at[0]++)) ? 1U : 0U;
+  };
+  const Race raced(bench.context.full ? 64 : 16,
+                   {ours, [&] { theirs(*few, ring.at(at[1]++)); }, [&] { theirs(*all, ring.at(at[2]++)); }},
                    4);
   bench.cost("followed.time.median", raced.seconds(0) * 1e3, "ms", "a stereo frame with the search window");
-  bench.cost("ratio_to_opencv.median", raced.ratio(1, 0), "x", at_least(9.0),
+  bench.cost("ratio_to_opencv.median", raced.ratio(1, 0), "x", at_least(5.0),
              fmt::format("MOG2 + inRange + medianBlur + StereoBM of 64 disparities, {:.1f} ms, over a stereo "
                          "frame of ours; same frames, interleaved",
                          raced.seconds(1) * 1e3));
@@ -165,19 +171,43 @@ void race(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) 
                at_least(90.0), "frames of the race in which ours saw the finger");
 }
 
-// Factors on K; the first one is judged.
-constexpr std::array<double, 3> kScales{1.0, 0.75, 1.25};
-constexpr std::size_t kEnough = 1000;  // frames, for a share of 1 % and for the law of depth in six bins
+// Other readings of the algorithm, each for the same pictures as the shipped one.
+struct Reading {
+  const char *id, *words;
+  void (*change)(FingertipSpec&);
+  double found = kUnset;  // share of the fingertips that it finds, of 140 (seed 1)
+};
+// Step 7 as printed: between 2 and 4 times r2, which is 1.7 r.
+void printed_limits(FingertipSpec& tip, SquareReading square) {
+  tip.square = square;
+  tip.square_least = 2.0 * tip.square_radii;
+  tip.square_most = 4.0 * tip.square_radii;
+}
+constexpr std::array<Reading, 5> kReadings{
+    {{"k.75", "K a quarter too small", [](FingertipSpec& tip) { tip.scale = 0.75; }},
+     {"k.125", "K a quarter too large", [](FingertipSpec& tip) { tip.scale = 1.25; }},
+     {"printed.step5", "step 5 as printed, without a factor: all of the circle is skin",
+      [](FingertipSpec& tip) { tip.circle_share = 1.0; }, 0.61},
+     {"printed.step7_side", "step 7 as printed, r2 the side of the square",
+      [](FingertipSpec& tip) { printed_limits(tip, SquareReading::side); }, 0.62},
+     {"printed.step7_half_side", "step 7 as printed, r2 half a side of the square",
+      [](FingertipSpec& tip) { printed_limits(tip, SquareReading::half_side); }, 0.80}}};
+constexpr std::size_t kEvery = 4;                                            // shots for each with readings
 constexpr std::array<double, 7> kDepths{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};  // m, edges of the bins
 
 struct TipMeasurement {
   double depth = 0.0, width = 0.0;  // m
   double across = kUnset;           // px, of the cap as drawn, its half width less K / z
   double area = kUnset;             // px, minus K / z: radius of the circle of its outline's area
-  std::array<double, kScales.size()> off{kUnset, kUnset,
-                                         kUnset};  // px, from the true middle; unset: not found
-  double disparity = kUnset;                       // px, error
-  double z = kUnset, place = kUnset;               // m, error in depth and in all
+  double off = kUnset;              // px, from the true middle; unset: not found
+  double outline = kUnset;          // px, radius that vision fits to the cap, seen straight on
+  double distance = kUnset;         // m, of the cap's middle from the camera
+  bool read = false;                // by the other readings, too
+  std::array<double, kReadings.size()> off_read{kUnset, kUnset, kUnset, kUnset, kUnset};
+  std::size_t candidates = 0, around = 0;  // of the ten steps; those within the cap
+  bool best_around = false;                // the one with the highest score is
+  double disparity = kUnset;               // px, error
+  double z = kUnset, place = kUnset;       // m, error in depth and in all
 };
 struct Cell {
   std::vector<TipMeasurement> shots;
@@ -193,46 +223,92 @@ void add(StepCounts& sum, const StepCounts& more) {
     sum.*count += more.*count;
 }
 
-FingerTracker tracker(const StereoRig& rig, const SkinModel& skin, double width, double scale) {
-  SegmentationSpec segmentation;
-  segmentation.model = skin;
-  FingertipSpec tip;
-  tip.radius = 0.5 * width;
-  tip.scale = scale;
-  return {rig, segmentation, tip, TrackSpec{}};
-}
-
 struct FingerSetup {
   const sim::CameraModule* camera;
   StereoRig rig;
-  SkinModel skin;
+  VisionRig vision;
   double width;  // m, of the finger
   std::size_t shots;
   std::uint64_t seed;
+  std::size_t every = kEvery;
+  bool beside = false, waves = false, wider = false;  // mutants
 };
 
-TipMeasurement look(std::vector<FingerTracker>& trackers, const FingerSetup& asked, const Shot& shot,
-                    const Pair& pair, Time t) {
+// The tracker, and what finds the fingertip by the other readings in the same pictures.
+struct Eyes {
+  explicit Eyes(const FingerSetup& asked)
+      : tracker(asked.rig, asked.vision.segmentation, asked.vision.fingertip, asked.vision.track,
+                asked.vision.match),
+        scene(asked.rig, asked.vision.segmentation, asked.vision.fingertip, asked.vision.match) {
+    for (const Reading& reading : kReadings) {
+      FingertipSpec tip = asked.vision.fingertip;
+      reading.change(tip);
+      finders.push_back(scene.finder_with(tip));
+    }
+  }
+  FingerTracker tracker;
+  HandScene scene;
+  std::vector<FingertipFinder> finders;
+};
+
+double off_of(const Fingertip& tip, const sim::PixelTruth& truth) {
+  const double off = std::hypot(tip.column - truth.column, tip.row - truth.row);
+  return tip.found && off <= within_cap(truth) ? off : kUnset;
+}
+
+void count_candidates(const FingerTracker& tracker, const sim::PixelTruth& truth, TipMeasurement& found) {
+  float best = 0.0F;
+  for (const FingertipFinder::Candidate& one : tracker.candidates()) {
+    const bool around = std::hypot(one.x - truth.column, one.y - truth.row) <= within_cap(truth);
+    ++found.candidates;
+    found.around += around ? 1 : 0;
+    if (one.score <= best) continue;
+    best = one.score;
+    found.best_around = around;
+  }
+}
+
+TipMeasurement look(Eyes& eyes, const FingerSetup& asked, const Shot& shot, const Pair& pair, Time t) {
   TipMeasurement found{.depth = shot.pose.tip.xyz[2], .width = shot.look.finger_width};
   const double focal = asked.rig.left.focal_x;
-  const Outline cap = outline(trackers.front().pair(), shot, pair.truth);
-  const double radius = focal * 0.5 * found.width / found.depth;  // px, K / z
+  const Outline cap = outline(eyes.tracker.pair(), shot, pair.truth);
+  const double radius = focal * 0.5 * found.width * (asked.wider ? 1.1 : 1.0) / found.depth;  // px, K / z
   found.across = cap.across - radius;
   found.area = cap.area - radius;
-  for (std::size_t i = 0; i < trackers.size(); ++i) {
-    trackers[i].forget();
-    const Finger finger = trackers[i].see({pair.left.view(), pair.right.view()}, t);
-    const Fingertip& tip = trackers[i].stats().tip;
-    if (!tip.found) continue;
-    const double off = std::hypot(tip.column - pair.truth.column, tip.row - pair.truth.row);
-    if (off > within_cap(pair.truth)) continue;
-    found.off[i] = off;
-    if (i > 0 || finger.state != FingerState::seen) continue;
-    found.disparity = finger.disparity - focal * asked.rig.X_CD.p().x() / found.depth;
-    found.z = finger.tip.xyz[2] - found.depth;
-    found.place = (finger.tip - shot.pose.tip).norm();
-  }
+  eyes.tracker.forget();
+  const Finger finger = eyes.tracker.see({pair.left.view(), pair.right.view()}, t);
+  const Fingertip& tip = eyes.tracker.stats().tip;
+  count_candidates(eyes.tracker, pair.truth, found);
+  found.off = off_of(tip, pair.truth) + (asked.beside ? 1.0 : 0.0);
+  if (std::isnan(found.off)) return found;
+  found.distance = shot.pose.tip.e().norm();
+  if (tip.fitted) found.outline = tip.outline * (asked.wider ? found.distance / kDepths.front() : 1.0);
+  if (finger.state != FingerState::seen) return found;
+  const double beside = asked.beside ? 4.0 : 0.0;  // px
+  found.disparity = finger.disparity + beside - focal * asked.rig.X_CD.p().x() / found.depth;
+  found.z = finger.tip.xyz[2] - found.depth;
+  found.place = (finger.tip - shot.pose.tip).norm() + beside * kMillimetre;
   return found;
+}
+
+void read_otherwise(Eyes& eyes, const Pair& pair, TipMeasurement& found) {
+  found.read = true;
+  const Region all = eyes.scene.frame();
+  eyes.scene.look({pair.left.view(), pair.right.view()}, all, {});
+  for (std::size_t i = 0; i < kReadings.size(); ++i)
+    found.off_read[i] =
+        off_of(eyes.finders[i].find(eyes.scene.skin(), eyes.scene.disparity(), all), pair.truth);
+}
+
+// The frame, and its skin with the candidates and the chosen fingertip [VisHap Fig 3].
+std::vector<Image> picture_of(const FingerTracker& tracker, const Pair& pair) {
+  std::vector<Image> images{pair.left, image_of(tracker.skin())};
+  for (const FingertipFinder::Candidate& one : tracker.candidates())
+    mark(images[1], one.x, one.y, {255, 170, 0}, 0);
+  const Fingertip& tip = tracker.stats().tip;
+  mark(images[0], tip.column, tip.row, {0, 255, 0});
+  mark(images[1], tip.column, tip.row, {255, 0, 0});
+  return images;
 }
 
 // One background, with many hands before it.
@@ -242,36 +318,34 @@ Cell look_at(const FingerSetup& asked) {
   spec.seed = asked.seed;
   const auto stage = asked.camera->stage(spec);
   sim::Stream stream(asked.seed, "hands");
-  std::vector<FingerTracker> trackers;
-  trackers.reserve(kScales.size());
-  for (const double scale : kScales) trackers.push_back(tracker(asked.rig, asked.skin, asked.width, scale));
+  Eyes eyes(asked);
   Cell cell;
   Pair pair;
   std::uint64_t frame = 0;
-  const auto time = [&] { return Time(from_seconds(0.05 * static_cast<double>(frame))); };
-  for (; frame < 10; ++frame) {
-    stage->draw(nullptr, {}, {}, frame, pair.left, pair.right);
-    for (FingerTracker& each : trackers) each.see({pair.left.view(), pair.right.view()}, time());
+  const auto time = [&] { return Time(from_seconds(kPeriod * static_cast<double>(frame))); };
+  for (; !eyes.tracker.learned(); ++frame) {
+    expose(*stage, frame, pair);
+    eyes.tracker.see({pair.left.view(), pair.right.view()}, time());
+    eyes.scene.learn({pair.left.view(), pair.right.view()});
   }
+  const auto nobody = [&](std::size_t i) {
+    if (i == 0 && !asked.waves) stage->draw(nullptr, {}, {}, frame, pair.left, pair.right);
+    if (i > 0) stage->again(frame, pair.left, pair.right);
+    eyes.tracker.forget();
+    eyes.tracker.see({pair.left.view(), pair.right.view()}, time());
+    cell.mistaken += eyes.tracker.stats().tip.found ? 1U : 0U;
+  };
   for (std::size_t i = 0; i < asked.shots; ++i, ++frame) {
     const auto tone =
         static_cast<sim::Tone>(stream.bits() % 4);  // dark skin: see the benchmark `segmentation`
     const Shot shot = drawn(asked.rig, {.thin = asked.width, .thick = asked.width}, tone, stream);
     stage->draw(&shot.pose, shot.look, {}, frame, pair.left, pair.right, &pair.truth);
-    cell.shots.push_back(look(trackers, asked, shot, pair, time()));
-    add(cell.steps, trackers.front().stats().steps);
-    if (i > 0) continue;
-    const Fingertip& tip = trackers.front().stats().tip;
-    cell.picture = {pair.left, image_of(trackers.front().skin())};
-    mark(cell.picture[0], tip.column, tip.row, {0, 255, 0});
-    mark(cell.picture[1], tip.column, tip.row, {255, 0, 0});
+    cell.shots.push_back(look(eyes, asked, shot, pair, time()));
+    if (i % asked.every == 0) read_otherwise(eyes, pair, cell.shots.back());
+    add(cell.steps, eyes.tracker.stats().steps);
+    if (i == 0) cell.picture = picture_of(eyes.tracker, pair);
   }
-  for (; cell.empty < asked.shots / 10; ++cell.empty, ++frame) {
-    stage->draw(nullptr, {}, {}, frame, pair.left, pair.right);
-    trackers.front().forget();
-    trackers.front().see({pair.left.view(), pair.right.view()}, time());
-    cell.mistaken += trackers.front().stats().tip.found ? 1U : 0U;
-  }
+  for (; cell.empty < (asked.shots + 9) / 10; ++cell.empty, ++frame) nobody(cell.empty);
   return cell;
 }
 
@@ -280,26 +354,81 @@ std::vector<TipMeasurement> all_of(const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) all.insert(all.end(), cell.shots.begin(), cell.shots.end());
   return all;
 }
-std::vector<double> offs(const std::vector<TipMeasurement>& shots, std::size_t scale) {
-  std::vector<double> values;
-  for (const TipMeasurement& f : shots)
-    if (!std::isnan(f.off[scale])) values.push_back(f.off[scale]);
-  return values;
-}
 double percent(std::size_t of, std::size_t all) {
   return 100.0 * static_cast<double>(of) / static_cast<double>(all);
 }
 
+// Least share of the fingertips that are found, %. Measured: 99.7 %, so 1, 500 and 1,000 frames miss 0, 1.5
+// and 3 on average; a bound is crossed by chance once in ten thousand runs.
+double least_found(std::size_t frames) { return frames >= 1000 ? 99.0 : frames >= 500 ? 98.4 : 90.0; }
+
 void judge_tips(Bench& bench, const std::vector<TipMeasurement>& shots, const std::string& id,
                 double most_median) {
-  const std::vector<double> off = offs(shots, 0);
+  const std::vector<double> off = known(shots, &TipMeasurement::off);
   bench.figure(id + ".found.percent", percent(off.size(), shots.size()), "%",
-               shots.size() < kEnough ? Bounds{} : at_least(99.0),
+               at_least(least_found(shots.size())),
                fmt::format("of {} frames; a tip beyond the cap, and 2 px off at least, counts as not found",
                            shots.size()));
   bench.figure(id + ".error.median", median(off), "px", at_most(most_median), "of the middle of the cap");
   const Tail tail = tail_of(off, 0.95);
   bench.figure(id + ".error." + tail.word, tail.value, "px", "of the middle of the cap");
+}
+
+// "In most cases this algorithm outputs multiple candidates around the true location of the fingertip. We
+// select the one with the highest score" [VisHap 2.1.2]: more than half of the frames.
+void judge_candidates(Bench& bench, const std::vector<TipMeasurement>& shots) {
+  std::size_t several = 0, around = 0, all = 0, best = 0;
+  std::vector<double> count;
+  for (const TipMeasurement& shot : shots) {
+    several += shot.around > 1 ? 1U : 0U;
+    around += shot.around;
+    all += shot.candidates;
+    best += shot.best_around ? 1U : 0U;
+    count.push_back(static_cast<double>(shot.candidates));
+  }
+  bench.figure("candidates.several.percent", percent(several, shots.size()), "%", predicted(50.0),
+               between(97.0, 100.0),
+               "of the frames have more than one candidate within the cap; the paper: most");
+  bench.figure("candidates.best.percent", percent(best, shots.size()), "%", at_least(90.0),
+               "the candidate with the highest score is within the cap");
+  bench.figure("candidates.around.percent", percent(around, all), "%",
+               "of all candidates are within the cap, the others along fingers");
+  bench.figure("candidates.median", median_of(count), "", "candidates of a frame");
+}
+
+// The radius that vision fits to a cap, over its distance: r = K / z [VisHap 2.1.2].
+void judge_radius(Bench& bench, const std::vector<TipMeasurement>& shots) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const TipMeasurement& shot : shots) {
+    if (std::isnan(shot.outline)) continue;
+    const double z = std::log(shot.distance), r = std::log(shot.outline / shot.width);
+    ++n, x += z, y += r, xx += z * z, xy += z * r;
+  }
+  bench.figure("radius.power", (n * xy - x * y) / (n * xx - x * x), "", predicted(-1.0),
+               between(-1.03, -0.97), "power of the distance with which the fitted radius of a cap falls");
+}
+
+void judge_readings(Bench& bench, const std::vector<TipMeasurement>& shots) {
+  for (std::size_t i = 0; i < kReadings.size(); ++i) {
+    std::size_t all = 0;
+    std::vector<double> off;
+    for (const TipMeasurement& shot : shots) {
+      all += shot.read ? 1U : 0U;
+      if (!std::isnan(shot.off_read[i])) off.push_back(shot.off_read[i]);
+    }
+    const std::string id = kReadings[i].id;
+    const double found = kReadings[i].found;
+    const std::string note = fmt::format("fingertips found of {}: {}", all, kReadings[i].words);
+    if (std::isnan(found)) {
+      bench.figure(id + ".found.percent", percent(off.size(), all), "%", note);
+      continue;
+    }
+    // Five standard errors of a share of this many frames, and of the 140 that it is from.
+    const double room =
+        500.0 * std::sqrt(found * (1.0 - found) * (1.0 / static_cast<double>(all) + 1.0 / 140.0));
+    bench.figure(id + ".found.percent", percent(off.size(), all), "%", predicted(100.0),
+                 between(std::max(1.0, 100.0 * found - room), std::min(100.0, 100.0 * found + room)), note);
+  }
 }
 
 void judge_empty(Bench& bench, const std::vector<Cell>& cells) {
@@ -320,7 +449,7 @@ double greatest(const std::vector<double>& values) {
 
 void judge_outline(Bench& bench, const std::vector<TipMeasurement>& shots) {
   const std::vector<double> across = known(shots, &TipMeasurement::across);
-  bench.figure("outline.frames.percent", percent(across.size(), shots.size()), "%", at_least(90.0),
+  bench.figure("outline.frames.percent", percent(across.size(), shots.size()), "%",
                "frames in which nothing hides the rim of the cap's far end, or half of it");
   bench.figure("outline.off.max", greatest(across), "px", at_most(0.5),
                "in these, half the cap's width as drawn against r = K / z: the outline's smaller half axis");
@@ -359,7 +488,7 @@ void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<TipMeasur
   for (const TipMeasurement& f : shots)
     if (std::abs(f.depth - 0.6) < 0.05 && !std::isnan(f.place)) near_600.push_back(f.place);
   at_600 = rms(near_600);
-  bench.figure("depth.off_law.max", 100.0 * worst, "%", shots.size() < kEnough ? Bounds{} : at_most(30.0),
+  bench.figure("depth.off_law.max", 100.0 * worst, "%", shots.size() < 1000 ? Bounds{} : at_most(30.0),
                "rms error in depth of 100 mm bins, against Z2 sigma / (f B)");
   bench.figure("place.at_600.rms", at_600 * kMmPerM, "mm", at_most(2.0),
                "in all three directions, 550 to 650 mm");
@@ -390,203 +519,60 @@ std::vector<FingerSetup> all_widths(const FingerSetup& like, std::size_t stages)
   std::vector<FingerSetup> all(stages, like);
   for (std::size_t i = 0; i < stages; ++i) {
     all[i].width = finger_width(i, stages);
+    all[i].vision.fingertip.radius = 0.5 * all[i].width;
     all[i].seed += i;
   }
   return all;
 }
 
-// The factors that the printed pseudo-code lost, steps 5 and 7, and the size of the square of step 6: the
-// detections for each value.
-namespace factors {
-
-// A factor and its values; the others stay as shipped.
-struct Factor {
-  const char *key, *title;
-  double FingertipSpec::*member;
-  std::array<double, 7> values;
-};
-constexpr std::array<Factor, 4> kFactors{{
-    {"circle_share",
-     "step 5, least share of skin in the circle",
-     &FingertipSpec::circle_share,
-     {0.30, 0.50, 0.60, 0.70, 0.80, 0.90, 0.97}},
-    {"square_radii",
-     "step 6, half a side of the square, in r",
-     &FingertipSpec::square_radii,
-     {1.2, 1.4, 1.55, 1.7, 1.85, 2.0, 2.5}},
-    {"square_least_radii",
-     "step 7, least skin along the square, in r",
-     &FingertipSpec::square_least,
-     {0.0, 0.7, 1.1, 1.4, 1.7, 2.0, 2.4}},
-    {"square_most_radii",
-     "step 7, most skin along the square, in r",
-     &FingertipSpec::square_most,
-     {2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 9.0}},
-}};
-// The content of a frame.
-enum Kind : std::uint8_t { finger, hidden, nothing, kKinds };
-
-struct Counts {
-  int frames = 0, right = 0, wrong = 0;
-};
-using Cell = std::array<std::array<std::array<Counts, 7>, kFactors.size()>, kKinds>;
-
-struct Place {
-  const sim::CameraModule* camera;
-  SkinModel skin;
-  double width;  // m, of the finger
-  std::uint64_t seed;
-};
-
-// The straight finger points away and the fist covers it: folded fingers and a thumb stay visible.
-Shot fist(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream) {
-  Draw farther = draw;
-  farther.near = 0.35;  // the fist is a finger's length nearer
-  Shot shot = drawn(rig, farther, tone, stream);
-  const Vec3 ray = shot.pose.tip.e().normalized();
-  const double aslant = 0.15 * stream.uniform(), side = 2.0 * std::numbers::pi * stream.uniform();
-  shot.pose.along = Vec<'C'>(Vec3(ray + aslant * Vec3(std::cos(side), std::sin(side), 0.0)));
-  return shot;
+void judge_sizes(Bench& bench, FingerSetup like, std::size_t stages) {
+  const auto cells = bench.each(all_widths(like, stages), look_at);
+  const std::vector<TipMeasurement> found = all_of(cells);
+  judge_tips(bench, found, "tip.640", 0.3);
+  judge_empty(bench, cells);
+  judge_candidates(bench, found);
+  judge_radius(bench, found);
+  judge_readings(bench, found);
+  judge_outline(bench, found);
+  judge_depth(bench, like.rig, found);
+  tell_steps(bench, cells);
+  bench.picture({"fig3", "Fingertip",
+                 "A frame and its skin: the candidates, and the fingertip as a cross [VisHap Fig 3].",
+                 png(cells.front().picture)});
+  if (!bench.context.full) return;
+  FingerSetup other = like;
+  other.seed = kNeverSeen + 500;
+  const std::vector<TipMeasurement> fresh = all_of(bench.each(all_widths(other, stages / 2), look_at));
+  judge_tips(bench, fresh, "never_seen", 0.3);
+  judge_gross(bench, fresh, "never_seen");
+  like.rig = head(320);
+  judge_tips(bench, all_of(bench.each(all_widths(like, stages), look_at)), "tip.320", 0.3);
 }
-
-// Finders for the same images, one for each value of each factor.
-std::vector<std::vector<FingertipFinder>> finders_of(const HandScene& scene, const FingertipSpec& shipped) {
-  std::vector<std::vector<FingertipFinder>> finders(kFactors.size());
-  for (std::size_t f = 0; f < kFactors.size(); ++f)
-    for (const double value : kFactors[f].values) {
-      FingertipSpec tip = shipped;
-      tip.*kFactors[f].member = value;
-      finders[f].push_back(scene.finder_with(tip));
-    }
-  return finders;
-}
-
-void count(const Fingertip& tip, const sim::PixelTruth& truth, Kind kind, Counts& counts) {
-  const double off = std::hypot(tip.column - truth.column, tip.row - truth.row);
-  const bool right = kind == finger && tip.found && off <= within_cap(truth);
-  ++counts.frames;
-  counts.right += right ? 1 : 0;
-  counts.wrong += tip.found && !right ? 1 : 0;
-}
-
-Cell look_at(const Place& place) {
-  constexpr int kFrames = 24;  // of each kind
-  sim::StageSpec spec;
-  spec.camera = head(640);
-  spec.seed = place.seed;
-  const auto stage = place.camera->stage(spec);
-  SegmentationSpec segmentation;
-  segmentation.model = place.skin;
-  FingertipSpec shipped;
-  shipped.radius = 0.5 * place.width;
-  HandScene scene(spec.camera, segmentation, shipped, {});
-  const Region all = scene.frame();
-  auto finders = finders_of(scene, shipped);
-  Pair pair;
-  std::uint64_t frame = 0;
-  for (; frame < 10; ++frame) {
-    stage->draw(nullptr, {}, {}, frame, pair.left, pair.right);
-    scene.learn({pair.left.view(), pair.right.view()});
-  }
-  Cell cell{};
-  sim::Stream stream(place.seed, "hands");
-  const Draw draw{.thin = place.width, .thick = place.width};
-  for (int i = 0; i < kKinds * kFrames; ++i, ++frame) {
-    const auto kind = static_cast<Kind>(i % kKinds);
-    const auto tone = static_cast<sim::Tone>(stream.bits() % 4);
-    const Shot shot =
-        kind == hidden ? fist(spec.camera, draw, tone, stream) : drawn(spec.camera, draw, tone, stream);
-    stage->draw(kind == nothing ? nullptr : &shot.pose, shot.look, {}, frame, pair.left, pair.right,
-                &pair.truth);
-    scene.look({pair.left.view(), pair.right.view()}, all, {});
-    for (std::size_t f = 0; f < finders.size(); ++f)
-      for (std::size_t v = 0; v < finders[f].size(); ++v)
-        count(finders[f][v].find(scene.skin(), scene.disparity(), all), pair.truth, kind, cell[kind][f][v]);
-  }
-  return cell;
-}
-
-double percent(int of, int all) { return 100.0 * of / all; }
-
-// Uses training seeds, so that a value chosen by them is not tuned on the judged seeds.
-void tell(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) {
-  const std::size_t places = bench.context.quick ? 2 : 16;
-  std::vector<Place> asked;
-  for (std::size_t i = 0; i < places; ++i)
-    asked.push_back({&camera, skin, finger_width(i, places), kTraining + 500 + i});
-  Cell sum{};
-  for (const Cell& cell : bench.each(asked, look_at))
-    for (std::size_t k = 0; k < kKinds; ++k)
-      for (std::size_t f = 0; f < kFactors.size(); ++f)
-        for (std::size_t v = 0; v < kFactors[f].values.size(); ++v) {
-          sum[k][f][v].frames += cell[k][f][v].frames;
-          sum[k][f][v].right += cell[k][f][v].right;
-          sum[k][f][v].wrong += cell[k][f][v].wrong;
-        }
-  Table table{
-      "factors",
-      "Factors of steps 5 to 7, training seeds (% of frames)",
-      {"factor", "value", "fingertip found", "found beside it", "found in a fist", "found in nothing"}};
-  std::vector<Series> lines;
-  for (std::size_t f = 0; f < kFactors.size(); ++f) {
-    Series line{.name = kFactors[f].title, .mark = Mark::both};
-    for (std::size_t v = 0; v < kFactors[f].values.size(); ++v) {
-      const Counts &with = sum[finger][f][v], &fists = sum[hidden][f][v], &none = sum[nothing][f][v];
-      const double found = percent(with.right, with.frames), wrong = percent(fists.wrong, fists.frames);
-      table.add(kFactors[f].key, fmt::format("{:g}", kFactors[f].values[v]), fixed(found, 1),
-                fixed(percent(with.wrong, with.frames), 1), fixed(wrong, 1),
-                fixed(percent(none.wrong, none.frames), 1));
-      line.add(wrong, found);
-    }
-    lines.push_back(std::move(line));
-  }
-  bench.table(std::move(table));
-  bench.plot({.id = "factors",
-              .title = "Factors of steps 5 to 7",
-              .x_label = "fists in which a fingertip is found (%)",
-              .y_label = "fingertips found (%)",
-              .series = std::move(lines),
-              .caption = "Along a line one factor changes, the others stay as shipped; the lines cross at "
-                         "the shipped ones. The end of a folded finger is a fingertip by all ten steps."});
-}
-
-}  // namespace factors
 
 void run(Bench& bench) {
   const sim::CameraModule& module = camera(bench.context);
-  const std::size_t stages = bench.context.count(20, 4), shots = bench.context.quick ? 10 : 100;
-  for (const int width : {640, 320}) {
-    const StereoRig rig = head(width);
-    const SkinModel skin = learned_skin(module, width);
-    FingerSetup like{&module, rig, skin, kUnset, shots, test_seed(bench.context)};
-    const auto cells = bench.each(all_widths(like, stages), look_at);
-    const std::vector<TipMeasurement> found = all_of(cells);
-    judge_tips(bench, found, fmt::format("tip.{}", width), width == 640 ? 1.0 : 2.0);
-    if (width != 640) continue;
-    judge_empty(bench, cells);
-    judge_outline(bench, found);
-    for (const std::size_t scale : {1U, 2U}) {
-      const std::vector<double> off = offs(found, scale);
-      const std::string id = fmt::format("k.{:.0f}", 100.0 * kScales[scale]);
-      bench.figure(id + ".found.percent", percent(off.size(), found.size()), "%", "K wrong by this share");
-      bench.figure(id + ".error.median", median(off), "px", "K wrong by this share");
-    }
-    judge_depth(bench, rig, found);
-    tell_steps(bench, cells);
-    factors::tell(bench, module, skin);
-    race(bench, module, skin);
-    if (!bench.context.quick) {
-      like.seed = kNeverSeen + 500;
-      const std::vector<TipMeasurement> fresh = all_of(bench.each(all_widths(like, stages / 2), look_at));
-      judge_tips(bench, fresh, "never_seen", 1.0);
-      judge_gross(bench, fresh, "never_seen");
-    }
-    bench.picture({"fig3", "Fingertip", "A frame and its skin; the cross is the fingertip [VisHap Fig 3].",
-                   png(cells.front().picture)});
-  }
+  const models::Setup rig = models::load_rig_setup(bench.context.models + "/rigs/vishap.toml",
+                                                   settings_for(bench.context, bench.result.scene));
+  const std::size_t stages = bench.context.count(20, 4);
+  FingerSetup like{&module,
+                   head(kWidth),
+                   rig.rig.vision,
+                   kUnset,
+                   bench.context.quick  ? 10UL
+                   : bench.context.full ? 100UL
+                                        : 25UL,
+                   test_seed(bench.context)};
+  if (bench.context.quick) like.every = 1;
+  like.beside = bench.context.mutated("beside");
+  like.waves = bench.context.mutated("waves");
+  like.wider = bench.context.mutated("wider");
+  judge_sizes(bench, like, stages);
+  if (bench.context.full) factors::tell(bench, module, rig.rig.vision);
+  race(bench, module, rig.rig.vision);
 }
 
-const Entry kEntry{"fingertip", "camera", "where the fingertip is in single frames, and how deep", run};
+const Reads kReads{"fingertip", {.only = {"rig.vision"}}};
+const Entry kEntry{"fingertip", "vishap", "where the fingertip is in single frames, and how deep", run};
 
 }  // namespace
 }  // namespace enc::bench::fingertip
