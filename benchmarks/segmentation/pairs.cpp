@@ -23,8 +23,9 @@ class Scene {
  public:
   explicit Scene(const Place& place)
       : rig_(head(kWidth)), stage_(place.camera->stage(spec(rig_, place))), stream_(place.seed, "pairs") {
+    stage_->draw(nullptr, {}, {}, frame_, pair_.left, pair_.right);
     for (; frame_ < kBackgrounds; ++frame_) {
-      stage_->draw(nullptr, {}, {}, frame_, pair_.left, pair_.right);
+      if (frame_ > 0) stage_->again(frame_, pair_.left, pair_.right);
       background_.push_back(pair_.left);
     }
   }
@@ -86,12 +87,18 @@ class Judges {
  public:
   Judges(const Place& place, const std::vector<Image>& background) {
     for (const SegmentationMethod method : {SegmentationMethod::published, SegmentationMethod::ours})
-      own_.emplace_back(spec_of(place.skin, method), kWidth, kHeight);
+      own_.emplace_back(with_method(place.spec, method), kWidth, kHeight);
+    for (const int side : kSides) {
+      SegmentationSpec spec = with_method(place.spec, SegmentationMethod::published);
+      spec.tile = side;
+      tiled_.emplace_back(spec, kWidth, kHeight);
+    }
     if (place.opencv != nullptr)
       for (const auto make : {place.opencv->mog2, place.opencv->knn})
-        peers_.push_back(make(range_of(place.skin)));
+        peers_.push_back(make(range_of(place.spec)));
     for (const Image& image : background) {
       for (Segmenter& each : own_) each.learn(image.view());
+      for (Segmenter& each : tiled_) each.learn(image.view());
       for (const auto& each : peers_) each->learn(image.view());
     }
   }
@@ -104,6 +111,10 @@ class Judges {
       judged.by[i] = compare(found, truth);
       if (keeps) (i == published ? judged.shown.published : judged.shown.ours) = found;
     }
+    for (std::size_t i = 0; i < tiled_.size(); ++i) {
+      tiled_[i].segment(pair.left.view(), found.whole(), found);
+      judged.by_side[i] = compare(found, truth);
+    }
     for (std::size_t i = 0; i < peers_.size(); ++i) {
       peers_[i]->segment(pair.left.view(), found);
       judged.by[mog2 + i] = compare(found, truth);
@@ -111,7 +122,7 @@ class Judges {
   }
 
  private:
-  std::vector<Segmenter> own_;
+  std::vector<Segmenter> own_, tiled_;
   std::vector<std::unique_ptr<SegmentationPeer>> peers_;
 };
 
@@ -134,19 +145,17 @@ std::string words(const Mean& mean) {
 
 }  // namespace
 
-SegmentationSpec spec_of(const SkinModel& skin, SegmentationMethod method) {
-  SegmentationSpec spec;
-  spec.model = skin;
+SegmentationSpec with_method(SegmentationSpec spec, SegmentationMethod method) {
   spec.method = method;
   return spec;
 }
 
-HueRange range_of(const SkinModel& skin) {
-  const double width = SegmentationSpec{}.skin * skin.spread;
+HueRange range_of(const SegmentationSpec& spec) {
+  const double width = spec.skin * spec.model.spread;
   const auto at = [](double angle) {
     return static_cast<int>(std::lround(angle / (2.0 * std::numbers::pi) * 256.0)) & 255;
   };
-  return {at(skin.hue - width), at(skin.hue + width)};
+  return {at(spec.model.hue - width), at(spec.model.hue + width)};
 }
 
 SegmentationPair Material::pair() const {

@@ -25,6 +25,9 @@ enum Method : std::uint8_t { published, ours, mog2, knn, nothing };
 inline constexpr std::array<const char*, 5> kMethods{"the published method", "ours", "OpenCV MOG2 + inRange",
                                                      "OpenCV KNN + inRange", "all background"};
 
+// px, sides of a tile beside the paper's 5.
+inline constexpr std::array<int, 4> kSides{3, 5, 8, 12};
+
 // A hand before the background of a place, in a light.
 struct Take {
   std::string row;
@@ -34,7 +37,7 @@ struct Take {
 struct Place {
   const sim::CameraModule* camera = nullptr;
   const OpenCv* opencv = nullptr;  // null: not there
-  SkinModel skin;
+  SegmentationSpec spec{};         // of the rig
   sim::Scenery scenery = sim::Scenery::office;
   std::uint64_t seed = 1;
   double exposure = 1.0;  // of all frames
@@ -50,6 +53,7 @@ struct PairResult {
   Take take;
   double hand = 0.0;                                           // share of the frame
   std::array<std::optional<Confusion>, kMethods.size()> by{};  // none: not there
+  std::array<Confusion, kSides.size()> by_side{};              // the published method with these tiles
   PairImages shown{};
 };
 [[nodiscard]] std::vector<PairResult> judge(const Place& place);
@@ -71,8 +75,8 @@ struct Sequence {
 };
 [[nodiscard]] Sequence sequence(const Place& place, const Take& take, std::size_t frames);
 
-[[nodiscard]] SegmentationSpec spec_of(const SkinModel& skin, SegmentationMethod method);
-[[nodiscard]] HueRange range_of(const SkinModel& skin);  // as wide as SegmentationSpec's default
+[[nodiscard]] SegmentationSpec with_method(SegmentationSpec spec, SegmentationMethod method);
+[[nodiscard]] HueRange range_of(const SegmentationSpec& spec);
 
 using Mean = models::Interval;  // 95 %, by Student's t over the pairs
 // Value with the interval's ends, limited to 0 and 1, which Student's t may exceed with few pairs.

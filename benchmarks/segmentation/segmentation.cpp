@@ -25,8 +25,8 @@ constexpr double kLeastRate = 1e-6;  // lower bound for a logarithmic axis
 
 std::vector<RocPoint> points_of(const Place& like, SegmentationMethod method,
                                 std::span<const SegmentationPair> pairs) {
-  return method == SegmentationMethod::ours ? roc(spec_of(like.skin, method), pairs, kChange, kSkin)
-                                            : roc(spec_of(like.skin, method), pairs, kMatch, kSkin);
+  return method == SegmentationMethod::ours ? roc(with_method(like.spec, method), pairs, kChange, kSkin)
+                                            : roc(with_method(like.spec, method), pairs, kMatch, kSkin);
 }
 
 double wrong(const RocPoint& point) { return 1.0 - point.found.correct(); }
@@ -74,7 +74,7 @@ void judge_thresholds(Bench& bench, const Place& like) {
   for (const Material& each : materials) pairs.push_back(each.pair());
   Table table{"thresholds", "Wrong pixels over the thresholds, training seeds (%)", {"method", "foreground"}};
   for (const double skin : kSkin) table.columns.push_back(fmt::format("skin {:g}", skin));
-  const SegmentationSpec spec;
+  const SegmentationSpec& spec = like.spec;
   for (const auto& [method, name, foreground] :
        {std::tuple{SegmentationMethod::published, "published", spec.match},
         std::tuple{SegmentationMethod::ours, "ours", spec.change}}) {
@@ -84,7 +84,7 @@ void judge_thresholds(Bench& bench, const Place& like) {
       table.rows.back().push_back(fixed(1e2 * wrong(points[i]), 3));
     }
     const RocPoint shipped =
-        roc(spec_of(like.skin, method), pairs, std::array{foreground}, std::array{spec.skin})[0];
+        roc(with_method(like.spec, method), pairs, std::array{foreground}, std::array{spec.skin})[0];
     const RocPoint best = *std::min_element(points.begin(), points.end(),
                                             [](const auto& a, const auto& b) { return wrong(a) < wrong(b); });
     bench.figure(fmt::format("thresholds.{}.wrong.mean", name), 1e2 * wrong(shipped), "%",
@@ -106,12 +106,20 @@ std::function<void()> on_ring(const Sequence& frames, Work work) {
   return [&frames, work, i = std::size_t{0}]() mutable { work(i++ % frames.left.size()); };
 }
 
+// Does the work once; as a mutant, ten times.
+template <class Work>
+auto times(const Bench& bench, Work work) {
+  return [work, count = bench.context.mutated("ten_times") ? 10 : 1](std::size_t i) {
+    for (int k = 0; k < count; ++k) work(i);
+  };
+}
+
 // All stages that a frame may pass through.
 struct Course {
   const Place& place;
   std::size_t rounds;
   Sequence frames = sequence(place, {.row = "", .tone = sim::Tone::light}, kRing);
-  SegmentationSpec spec = spec_of(place.skin, SegmentationMethod::published);
+  SegmentationSpec spec = with_method(place.spec, SegmentationMethod::published);
   Segmenter published{spec, kWidth, kHeight};
   Mask found{kWidth, kHeight};
 
@@ -143,7 +151,7 @@ void beside_copy(Bench& bench, Course& course) {
 
 // Runs OpenCV on these frames, its mask judged by the same truth.
 void beside_pipeline(Bench& bench, Course& course) {
-  const auto peer = course.place.opencv->mog2(range_of(course.place.skin));
+  const auto peer = course.place.opencv->mog2(range_of(course.spec));
   for (const Image& image : course.frames.background) peer->learn(image.view());
   Mask theirs(kWidth, kHeight);
   Confusion own, other;
@@ -154,10 +162,11 @@ void beside_pipeline(Bench& bench, Course& course) {
     other += compare(theirs, course.frames.truth[i]);
   }
   const Race raced(course.rounds,
-                   {on_ring(course.frames,
-                            [&](std::size_t i) {
-                              course.published.segment(course.view(i), course.found.whole(), course.found);
-                            }),
+                   {on_ring(course.frames, times(bench,
+                                                 [&](std::size_t i) {
+                                                   course.published.segment(
+                                                       course.view(i), course.found.whole(), course.found);
+                                                 })),
                     on_ring(course.frames, [&](std::size_t i) { peer->segment(course.view(i), theirs); })});
   bench.cost(
       "ratio_to_mog2.median", raced.ratio(1, 0), "x", at_least(8.0),
@@ -212,12 +221,13 @@ void beside_median(Bench& bench, Course& course, s::Tiles& tiles, const s::Grid&
   std::size_t unlike = 0;
   for (const Mask& mask : rough) {
     majority.filter(mask, mask.whole(), own);
-    opencv.median(mask, spec.median, theirs);
+    opencv.median(mask, bench.context.mutated("wider_median") ? spec.median + 4 : spec.median, theirs);
     unlike += own.on == theirs.on ? 0U : 1U;
   }
   const Race filtered(
       course.rounds,
-      {on_ring(course.frames, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); }),
+      {on_ring(course.frames,
+               times(bench, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); })),
        on_ring(course.frames, [&](std::size_t i) { opencv.median(rough[i], spec.median, theirs); })});
   bench.cost("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
              fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
@@ -235,20 +245,21 @@ void beside_parts(Bench& bench, Course& course) {
   mean.rgb = course.frames.background.front().rgb;
   s::Tiles tiles(s::kernels(), grid, spec.bins);
   tiles.learn(mean, cut);
-  const auto histograms = opencv.tiles(spec.tile, spec.bins);
+  const auto histograms = opencv.tiles(spec.tile, bench.context.mutated("two_bins") ? 2 : spec.bins);
   histograms->learn(mean.view());
   std::vector<std::uint8_t> changed;
   bench.figure(
       "tiles.unlike.mean", 100.0 * unlike_tiles(course, tiles, *histograms), "%", at_most(1.0),
       "of the tiles whose pixels all have a hue: those that calcHist and compareHist call otherwise");
   const Race tiled(course.rounds,
-                   {on_ring(course.frames,
-                            [&](std::size_t i) {
-                              tiles.candidates(course.view(i), grid.whole(), spec.match, cut, course.found);
-                            }),
+                   {on_ring(course.frames, times(bench,
+                                                 [&](std::size_t i) {
+                                                   tiles.candidates(course.view(i), grid.whole(), spec.match,
+                                                                    cut, course.found);
+                                                 })),
                     on_ring(course.frames,
                             [&](std::size_t i) { histograms->match(course.view(i), spec.match, changed); })});
-  bench.cost("tiles.ratio_to_calc_hist.median", tiled.ratio(1, 0), "x", at_least(40.0),
+  bench.cost("tiles.ratio_to_calc_hist.median", tiled.ratio(1, 0), "x", at_least(20.0),
              fmt::format("calcHist and compareHist of each tile, {:.1f} ms, over ours, {:.3f} ms, in which "
                          "skin is judged, too; from RGB both",
                          tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
@@ -258,7 +269,7 @@ void beside_parts(Bench& bench, Course& course) {
 // A hand that moves in the light of the background, in `place`: time of a frame, beside OpenCV and beside a
 // copy of the frame.
 void race(Bench& bench, const Place& place) {
-  Course course(place, bench.context.quick ? 16 : 64);
+  Course course(place, bench.context.full ? 64 : 16);
   beside_copy(bench, course);
   if (place.opencv == nullptr) return;
   beside_pipeline(bench, course);
@@ -285,7 +296,7 @@ struct Row {
   sim::Light light{};
   std::optional<sim::Tone> tone{};  // unset: fair to brown in turn
   double exposure = 1.0;
-  // Clips fair skin: judged by the mean over all tones, which a quick run does not have, and not by its
+  // Clips fair skin: judged by the mean over all tones, which only --full has, and not by its
   // outline.
   bool clips = false;
 };
@@ -363,37 +374,59 @@ std::vector<PairResult> judged(Bench& bench, const std::vector<Place>& places) {
   return all;
 }
 
-void tell(Bench& bench, const std::string& id, const Score& s, const std::string& what, bool paper) {
+struct ScoreBounds {
+  Bounds correct = at_least(99.7), false_positives = at_most(0.1), false_negatives = at_most(0.25);
+  bool paper = false;  // beside the paper's figures
+};
+// The twin's pictures are easier than the paper's, so these bounds exclude its values. Measured over 24
+// pairs: 99.93, 0.012, 0.061 %; over 4 pairs false negatives of 0.1 %.
+constexpr ScoreBounds kPublished{between(99.7, 99.99), between(0.001, 0.1), between(0.01, 0.25), true};
+
+void tell(Bench& bench, const std::string& id, const Score& s, const std::string& what,
+          const ScoreBounds& bounds = {}) {
   struct Line {
     const char* id;
     const Mean& mean;
     double paper;
-    Bounds bounds;
+    const Bounds& bounds;
   };
-  const std::array<Line, 3> lines{{{"correct", s.correct, 98.16, at_least(98.16)},
-                                   {"false_positives", s.false_positives, 1.55, at_most(1.55)},
-                                   {"false_negatives", s.false_negatives, 0.29, at_most(0.29)}}};
+  const std::array<Line, 3> lines{{{"correct", s.correct, 98.16, bounds.correct},
+                                   {"false_positives", s.false_positives, 1.55, bounds.false_positives},
+                                   {"false_negatives", s.false_negatives, 0.29, bounds.false_negatives}}};
   for (const Line& line : lines) {
     const std::string note = fmt::format("of all pixels, {}; 95 % interval over {} pairs: {}", what, s.pairs,
                                          interval_text(line.mean, 3));
-    if (paper)
-      bench.figure(id + "." + line.id + ".mean", in_percent(line.mean), "%", predicted(line.paper),
-                   line.bounds, note);
-    else
-      bench.figure(id + "." + line.id + ".mean", in_percent(line.mean), "%", line.bounds, note);
+    const Paper paper = bounds.paper ? predicted(line.paper) : Paper{kUnset, Role::ours};
+    bench.figure(id + "." + line.id + ".mean", in_percent(line.mean), "%", paper, line.bounds, note);
   }
   bench.figure(id + ".iou.mean", ends(s.iou), "", at_least(0.9),
                what + ": skin and what was found, intersection over union");
 }
 
+// The side of a tile changes little, so the paper's 5 px is no critical choice.
+void tell_sides(Bench& bench, const std::vector<PairResult>& pairs) {
+  Table table{"tiles",
+              "The published method with other tiles",
+              {"side (px)", "tiles", "wrong (%)", "false positives (%)", "false negatives (%)"}};
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    Confusion sum;
+    for (const PairResult& pair : pairs) sum += pair.by_side[i];
+    const s::Grid grid{kWidth, kHeight, kSides[i]};
+    table.add(kSides[i], grid.columns() * grid.rows(), fixed(1e2 * (1.0 - sum.correct()), 3),
+              fixed(1e2 * sum.false_positives(), 3), fixed(1e2 * sum.false_negatives(), 3));
+  }
+  bench.table(std::move(table));
+}
+
 void judge_paper(Bench& bench, Table& table, const std::vector<PairResult>& pairs) {
   tell(bench, "published", score(pairs, published), "the published method on pairs of the paper's kind",
-       true);
-  tell(bench, "ours", score(pairs, ours), "our method on the same pairs", false);
+       kPublished);
+  tell(bench, "ours", score(pairs, ours), "our method on the same pairs");
+  tell_sides(bench, pairs);
   double least = 1.0;
   for (const PairResult& pair : pairs) least = std::min(least, pair.hand);
-  bench.figure("hand.min", 1e2 * least, "%", at_least(1e2 * kLeastHand),
-               "share of the frame that is skin, by truth");
+  bench.figure("hand.min", 1e2 * least, "%",
+               "share of the frame that is skin, by truth; smaller hands are drawn anew");
   add_rows(table, "office", pairs);
   for (const sim::SkinTone& tone : sim::kSkinTones)
     add_rows(table, fmt::format("office, {}", word_of(tone.tone)), pairs,
@@ -410,7 +443,7 @@ void judge_rows(Bench& bench, Table& table, const std::vector<PairResult>& pairs
     bench.figure(fmt::format("{}.published.correct.mean", row.id), in_percent(theirs.correct), "%",
                  fmt::format("{}: the published method", row.title));
     bench.figure(fmt::format("{}.ours.correct.mean", row.id), in_percent(own.correct), "%",
-                 row.clips && bench.context.quick ? Bounds{} : at_least(98.16),
+                 row.clips && !bench.context.full ? Bounds{} : at_least(98.16),
                  fmt::format("{}: ours", row.title));
     bench.figure(fmt::format("{}.ours.iou.mean", row.id), own.iou.value, "",
                  row.clips ? Bounds{} : at_least(0.9), fmt::format("{}: ours", row.title));
@@ -429,7 +462,7 @@ void judge_never_seen(Bench& bench, Table& table, const std::vector<PairResult>&
   for (const Method method : {published, ours}) {
     const char* id = method == published ? "published" : "ours";
     tell(bench, fmt::format("never_seen.{}", id), score(fresh, method),
-         fmt::format("{}, on seeds never looked at", kMethods[method]), false);
+         fmt::format("{}, on seeds never looked at", kMethods[method]));
     for (const Line& line :
          {Line{"correct", &Score::correct}, Line{"false_positives", &Score::false_positives},
           Line{"false_negatives", &Score::false_negatives}}) {
@@ -471,13 +504,20 @@ void show(Bench& bench, const std::vector<PairResult>& paper, const std::vector<
   }
 }
 
-void tell_skin(Bench& bench, const SkinModel& all, const std::vector<SkinModel>& by_tone) {
+// The rig's hue of skin beside that of the twin's hands.
+void tell_skin(Bench& bench, const sim::CameraModule& camera, const SkinModel& rig) {
+  std::vector<SkinModel> by_tone;
+  const SkinModel all = learned_skin(camera, kWidth, &by_tone);
   Table table{"skin", "Hue of skin, learned from training seeds", {"skin", "mean (deg)", "spread (deg)"}};
   for (std::size_t i = 0; i < by_tone.size(); ++i)
     table.add(word_of(sim::kSkinTones[i].tone), fixed(by_tone[i].hue * kDegPerRad, 2),
               fixed(by_tone[i].spread * kDegPerRad, 2));
   table.add("all", fixed(all.hue * kDegPerRad, 2), fixed(all.spread * kDegPerRad, 2));
   bench.table(std::move(table));
+  bench.figure("skin.hue.off_deg", (rig.hue - all.hue) * kDegPerRad, "deg", between(-0.5, 0.5),
+               "mean hue of skin in the rig less that of training hands of all tones");
+  bench.figure("skin.spread.ratio", rig.spread / all.spread, "", between(0.9, 1.1),
+               "spread of that hue in the rig over that of the hands");
 }
 
 void run(Bench& bench) {
@@ -487,29 +527,34 @@ void run(Bench& bench) {
   if (module != nullptr) like.opencv = static_cast<const PeersModule*>(module->peers)->opencv;
   if (like.opencv == nullptr)
     bench.result.note = "no race: OpenCV was not there when this was built (./encounter bench installs it)";
-  std::vector<SkinModel> by_tone;
-  like.skin = learned_skin(*like.camera, kWidth, &by_tone);
-  tell_skin(bench, like.skin, by_tone);
+  const models::Setup rig = models::load_rig_setup(bench.context.models + "/rigs/vishap.toml",
+                                                   settings_for(bench.context, bench.result.scene));
+  like.spec = rig.rig.vision.segmentation;
+  tell_skin(bench, *like.camera, like.spec.model);
 
   const std::size_t pairs = bench.context.count(24, 4);
   const std::uint64_t seed = test_seed(bench.context);
   const auto paper = judged(bench, of_the_paper(like, seed + 100, pairs));
-  const auto rows = judged(bench, of_rows(like, seed + 200, bench.context.quick ? 1 : 8));
+  const auto rows = judged(bench, of_rows(like, seed + 200,
+                                          bench.context.full    ? 8
+                                          : bench.context.quick ? 1
+                                                                : 2));
   Table table{"pairs",
               "Segmentation: percent of all pixels, means over pairs with their 95 % intervals",
               {"pairs of", "method", "pairs", "correct", "false positives", "false negatives", "IoU"}};
   judge_paper(bench, table, paper);
   judge_rows(bench, table, rows);
-  if (!bench.context.quick)
+  if (bench.context.full)
     judge_never_seen(bench, table, paper, judged(bench, of_the_paper(like, kNeverSeen + 100, pairs)));
   bench.table(std::move(table));
   show(bench, paper, rows);
-  if (!bench.context.quick) judge_thresholds(bench, like);
+  if (bench.context.full) judge_thresholds(bench, like);
   like.seed = seed + 300;
   race(bench, like);
 }
 
-const Entry kEntry{"segmentation", "camera", "which pixels are a bare hand: published, ours, OpenCV's", run};
+const Reads kReads{"segmentation", {.only = {"rig.vision"}}};
+const Entry kEntry{"segmentation", "vishap", "which pixels are a bare hand: published, ours, OpenCV's", run};
 
 }  // namespace
 }  // namespace enc::bench::segmentation
