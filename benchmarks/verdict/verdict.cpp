@@ -90,6 +90,28 @@ void questionnaire(const Reference& figure, const Reference& text, std::vector<C
                   fmt::format("these answers have the mean {:.1f}", sum / people)});
 }
 
+// [VisHap 2.1.2]: limits of steps 5 and 7 of the fingertip's pseudo-code.
+void fingertip_steps(const Reference& steps, std::vector<Contradiction>& list) {
+  const auto row = [&](const char* step, const char* limit) {
+    return steps.row({{"step", step}, {"limit", limit}});
+  };
+  const std::size_t circle = row("5", "least"), least = row("7", "least"), most = row("7", "most");
+  if (steps.number(circle, "factor") >= 1.0)
+    list.push_back(
+        {"vishap.step5", "VisHap 2.1.2, steps 5 and 10", steps.text(circle, "words"),
+         "each candidate then has the score S_filled / area = 1, and the highest score, by which the "
+         "paper chooses, chooses nothing"});
+  constexpr double kSides = 4.0;      // length of S, in its side
+  constexpr double kCrossings = 2.0;  // width of the finger, in r, which is less than r2
+  if (steps.number(most, "factor") >= kSides || steps.number(least, "factor") >= kCrossings)
+    list.push_back(
+        {"vishap.step7", "VisHap 2.1.2, steps 6 and 7", steps.text(least, "words"),
+         fmt::format(
+             "with r2 the side, S has {:g} r2 pixels, and never more are skin; with r2 half a side, an "
+             "upright finger crosses S along {:g} r, always less than {:g} r2",
+             kSides, kCrossings, steps.number(least, "factor"))});
+}
+
 constexpr double kLeastDrawn = 0.01;  // error over threshold: smaller values are drawn at the edge
 
 [[noreturn]] void refuse(const std::string& name, std::size_t row, const std::string& what) {
@@ -179,6 +201,7 @@ std::vector<Contradiction> contradictions(const std::string& models) {
   norms(Reference::load(models, "table1.csv"), list);
   force_errors(Reference::load(models, "table2.csv"), list);
   questionnaire(Reference::load(models, "fig14.csv"), Reference::load(models, "fig14_item10.csv"), list);
+  fingertip_steps(Reference::load(models, "fingertip_steps.csv"), list);
   return list;
 }
 

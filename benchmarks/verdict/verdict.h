@@ -10,7 +10,7 @@
 
 namespace enc::bench {
 
-// Contradictions within the paper [VHMR]. The report lists these; no benchmark has one as its target.
+// Contradictions within a paper [VHMR, VisHap]. The report lists these; no benchmark has one as its target.
 
 struct Contradiction {
   std::string id;       // "table2.A.release"

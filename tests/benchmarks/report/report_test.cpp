@@ -394,7 +394,7 @@ TEST(ReportJson, KeepsItsForm) {
   const auto json = nlohmann::json::parse(results_json(small_report()));
   EXPECT_EQ(json["seed"], 7);
   EXPECT_EQ(json["missing"], nlohmann::json({"speed"}));
-  EXPECT_EQ(json["contradictions"].size(), 4U);
+  EXPECT_EQ(json["contradictions"].size(), 6U);
   ASSERT_EQ(json["benchmarks"].size(), 1U);
   EXPECT_EQ(json["benchmarks"][0]["run_time_s"], 2.5);
   const auto& first = json["benchmarks"][0]["figures"][0];
@@ -558,13 +558,16 @@ TEST(Contradictions, AreFoundInThePrintedNumbers) {
   std::vector<std::string> ids;
   for (const Contradiction& c : all) ids.push_back(c.id);
   // Table 1 has six norms and Table 2 six cells; only these are wrong.
-  ASSERT_THAT(ids, ElementsAre("table1.MAE.norm.0", "table2.A.release", "table2.B.release", "fig14.item10"));
+  ASSERT_THAT(ids, ElementsAre("table1.MAE.norm.0", "table2.A.release", "table2.B.release", "fig14.item10",
+                               "vishap.step5", "vishap.step7"));
   EXPECT_EQ(all[0].found, "their norm is 0.1569 mm");
   EXPECT_THAT(all[0].printed, HasSubstr("0.1579"));
   EXPECT_THAT(all[1].found, AllOf(HasSubstr("impossible"), HasSubstr("2.42 times")));
   // 2 (0.0056 / 0.1370)^2 = 0.334 %; 0.1370^2 / (2 0.0056) = 1.68 N
   EXPECT_THAT(all[2].found, AllOf(HasSubstr("0.33 %"), HasSubstr("1.7 N"), HasSubstr("|mean error|")));
   EXPECT_EQ(all[3].found, "these answers have the mean 6.0");
+  EXPECT_THAT(all[4].found, HasSubstr("chooses nothing"));
+  EXPECT_THAT(all[5].found, HasSubstr("always less than 2 r2"));
 }
 
 }  // namespace
