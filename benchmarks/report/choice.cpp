@@ -53,7 +53,8 @@ std::span<const Group> groups() {
        {"tracking", "stiffness", "indentation", "deformation", "synchrony", "session", "workspace"}},
       {"paper-2003",
        "what VisHap (2003) measured, and what it needs",
-       {"plane_button", "reaching", "switching", "registration", "registration_images", "gravity"}},
+       {"plane_button", "vishap", "reaching", "switching", "segmentation", "fingertip", "registration",
+        "registration_images", "gravity"}},
   };
   return kAll;
 }
