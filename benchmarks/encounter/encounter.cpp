@@ -45,9 +45,8 @@ void run(Bench& bench) {
   const std::size_t hands = bench.context.count(40, 5);
   const auto meetings =
       bench.grid(kSpeeds, hands, [&](double speed, std::uint64_t seed) { return meet(setup, speed, seed); });
-
-  Series misses{.name = "median, bars: least and most over seeds", .mark = Mark::both};
-  Series bounds{.name = "bound from rig and twin"};
+  Series misses{.name = "median, bars: least and most over seeds", .mark = Mark::both},
+      bounds{.name = "bound from rig and twin"};
   for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
     const auto id = [&](const char* what, const char* statistic) {
       return fmt::format("{}.{:.0f}.{}", what, kSpeeds[i] * 1e3, statistic);

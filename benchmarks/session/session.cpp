@@ -389,13 +389,14 @@ void add_training(Bench& bench, const std::vector<SessionRun>& session) {
   const std::vector<SessionRun> training =
       bench.each(bench.seeds(bench.context.full ? 5 : 1),
                  [&](std::uint64_t seed) { return run_once(bench.context, setup, seed, nullptr); });
-  Table table{"training",
-              "Presses of a session, and among hard objects beside a soft one",
-              {"scene", "hands", "presses", "one contact, %", "impact median, N", "95 %, N", "most, N",
-               "touched at, mm/s (median)", "lost for 20 ms or more, of presses"}};
-  table.note =
+  Table table{
+      "training",
+      "Presses of a session, and among hard objects beside a soft one",
+      {"scene", "hands", "presses", "one contact, %", "impact median, N", "95 %, N", "most, N",
+       "touched at, mm/s (median)", "lost for 20 ms or more, of presses"},
+      {},
       "Impact is force beyond the object's own at the same true deflection; of 200 N/mm a step of the "
-      "machine, 3 um, is 0.6 N.";
+      "machine, 3 um, is 0.6 N."};
   for (const auto& [name, runs] : {std::pair("session", &session), std::pair("training", &training)}) {
     std::vector<SessionPress> presses;
     for (const SessionRun& run : *runs)

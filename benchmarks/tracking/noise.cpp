@@ -63,10 +63,10 @@ std::vector<double> density_of(const std::vector<double>& values, double rate) {
 
 // A hand that holds the tool still shakes in a band; the tracker's jitter has no band. Both out of what the
 // tracker shows alone, mm rms: jitter from the floor beside the band, shake from what rises above it.
-struct Still {
+struct RestSpectrum {
   double jitter = kUnset, shake = kUnset;
 };
-Still told_apart(const std::vector<double>& values, double rate) {
+RestSpectrum told_apart(const std::vector<double>& values, double rate) {
   constexpr double kFrom = 6.0, kTo = 14.0, kFloor = 20.0;  // Hz
   const std::vector<double> density = density_of(values, rate);
   const double each = rate / kSegment;
@@ -90,12 +90,22 @@ void add_shake(Bench& bench, const models::Setup& setup, double jitter) {
   for (const Vec3& tip :
        seen_tips(setup, bench.context.mutated("no_shake") ? at_rest(100.0) : shaking, bench.context.seed))
     values.push_back(tip.z() * kMmPerM);
-  const Still found = told_apart(values, setup.twin.tracker.rate);
+  const RestSpectrum found = told_apart(values, setup.twin.tracker.rate);
   bench.figure("noise.shake_found", 100.0 * found.shake / kShake, "%", between(90.0, 110.0),
                "shake of a hand that holds the tool still, 0.06 mm rms, found in the spectrum of what the "
                "tracker shows, of its true size");
   bench.figure("noise.jitter_found", 100.0 * found.jitter / jitter, "%", between(90.0, 110.0),
-               "the tracker's jitter, likewise");
+               "the tracker's jitter, found in the same spectrum, of its true size");
+}
+
+// The errors along an axis, mm.
+std::vector<double> along_axis(const BenchContext& context, const std::vector<Vec3>& errors, std::size_t a) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const auto of = [&](std::size_t at) { return errors[at](static_cast<Eigen::Index>(a)) * kMmPerM; };
+    values.push_back(context.mutated("smoothed_noise") && i > 0 ? 0.5 * (of(i - 1) + of(i)) : of(i));
+  }
+  return values;
 }
 
 double share_mean(const std::vector<double>& density, double from, double to) {
@@ -122,11 +132,7 @@ void add_noise(Bench& bench) {
                 "12 Hz does."};
   double low = 0.0, high = 0.0, square = 0.0, jitter = kUnset;  // mm
   for (std::size_t a = 0; a < 3; ++a) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      const auto of = [&](std::size_t at) { return errors[at](static_cast<Eigen::Index>(a)) * kMmPerM; };
-      values.push_back(bench.context.mutated("smoothed_noise") && i > 0 ? 0.5 * (of(i - 1) + of(i)) : of(i));
-    }
+    const std::vector<double> values = along_axis(bench.context, errors, a);
     const double middle = mean(values);
     double spread = 0.0;
     for (const double x : values) spread += (x - middle) * (x - middle);

@@ -46,8 +46,8 @@ struct LineTable final : Settings {
 // True if the condition holds within 20 s of wall time: a busy machine is slow, and no bound of a test.
 template <class Condition>
 bool holds_soon(Condition condition) {
-  using Steady = std::chrono::steady_clock;
-  for (const auto until = Steady::now() + std::chrono::seconds(20); Steady::now() < until;) {
+  using std::chrono::steady_clock;
+  for (const auto until = steady_clock::now() + std::chrono::seconds(20); steady_clock::now() < until;) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
