@@ -378,14 +378,19 @@ void add_precision(const BenchContext& context, BenchResult& result) {
   }
 }
 
+// Settings of the training: short by default. A mutant leaves each contact at once.
+std::vector<std::string> training_settings(const BenchContext& context) {
+  std::vector<std::string> set;
+  if (!context.full) set = {"user.session.duration_s=20"};
+  if (context.mutated("left_at_once"))
+    set.insert(set.end(), {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01"});
+  return set;
+}
+
 // The session's hands among hard objects beside a soft one [VHMR 5: training], in one table with the session.
 void add_training(Bench& bench, const std::vector<SessionRun>& session) {
   if (!bench.context.set.empty()) return;  // the settings address the session's own objects
-  std::vector<std::string> set;
-  if (!bench.context.full) set = {"user.session.duration_s=20"};
-  if (bench.context.mutated("left_at_once"))
-    set.insert(set.end(), {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01"});
-  const models::Setup setup = load_scene(bench.context, "training", set);
+  const models::Setup setup = load_scene(bench.context, "training", training_settings(bench.context));
   const std::vector<SessionRun> training =
       bench.each(bench.seeds(bench.context.full ? 5 : 1),
                  [&](std::uint64_t seed) { return run_once(bench.context, setup, seed, nullptr); });

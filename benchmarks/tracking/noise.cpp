@@ -127,9 +127,7 @@ void add_noise(Bench& bench) {
             .x_label = "frequency (Hz)",
             .y_label = "density (mm^2/Hz)",
             .log_y = true,
-            .caption =
-                "Drawn as white in the twin: no frequency stands out, so the shake of a hand at 8 to "
-                "12 Hz does."};
+            .caption = "White in the twin: no frequency stands out, so a hand's shake at 8 to 12 Hz does."};
   double low = 0.0, high = 0.0, square = 0.0, jitter = kUnset;  // mm
   for (std::size_t a = 0; a < 3; ++a) {
     const std::vector<double> values = along_axis(bench.context, errors, a);
