@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/base/frames.h"
+#include "models/student.h"
 
 namespace enc::models {
 
@@ -19,16 +20,6 @@ struct Interval {
   [[nodiscard]] bool known() const { return !std::isnan(value) && !std::isnan(half); }
   [[nodiscard]] bool holds(double x) const { return x >= value - half && x <= value + half; }
 };
-
-inline constexpr double kNormal95 = 1.959964;  // two-sided quantile of 95 %
-
-// Student's t, from the normal quantile (Abramowitz and Stegun 26.7.5).
-[[nodiscard]] inline double student(double freedom, double z = kNormal95) {
-  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  const double n = std::max(2.0, freedom);
-  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
-}
 
 // Influence of each block of time on one number: the sum of the influences is its error.
 struct Blocks {
