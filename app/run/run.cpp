@@ -242,29 +242,15 @@ RunOutcome run_to_end(trial::Trial& trial, RunFiles& files, const RunSurrounding
   return {started, std::move(result)};
 }
 
-// Adds the simulated world's figures to the report, and the results derived from the others.
-void complete(trial::Trial& trial, RunReport& report) {
-  if (trial.has_world()) {
-    report.steps = trial.world().physics().steps();
-    report.unsolved = trial.world().physics().unsolved();
-    report.elements = trial.world().physics().elements();
-  }
-  const trial::TrialResult& result = report.result;
-  report.whole = !report.asked.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0;
-  report.crossed = crossed(report);
-}
-
 void print(const RunReport& report) {
   const std::string text = report.asked.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while signals are handled, a pipe without a reader is only an error
 }
 
-int exit_code(const RunReport& report, const trial::Operator& person) {
+int ended(const RunReport& report, const trial::Operator& person) {
   if (report.result.diverged_at >= 0) return diverged(report.result, report.setup);
-  if (person.signal() != 0) return 128 + person.signal();
-  if (report.result.last_mode == Mode::hold) return 4;
-  return report.crossed.empty() ? 0 : 1;
+  return person.signal() != 0 ? 128 + person.signal() : exit_code(report);
 }
 
 }  // namespace
@@ -309,7 +295,7 @@ int run(const RunOptions& options, const RunWindow* window) {
   print(report);
   if (const std::string error = files.record_error(); !error.empty())
     throw Error(error + "; replay --partial reads what was written");
-  return exit_code(report, person);
+  return ended(report, person);
 }
 
 }  // namespace enc::app

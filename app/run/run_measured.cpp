@@ -87,14 +87,10 @@ std::string passivity_line(const RunReport& r) {
   return text;
 }
 
-Json ledger_json(const RunReport& r) {
-  Json all = Json::array();
-  for (const trial::ContactLedger& c : r.measured.ledger.contacts()) {
-    Json& one =
-        all.emplace_back(Json{{"contact", c.contact}, {"object", c.object}, {"rendered", c.rendered}});
-    for (const trial::LedgerTerm& term : trial::ledger_terms()) one[term.name] = term.of(c);
-  }
-  return all;
+Json ledger_json(const trial::ContactLedger& c) {
+  Json one{{"contact", c.contact}, {"object", c.object}, {"rendered", c.rendered}};
+  for (const trial::LedgerTerm& term : trial::ledger_terms()) one[term.name] = term.of(c);
+  return one;
 }
 
 // The contact with the largest term, and how well the balances of all contacts close
@@ -443,7 +439,7 @@ Json measured_json(const RunReport& r) {
   Json json = machine_of(r).touches(r);
   if (trial::controlled(r.scene))
     json["passivity"] = list_of(r.measured.passivity.contacts(), passivity_json);
-  json["ledger"] = ledger_json(r);
+  json["ledger"] = list_of(r.measured.ledger.contacts(), ledger_json);
   if (r.scene.indentation()) {
     json["pushes"] = list_of(r.measured.pushes.pushes(), push_json);
     json["repeats_within_N"] = r.measured.pushes.spread();
@@ -452,6 +448,17 @@ Json measured_json(const RunReport& r) {
   if (r.scene.tracking() != nullptr) json["tracking"] = travel_json(r);
   json.update(machine_of(r).totals(r));
   return json;
+}
+
+Json list_forms() {
+  const auto one = [](Json form) { return Json::array({std::move(form)}); };
+  return {{"presses", one(press_json({}))},
+          {"meetings", one(meeting_json({}))},
+          {"seen", one(seen_json({}))},
+          {"passivity", one(passivity_json({}))},
+          {"ledger", one(ledger_json({}))},
+          {"pushes", one(push_json({}))},
+          {"tracking", one({{"axis", "x"}, {"stops_rms_mm", 0}, {"moving_rms_mm", 0}, {"packets", 0}})}};
 }
 
 }  // namespace enc::app

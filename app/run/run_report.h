@@ -41,7 +41,13 @@ struct RunReport {
 [[nodiscard]] nlohmann::ordered_json measured_json(const RunReport& report);
 // Looks like "last notice of the core: ...".
 [[nodiscard]] std::string last_notice(const trial::TrialResult& result);
+// An entry of each list of measured_json(), whose keys a run without entries does not show.
+[[nodiscard]] nlohmann::ordered_json list_forms();
 // The limits that a run exceeded, one line each; the program then ends with exit code 1.
 [[nodiscard]] std::vector<std::string> crossed(const RunReport& report);
+// Adds the simulated world's figures, and the results derived from the others. Call it after the run.
+void complete(trial::Trial& trial, RunReport& report);
+// 0, 1: limits crossed, 4: ended in hold or diverged.
+[[nodiscard]] int exit_code(const RunReport& report);
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// The limits that a run exceeded, one line each.
+// The limits that a run exceeded, one line each, and its exit code.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -210,6 +210,22 @@ std::vector<std::string> crossed(const RunReport& report) {
   Lines lines;
   for (const Check check : kChecks.at(words_of(report.setup.scene).row)) check(report, lines);
   return lines;
+}
+
+void complete(trial::Trial& trial, RunReport& report) {
+  if (trial.has_world()) {
+    report.steps = trial.world().physics().steps();
+    report.unsolved = trial.world().physics().unsolved();
+    report.elements = trial.world().physics().elements();
+  }
+  const trial::TrialResult& result = report.result;
+  report.whole = !report.asked.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0;
+  report.crossed = crossed(report);
+}
+
+int exit_code(const RunReport& report) {
+  if (report.result.diverged_at >= 0 || report.result.last_mode == Mode::hold) return 4;
+  return report.crossed.empty() ? 0 : 1;
 }
 
 }  // namespace enc::app
