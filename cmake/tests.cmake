@@ -53,7 +53,7 @@ set(runs_scenes
     unit/trial/identify/ball/ unit/trial/identify/rig/ unit/trial/identify/shadow/ unit/trial/measure/ unit/trial/whole_run
     input/app/calibrate/calibrate_rig
     input/app/calibrate/calibrate_tracker input/app/calibrate/calibrate_camera input/app/check_test input/app/limits_input input/app/rig_test input/app/scenes/ input/app/shadow_input
-    input/app/stop_test input/app/verdict_input)
+    input/app/stop_test input/app/sweep/ input/app/verdict_input)
 set(long_loops unit/core/control/safety/certificate/)
 set(slow ${draws} ${runs_scenes} ${long_loops})
 list(TRANSFORM slow PREPEND "/tests/")

@@ -19,6 +19,7 @@
 #include "app/common/options.h"
 #include "app/laboratory/fakes.h"
 #include "app/process.h"
+#include "app/sweep/sweep_options.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "trial/provenance/provenance.h"
@@ -126,6 +127,34 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   json_option(command, options.json);
   device_options(command, options);
   force_option(command, options.force);
+  return command;
+}
+
+CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
+  CLI::App* command =
+      add_command(app, "sweep", "Run a scene many times with varied parameters; started again, it goes on.",
+                  "sweep reach.toml --out reach");
+  command
+      ->add_option("spec", options.spec,
+                   "file with scene, parameters, seeds and measures (docs/guide/sweep.md)")
+      ->required();
+  command->add_option("--out", options.out, "folder for the results; default: the spec's name with _sweep")
+      ->check(unnamed);
+  CLI::Option* shard = command->add_option(
+      "--shard", options.shard,
+      "do a part: I/N, such as 0/7 to 6/7; auto or auto/N: as Slurm array, MPI launcher, HTCondor or GNU "
+      "parallel number this process");
+  command->add_option("--submit", options.submit, "print the batch script for --shard auto/N")
+      ->check(CLI::IsMember({"slurm"}));
+  CLI::Option* merge =
+      command->add_flag("--merge", options.merge, "write the results of all shards")->excludes(shard);
+  CLI::Option* status = command->add_flag("--status", options.status, "print what each shard has done")
+                            ->excludes(shard)
+                            ->excludes(merge);
+  command->add_option("--only", options.only, "failed: run the failed runs again, too")
+      ->check(CLI::IsMember({"failed"}))
+      ->excludes(merge)
+      ->excludes(status);
   return command;
 }
 
@@ -377,6 +406,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   add(app, add_view, view, code);
   add(app, add_tour, tour, code);
   add(app, add_params, params, code);
+  add(app, add_sweep, sweep, code);
   add(app, add_bench, bench, code);
   add(app, add_fit, fit, code);
   CalibrateWords calibrate_words;
