@@ -76,7 +76,7 @@ struct Row {
   std::vector<double> numbers;  // all other columns before the source; NaN for an empty cell
   std::string source;
   std::vector<std::string>
-      markers;  // the tool, its markers, and the stamps of tip and force; no empty last cell
+      markers;  // the tool, its markers, the stamps of tip and force, and the gap; no empty last cell
 };
 std::vector<Row> rows_of(const std::string& csv) {
   std::istringstream in(csv);
@@ -128,7 +128,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
     RecordedTick tick;
     ASSERT_TRUE(record.next(tick));
     ASSERT_EQ(row.numbers.size(), 14U);
-    ASSERT_EQ(row.markers.size(), 10U);
+    ASSERT_EQ(row.markers.size(), 11U);
     ASSERT_EQ(std::stod(row.markers[8]), seconds(tick.in.tip.t.time_since_epoch()));
     ASSERT_EQ(std::stod(row.markers[9]), seconds(tick.in.wrench.t.time_since_epoch()));
     ASSERT_EQ(row.mode, "probe");
