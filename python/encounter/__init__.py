@@ -8,7 +8,8 @@ Each call starts the program `encounter`: a Python process would not take the pr
 equal bits depend.
 """
 from .drawing import plot
+from .many import sweep
 from .program import Error, Run, program_file, run
 from .record import Record, read
 
-__all__ = ["Error", "Record", "Run", "plot", "program_file", "read", "run"]
+__all__ = ["Error", "Record", "Run", "plot", "program_file", "read", "run", "sweep"]
