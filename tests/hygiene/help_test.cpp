@@ -149,8 +149,8 @@ TEST(Completion, CompletesNamesValuesAndFiles) {
   EXPECT_THAT(answers[1], ElementsAre("skin"));
   EXPECT_THAT(answers[2], ElementsAre("tennis_ball"));
   EXPECT_THAT(answers[3], ElementsAre("models/scenes"));
-  EXPECT_THAT(answers[4], ElementsAre("laboratory"));
-  EXPECT_THAT(answers[5], ElementsAre("laboratory"));
+  EXPECT_THAT(answers[4], ElementsAre("laboratory", "laboratory_vishap"));
+  EXPECT_THAT(answers[5], ElementsAre("laboratory", "laboratory_vishap"));
   EXPECT_THAT(answers[6], ElementsAre("raw", "removed", "augmented"));
   EXPECT_THAT(answers[7], IsEmpty());
   EXPECT_THAT(answers[8], ElementsAre("--full"));
