@@ -376,7 +376,7 @@ TEST_F(CalibrateTip, ReadsWhatExportWrites) {
     std::vector<std::string> cells;
     std::istringstream parts(row + ",");
     for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
-    ASSERT_EQ(cells.size(), 26U) << row;
+    ASSERT_EQ(cells.size(), 27U) << row;
     ASSERT_EQ(cells[16].empty(), cells[11].empty()) << row;
     if (cells[16] != "stylus") continue;
     ++seen;
