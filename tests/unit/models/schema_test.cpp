@@ -368,6 +368,7 @@ TEST(SimRig, is_what_the_structs_say) {
   code.rig.title = file.rig.title;
   code.twin = sim::TwinSpec{};
   code.twin.tracker.marker_noise = 0.003e-3;  // unset in the struct: a tool need not have markers
+  code.rig.tracker.rate = 100.0;              // unset in the struct: a tracker need not have a rate
   round_to_text(code);
   EXPECT_EQ(resolved(file), resolved(code));
 }
