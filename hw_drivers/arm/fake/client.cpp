@@ -34,7 +34,7 @@ bool Client::open(const Place& place, Duration within) noexcept {
       static_cast<std::uint64_t>(net::steady_now().count()) ^ (static_cast<std::uint64_t>(getpid()) << 40U);
   session_ = std::max<std::uint64_t>(session_, 1);
   for (const Duration until = net::steady_now() + within; net::steady_now() < until;) {
-    send(Message::hello, {}, false);
+    send(Message::hello, {}, false, 0);
     if (wait(kAgain)) return true;
   }
   close();
@@ -42,7 +42,7 @@ bool Client::open(const Place& place, Duration within) noexcept {
 }
 
 void Client::close() noexcept {
-  if (is_open()) send(Message::bye, {}, false);
+  if (is_open()) send(Message::bye, {}, false, 0);
   session_ = 0;
 }
 
@@ -68,13 +68,17 @@ bool Client::wait(Duration most) noexcept {
 }
 
 void Client::send(const std::array<double, 3>& force, bool enabled) noexcept {
-  send(Message::force, force, enabled);
+  send(Message::force, force, enabled, state_.number);
 }
 
-void Client::send(Message message, const std::array<double, 3>& force, bool enabled) noexcept {
+void Client::end_force() noexcept { send(Message::force, {}, false, 0); }
+
+void Client::send(Message message, const std::array<double, 3>& force, bool enabled,
+                  std::uint64_t state) noexcept {
   const std::lock_guard lock(sending_);
   if (message == Message::force) ++number_;
-  const Command command{{kMagic, kVersion, message}, session_, number_, force, enabled ? 1U : 0U, watchdog_};
+  const Command command{{kMagic, kVersion, message}, session_, number_, state, force,
+                        enabled ? 1U : 0U,           watchdog_};
   static_cast<void>(socket_.send(bytes_of(command)));
 }
 

@@ -25,13 +25,14 @@ class Client {
   [[nodiscard]] bool lockstep() const noexcept { return (state_.flags & kLockstep) != 0; }
   // Sets the watchdog of the fake's firmware, s.
   void set_watchdog(double time) noexcept { watchdog_ = time; }
-  // Sends a force in R, N. Any thread may call it.
+  // Sends a force in R, N, that answers state().
   void send(const std::array<double, 3>& force, bool enabled) noexcept;
+  void end_force() noexcept;  // answers no state; any thread may call it
   // Lockstep: sends a force and waits for the state after it; false: no answer within this time.
   bool exchange(const std::array<double, 3>& force, bool enabled, Duration within) noexcept;
 
  private:
-  void send(Message message, const std::array<double, 3>& force, bool enabled) noexcept;
+  void send(Message message, const std::array<double, 3>& force, bool enabled, std::uint64_t state) noexcept;
   bool take() noexcept;  // takes what has come; true: a newer state
 
   net::Socket socket_;

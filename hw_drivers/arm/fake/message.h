@@ -13,7 +13,7 @@
 namespace enc::arm {
 
 inline constexpr std::uint32_t kMagic = 0x454e4341;  // "ENCA"
-inline constexpr std::uint16_t kVersion = 1;
+inline constexpr std::uint16_t kVersion = 2;
 
 enum class Message : std::uint16_t { hello = 1, force, bye, state };
 
@@ -26,8 +26,9 @@ struct Header {
 // From the library: it connects, commands a force, or leaves.
 struct Command {
   Header header{};
-  std::uint64_t session = 0;      // number of the client, so that a repeated hello is no new client
-  std::uint64_t number = 0;       // of the force, counted from 1
+  std::uint64_t session = 0;  // number of the client, so that a repeated hello is no new client
+  std::uint64_t number = 0;   // of the force, counted from 1
+  std::uint64_t state = 0;    // number of the state that the force answers; 0: it ends a force, at any time
   std::array<double, 3> force{};  // N, in R
   std::uint64_t enabled = 0;      // 1: the motors are on
   // Watchdog of the device's firmware, s: without a newer force for so long the force ends; 0: none.

@@ -71,7 +71,7 @@ bool ArmServer::greet(const Command& command, Time now) {
   session_ = command.session;
   heard_ = net::steady_now();
   socket_.answer_sender();
-  state_.number = state_.answers = 0;
+  state_.number = state_.answers = answered_ = 0;
   forces_ = barks_ = 0;
   largest_ = 0.0;
   line_.begin(settings_.begin ? Time{} : now);
@@ -91,6 +91,7 @@ void ArmServer::obey(const Command& command) {
   if (enabled_) ++forces_, largest_ = std::max(largest_, force_.norm());
   arm_.command(force_);
   state_.answers = command.number;
+  answered_ = std::max(answered_, command.state);
   if (settings_.advance) settings_.advance();
 }
 

@@ -51,8 +51,9 @@ class ArmServer final : public Fake {
   [[nodiscard]] const Vec<'R'>& force() const noexcept { return force_; }  // the last one received
   [[nodiscard]] bool enabled() const noexcept { return enabled_; }
   [[nodiscard]] std::int64_t forces() const noexcept { return forces_; }
-  [[nodiscard]] std::uint64_t answers() const noexcept { return state_.answers; }  // number of the last force
-  [[nodiscard]] double watchdog() const noexcept { return watchdog_; }             // s, as the client set it
+  // The library has answered the newest state.
+  [[nodiscard]] bool answered() const noexcept { return answered_ == state_.number; }
+  [[nodiscard]] double watchdog() const noexcept { return watchdog_; }  // s, as the client set it
 
  private:
   // Returns true if a client came and the world was restarted.
@@ -68,9 +69,10 @@ class ArmServer final : public Fake {
   net::Socket socket_;
   net::BadLine line_;
   State state_;
-  std::uint64_t session_ = 0;  // of the client; 0: no client
-  Duration heard_{};           // steady clock, last datagram of the client
-  double watchdog_ = 0.0;      // s; 0: none
+  std::uint64_t answered_ = 0;  // number of the last state that the library answered
+  std::uint64_t session_ = 0;   // of the client; 0: no client
+  Duration heard_{};            // steady clock, last datagram of the client
+  double watchdog_ = 0.0;       // s; 0: none
   Vec<'R'> force_ = Vec<'R'>::zero();
   bool enabled_ = false;
   std::int64_t barks_ = 0;   // of the watchdog, for this client

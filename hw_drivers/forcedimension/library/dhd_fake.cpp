@@ -77,7 +77,7 @@ int FakeDhd::close() {
 
 int FakeDhd::enable(bool on) {
   if (!is_open()) return failed(dhd::kNoDevice);
-  if (enabled_.exchange(on) && !on) client_.send({}, false);
+  if (enabled_.exchange(on) && !on) client_.end_force();
   if (!on) force_ = {};
   return 0;
 }

@@ -188,7 +188,7 @@ void FakeHd::end_frame() {
 void FakeHd::enable(hd::Enum what, bool on) {
   if (what != hd::kForceOutput) return;
   const bool was = enabled_.exchange(on);
-  if (was && !on && client_.is_open()) client_.send({}, false);
+  if (was && !on && client_.is_open()) client_.end_force();
 }
 
 void FakeHd::fail(hd::Enum error) {

@@ -159,7 +159,6 @@ void ArmLine::pass(Time now) {
 // One call of the library: it has the state, and its answer has the force.
 void ArmLine::exchange(Time now) {
   quiet_ = 0;
-  const std::uint64_t before = server_->answers();
   server_->publish(now);
   std::vector<int> descriptors;
   server_->wait_on(descriptors);
@@ -168,7 +167,7 @@ void ArmLine::exchange(Time now) {
   holds_soon([&] {
     ::poll(&ready, 1, 1);
     server_->serve(now);
-    return server_->answers() != before || !driver_->linked();
+    return server_->answered() || !driver_->linked();
   });
   if (!driver_->linked()) await_loss(now);
 }
