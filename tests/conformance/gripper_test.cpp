@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -210,10 +211,8 @@ struct GripperFaults : testing::Test {
     there.server.heal(kind);
     again = std::make_unique<FakeServer>(there.server);
   }
-  std::string said() {
-    const auto lines = there.log.lines();
-    return lines.empty() ? "" : lines.back();
-  }
+  // The driver's words and the fake's, which come in either order.
+  std::string said() { return fmt::format("{}", fmt::join(there.log.lines(), "\n")); }
   GripperPort there;
   FakeServer served{there.server};
   std::unique_ptr<FakeServer> again;
