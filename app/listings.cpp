@@ -11,28 +11,18 @@
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
 #include "models/setup/scene_names.h"
+#include "models/tables/csv_field.h"
 
 namespace enc::app {
-namespace {
-
-// Quotes a field where RFC 4180 requires it.
-std::string csv(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-}  // namespace
-
 int params(const ParamsOptions& options) {
   const models::Setup setup = load_setup(options);
   const std::vector<models::Parameter> list = models::parameters(setup);
   if (!options.json) {
     fmt::print("name,unit,value,source,confidence,meaning\n");
     for (const auto& p : list)
-      fmt::print("{},{},{},{},{},{}\n", csv(p.name), csv(p.unit), csv(p.value), csv(p.source),
-                 csv(p.confidence), csv(p.meaning));
+      fmt::print("{},{},{},{},{},{}\n", models::csv_field(p.name), models::csv_field(p.unit),
+                 models::csv_field(p.value), models::csv_field(p.source), models::csv_field(p.confidence),
+                 models::csv_field(p.meaning));
     return 0;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();

@@ -1,16 +1,15 @@
 #include "app/common/command_options.h"
 
-#include <charconv>
 #include <cstdint>
 #include <string>
+
+#include "models/tables/number_text.h"
 
 namespace enc::app {
 
 // Checked here, because CLI11 reads "-1" and numbers of 30 digits as some other number.
 std::string bad_seed(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (bad == std::errc() && end == text.data() + text.size()) return {};
+  if (models::number_in<std::uint64_t>(text)) return {};
   return "expected a whole number from 0 to 18446744073709551615";
 }
 

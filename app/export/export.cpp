@@ -14,6 +14,7 @@
 
 #include "app/built.h"
 #include "app/common/options.h"
+#include "app/text_output.h"
 #include "app/common/words.h"
 #include "app/process.h"
 #include "app/view/recorded/source.h"
@@ -28,33 +29,6 @@
 
 namespace enc::app {
 namespace {
-
-// The file, or standard output for "-".
-class Output {
- public:
-  Output(const std::string& path, models::OverwritePolicy existing) {
-    if (path != "-") file_.emplace(path, existing);
-  }
-  void write(std::string_view text) {
-    buffer_ += text;
-    if (buffer_.size() > 1U << 16U) flush();
-  }
-  void end() {
-    flush();
-    if (file_) file_->keep();
-  }
-
- private:
-  void flush() {
-    if (file_)
-      file_->write(buffer_);
-    else if (std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) != buffer_.size())
-      fail_output();
-    buffer_.clear();
-  }
-  std::optional<models::OutFile> file_;
-  std::string buffer_;
-};
 
 // Refuses options of a table for a world, and options of a world for a table.
 void refuse_others(const ExportOptions& options) {
@@ -157,7 +131,7 @@ bool write_mcap(const ExportOptions& options, RecordReader& record, const models
 
 bool write_table(const ExportOptions& options, const std::string& csv, bool stoppable, RecordReader& record,
                  const models::Setup& setup, const Scene& scene) {
-  Output output(csv, models::existing(options.force));
+  TextOutput output(csv, models::existing(options.force));
   trial::RecordTable table(setup, scene);
   output.write(trial::RecordTable::header());
   const auto row = [&](const RecordedTick& frame) {
@@ -192,7 +166,7 @@ bool write_truth(const ExportOptions& options, const std::string& csv, bool stop
         fmt::format("{}: has no ground truth: a device was real, or the record does not say how its hand was "
                     "steered; expected a whole record of the twin; {}",
                     options.record, kRemedy));
-  Output output(csv, models::existing(options.force));
+  TextOutput output(csv, models::existing(options.force));
   trial::RecordTable table(twin.setup(), twin.trial().scene());
   std::string row(trial::RecordTable::header());
   row.insert(row.size() - 1, trial::RecordTable::truth_header());
@@ -231,7 +205,7 @@ int export_record(const ExportOptions& options) {
   if (mcap || csv != "-") signals.emplace().begin();
   std::string lack;
   if (options.ledger) {
-    Output output(csv, models::existing(options.force));
+    TextOutput output(csv, models::existing(options.force));
     output.write(ledger);
     output.end();
     if (!record.damage().empty()) lack = record.damage() + "; the ledger is as it was read";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "app/sweep/workers.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
+#include "models/tables/number_text.h"
 #include "trial/sweep/spec.h"
 
 namespace enc::app {
@@ -23,12 +23,7 @@ namespace {
 using Number = std::optional<std::int64_t>;
 constexpr std::int64_t kNoNumber = -1;
 
-Number number_of(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return bad == std::errc() && end == text.data() + text.size() && !text.empty() ? Number(value)
-                                                                                 : std::nullopt;
-}
+Number number_of(std::string_view text) { return models::number_in<std::int64_t>(text); }
 Number variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? std::nullopt : number_of(value);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -17,6 +16,7 @@
 #include "core/base/frames.h"
 #include "models/order_statistics.h"
 #include "models/schema/wording.h"
+#include "models/tables/number_text.h"
 
 namespace enc::app {
 namespace {
@@ -40,12 +40,6 @@ const ListStatistic* statistic_of(std::string_view word) {
   const auto at =
       std::find_if(kStatistics.begin(), kStatistics.end(), [&](const auto& one) { return word == one.word; });
   return at == kStatistics.end() ? nullptr : &*at;
-}
-
-std::optional<std::size_t> index_of(std::string_view word) {
-  std::size_t value = 0;
-  const auto [end, bad] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return bad == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
 }
 
 std::vector<std::string> keys_of(const Json& json) {
@@ -81,7 +75,7 @@ class PathWalk {
 
  private:
   void walk_list(const Json& json, std::string_view path, std::string_view word, std::string_view rest) {
-    if (const auto index = index_of(word)) {
+    if (const auto index = models::number_in<std::size_t>(word)) {
       if (*index < json.size()) walk(json[*index], rest);
       return;
     }

@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text_output.h"
 #include "core/base/error.h"
-#include "models/files.h"
+#include "models/tables/csv_field.h"
 #include "trial/provenance/provenance.h"
 
 namespace enc::app {
@@ -16,62 +17,35 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-// Quotes a field where RFC 4180 requires it.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
+using models::csv_field;
 
 std::string csv_head(const trial::SweepSpec& spec) {
   std::string text = "id,point,seed";
-  for (const trial::Axis& axis : spec.axes) text += "," + field(axis.name);
-  for (const std::string& name : spec.keep) text += "," + field(name);
+  for (const trial::Axis& axis : spec.axes) text += "," + csv_field(axis.name);
+  for (const std::string& name : spec.keep) text += "," + csv_field(name);
   return text + ",exit,state_hash,error\n";
 }
 
-// Writes in pieces: the text of 10^6 runs is not held in memory.
-class ResultFile {
- public:
-  ResultFile(const std::string& folder, const char* name)
-      : file_((fs::path(folder) / name).string(), models::OverwritePolicy::replace) {}
-  void add(std::string_view text) {
-    text_ += text;
-    if (text_.size() > kPiece) flush();
-  }
-  void keep() {
-    flush();
-    file_.keep();
-  }
-
- private:
-  static constexpr std::size_t kPiece = 1U << 20U;  // bytes
-  void flush() {
-    file_.write(text_);
-    text_.clear();
-  }
-  models::OutFile file_;
-  std::string text_;
-};
+std::string file_in(const std::string& folder, const char* name) {
+  return (fs::path(folder) / name).string();
+}
 
 class Writer {
  public:
   Writer(const std::string& folder, SweepTable& table)
       : table_(table),
         design_(table.spec),
-        lines_(folder, "results.ndjson"),
-        csv_(folder, "results.csv"),
-        cost_(folder, "cost.csv") {
-    csv_.add(csv_head(table.spec));
-    cost_.add("id,cpu_s\n");
+        lines_(file_in(folder, "results.ndjson"), models::OverwritePolicy::replace),
+        csv_(file_in(folder, "results.csv"), models::OverwritePolicy::replace),
+        cost_(file_in(folder, "cost.csv"), models::OverwritePolicy::replace) {
+    csv_.write(csv_head(table.spec));
+    cost_.write("id,cpu_s\n");
   }
 
   void add(const trial::ResultLine& line) {
     const std::string text = std::string(line.results) + "}";
-    lines_.add(text + "\n");
-    cost_.add(fmt::format("{},{}\n", line.id, line.cpu));
+    lines_.write(text + "\n");
+    cost_.write(fmt::format("{},{}\n", line.id, line.cpu));
     const Json json = Json::parse(text);
     const std::int64_t point = line.id / table_.spec.seeds;
     if (point != point_) values_ = design_.values(point);
@@ -79,7 +53,7 @@ class Writer {
     std::string row = fmt::format("{},{},{}", line.id, point, json.at("seed").get<std::uint64_t>());
     for (std::size_t i = 0; i < values_.size(); ++i) {
       table_.parameters[i].push_back(values_[i]);
-      row += "," + field(values_[i]);
+      row += "," + csv_field(values_[i]);
     }
     for (std::size_t i = 0; i < table_.spec.keep.size(); ++i) {
       const Json& figures = json.at("figures");
@@ -93,19 +67,19 @@ class Writer {
     table_.exits.push_back(line.exit);
     table_.cpu.push_back(line.cpu);
     const Json& hash = json.at("state_hash");
-    csv_.add(fmt::format("{},{},{},{}\n", row, line.exit, hash.is_string() ? hash.get<std::string>() : "",
-                         field(error)));
+    csv_.write(fmt::format("{},{},{},{}\n", row, line.exit, hash.is_string() ? hash.get<std::string>() : "",
+                           csv_field(error)));
   }
   void keep() {
-    lines_.keep();
-    csv_.keep();
-    cost_.keep();
+    lines_.end();
+    csv_.end();
+    cost_.end();
   }
 
  private:
   SweepTable& table_;
   trial::Design design_;
-  ResultFile lines_, csv_, cost_;
+  TextOutput lines_, csv_, cost_;
   std::int64_t point_ = -1;
   std::vector<std::string> values_;
 };
@@ -126,8 +100,7 @@ SweepTable write_results(const std::string& folder, const trial::SweepSpec& spec
   Writer writer(folder, table);
   for (std::int64_t run = 0; run < lines.size(); ++run) writer.add(lines.at(run));
   writer.keep();
-  models::write_file((fs::path(folder) / "report.html").string(), sweep_page(table),
-                     models::OverwritePolicy::replace);
+  models::write_file(file_in(folder, "report.html"), sweep_page(table), models::OverwritePolicy::replace);
   return table;
 }
 

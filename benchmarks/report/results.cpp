@@ -11,6 +11,7 @@
 #include "benchmarks/report/report.h"
 #include "core/base/error.h"
 #include "models/files.h"
+#include "models/tables/csv_field.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/provenance/provenance.h"
 
@@ -23,16 +24,9 @@ using Json = nlohmann::ordered_json;
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 std::string word(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
 
-// A field of a CSV file [RFC 4180].
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + field(cells[i]);
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + models::csv_field(cells[i]);
   return line + "\n";
 }
 

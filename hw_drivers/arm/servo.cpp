@@ -5,26 +5,15 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include "hw_drivers/net/clocks.h"
+#include "hw_drivers/net/thread_priority.h"
 
 namespace enc::arm {
 namespace {
 
 constexpr std::chrono::microseconds kLook{500};  // interval of the watch
 constexpr const char* kTooLate = "its own thread came too late, or never again";
-
-// Gives the watch a higher priority than the loop and than a device's thread with the loop's priority: none
-// of them can starve it.
-void come_before_loop() noexcept {
-  int policy = SCHED_OTHER;
-  sched_param priority{};
-  if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO) return;
-  ++priority.sched_priority;
-  static_cast<void>(pthread_setschedparam(pthread_self(), policy, &priority));
-}
 
 }  // namespace
 
@@ -43,7 +32,8 @@ void Servo::end() noexcept {
 }
 
 void Servo::watch() noexcept {
-  come_before_loop();
+  // Before the loop, and before a device's thread with the loop's priority: neither can starve the watch.
+  net::shift_priority(1);
   while (!end_) {
     std::this_thread::sleep_for(kLook);
     if (!end_ && !lost_ && silence() > settings_.silent) lose(kTooLate);

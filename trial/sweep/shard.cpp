@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/base/words.h"
+#include "models/tables/number_text.h"
 
 namespace enc::trial {
 namespace {
@@ -33,20 +33,13 @@ std::string header_of(const SweepIdentity& identity, ShardNumber number) {
   return fmt::format("{{{},\"shard\":{},\"of\":{}}}", identity.text, number.index, number.count);
 }
 
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number value{};
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return bad == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 // "shard-7.ndjson", "shard-7.ndjson.part": the number and whether it is whole.
 std::optional<std::pair<std::int64_t, bool>> shard_name(std::string_view name) {
   constexpr std::string_view kHead = "shard-", kTail = ".ndjson", kPart = ".part";
   const bool whole = !name.ends_with(kPart);
   if (!whole) name.remove_suffix(kPart.size());
   if (!name.starts_with(kHead) || !name.ends_with(kTail)) return std::nullopt;
-  const auto index = number_in<std::int64_t>(
+  const auto index = models::number_in<std::int64_t>(
       name.substr(kHead.size(), name.size() - std::min(name.size(), kHead.size() + kTail.size())));
   return index ? std::optional(std::pair(*index, whole)) : std::nullopt;
 }
@@ -94,7 +87,7 @@ void check_header(const std::string& path, const std::string& there, const Sweep
 std::optional<std::int64_t> count_in(const std::string& header) {
   const auto at = header.rfind(",\"of\":");
   if (at == std::string::npos || !header.ends_with('}')) return std::nullopt;
-  return number_in<std::int64_t>(std::string_view(header).substr(at + 6, header.size() - at - 7));
+  return models::number_in<std::int64_t>(std::string_view(header).substr(at + 6, header.size() - at - 7));
 }
 
 // Tries for a while, because --status holds a shared lock for a moment.
@@ -163,9 +156,10 @@ std::optional<ResultLine> parse_result(std::string_view line) {
   const std::size_t cpu = line.rfind(kCpu), exit = line.rfind(kExit);
   if (!line.starts_with(kId) || !line.ends_with('}') || cpu == line.npos || exit == line.npos || exit > cpu)
     return std::nullopt;
-  const auto id = number_in<std::int64_t>(line.substr(kId.size(), line.find(',') - kId.size()));
-  const auto code = number_in<int>(line.substr(exit + kExit.size(), cpu - exit - kExit.size()));
-  const auto seconds = number_in<double>(line.substr(cpu + kCpu.size(), line.size() - cpu - kCpu.size() - 1));
+  const auto id = models::number_in<std::int64_t>(line.substr(kId.size(), line.find(',') - kId.size()));
+  const auto code = models::number_in<int>(line.substr(exit + kExit.size(), cpu - exit - kExit.size()));
+  const auto seconds =
+      models::number_in<double>(line.substr(cpu + kCpu.size(), line.size() - cpu - kCpu.size() - 1));
   if (!id || !code || !seconds) return std::nullopt;
   return ResultLine{*id, *code, *seconds, line.substr(0, cpu)};
 }

@@ -1,7 +1,6 @@
 #include "trial/sweep/statistics.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "models/order_statistics.h"
 #include "models/student.h"
+#include "models/tables/number_text.h"
 
 namespace enc::trial {
 namespace {
@@ -67,11 +67,7 @@ std::size_t different(std::vector<std::string> values) {
 
 }  // namespace
 
-double number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return bad == std::errc() && end == text.data() + text.size() ? value : kUnset;
-}
+double number_of(const std::string& text) { return models::number_in<double>(text).value_or(kUnset); }
 
 Summary summary_of(const std::vector<double>& values) {
   std::vector<double> known;

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include "core/base/error.h"
 #include "core/devices/driver.h"
@@ -17,6 +15,7 @@
 #include "hw_drivers/gcs/wire/text.h"
 #include "hw_drivers/net/clocks.h"
 #include "hw_drivers/net/socket.h"
+#include "hw_drivers/net/thread_priority.h"
 
 namespace enc::gcs {
 namespace {
@@ -25,16 +24,6 @@ constexpr Duration kTurn{1'000'000};  // longest wait of the thread for data
 constexpr Duration kStopTime{100'000'000};
 constexpr Duration kAgain{20'000'000};  // interval between repeated stops after a lost link
 constexpr int kStops = 3;
-
-// Gives the thread a higher priority than the loop, because it is the loop's watchdog: a runaway loop cannot
-// starve it.
-void come_first() noexcept {
-  int policy = SCHED_OTHER;
-  sched_param priority{};
-  if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO) return;
-  ++priority.sched_priority;
-  static_cast<void>(pthread_setschedparam(pthread_self(), policy, &priority));
-}
 
 Health worse(Health a, Health b) noexcept {
   if (a == Health::fault || b == Health::fault) return Health::fault;
@@ -119,7 +108,7 @@ void GcsManipulator::stop() noexcept {
 }
 
 void GcsManipulator::talk() noexcept {
-  come_first();
+  net::shift_priority(1);  // before the loop, whose watchdog this is: a runaway loop cannot starve it
   while (!end_ && turn()) machine_.link().wait(kTurn);
   if (conversation_.loss() != Loss::none) return;
   // Send a pending stop that this thread has not handled yet.

@@ -5,25 +5,15 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include "core/base/error.h"
+#include "hw_drivers/net/thread_priority.h"
 
 namespace enc::v4l2 {
 namespace {
 
 constexpr Duration kTurn{50'000'000};             // longest wait for frames
 constexpr std::chrono::milliseconds kAgain{250};  // between two attempts to open an unplugged camera
-
-// Gives the thread a lower priority than the loop's, which it inherits.
-void come_second() noexcept {
-  int policy = SCHED_OTHER;
-  sched_param priority{};
-  if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO) return;
-  priority.sched_priority = std::max(priority.sched_priority - 1, 1);
-  static_cast<void>(pthread_setschedparam(pthread_self(), policy, &priority));
-}
 
 }  // namespace
 
@@ -117,7 +107,7 @@ void LiveCamera::come_back() {
 }
 
 void LiveCamera::work() noexcept {
-  come_second();
+  net::shift_priority(-1);  // after the loop
   while (!stop_) capture_.there() ? turn() : come_back();
 }
 

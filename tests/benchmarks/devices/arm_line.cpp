@@ -17,31 +17,12 @@
 #include "hw_drivers/net/clocks.h"
 #include "hw_drivers/phantom/drive/phantom_arm.h"
 #include "hw_drivers/phantom/wire/hd.h"
+#include "tests/benchmarks/devices/driver_values.h"
 
 namespace enc::bench::devices {
 namespace {
 
 constexpr std::int64_t kSilentTicks = 4;  // silent_ms of both drivers
-
-// The drivers' own tables: as shipped, but without the ramp.
-struct LineTable final : Settings {
-  LineTable(std::uint16_t of, double time) : port(of), firmware(time) {}
-  void value(const Setting& key, double& number) override {
-    if (key.name == "ramp_N_per_s") number = 0.0;
-    if (key.name == "device_watchdog_ms") number = firmware;
-    if (key.name == "timeout_ms") number = 20.0;
-  }
-  void value(const Setting& key, std::int64_t& whole) override {
-    if (key.name == "serial") whole = port;
-  }
-  void value(const Setting& key, std::string& text) override {
-    if (key.name == "library") text = "fake";
-    if (key.name == "device") text = fmt::format("127.0.0.1:{}", port);
-  }
-  void value(const Setting&, std::vector<double>&) override {}
-  std::uint16_t port;
-  double firmware;  // s
-};
 
 // True if the condition holds within 20 s of wall time: a busy machine is slow, and no bound of a test.
 template <class Condition>
@@ -137,7 +118,10 @@ void ArmLine::connect() {
                                                                     .usual_error = phantom::hd::kWarmMotors,
                                                                     .home = arm.tip(arm.zero()).xyz},
                                              log_);
-  LineTable table(server_->port(), firmware_);
+  DriverValues table;  // as shipped, but without the ramp
+  table.numbers = {{"ramp_N_per_s", 0.0}, {"device_watchdog_ms", firmware_}, {"timeout_ms", 20.0}};
+  table.wholes = {{"serial", server_->port()}};
+  table.texts = {{"library", "fake"}, {"device", fmt::format("127.0.0.1:{}", server_->port())}};
   const Reach reach = reach_of(spec_);
   const Offer offer{table, spec_, reach, Duration(1'000'000), log_};
   const Duration stands = net::steady_now();

@@ -18,6 +18,7 @@
 #include "hw_drivers/gripper/drive/modbus_gripper.h"
 #include "hw_drivers/gripper/fake/server.h"
 #include "models/setup/scene_file.h"
+#include "tests/benchmarks/devices/driver_values.h"
 #include "tests/benchmarks/devices/reaction.h"
 #include "tests/support/built.h"
 #include "trial/devices/device_log.h"
@@ -40,7 +41,10 @@ class GripLine {
     settings.port = 0;
     server_ = std::make_unique<gripper::Server>(*twin_, settings, spec_.gripper.force, log_, true);
     thread_ = std::jthread([this](const std::stop_token& end) { serve(end); });
-    GripTable table(server_->port());
+    DriverValues table;
+    table.numbers = {{"timeout_ms", 1.0}};  // s: a busy machine is slow
+    table.wholes = {{"port", server_->port()}};
+    table.texts["address"] = "127.0.0.1";
     const Reach reach = reach_of(spec_);
     rig.gripper = gripper::connected({table, spec_, reach, Duration(1'000'000), log_, true, true});
     rig.clock = std::make_unique<GripClock>(*this, std::move(rig.clock));
@@ -55,20 +59,6 @@ class GripLine {
   void end() { thread_ = {}; }  // before the twin's gripper
 
  private:
-  struct GripTable final : Settings {
-    explicit GripTable(std::uint16_t of) : port(of) {}
-    void value(const Setting& key, double& number) override {
-      if (key.name == "timeout_ms") number = 1.0;  // s: a busy machine is slow
-    }
-    void value(const Setting& key, std::int64_t& whole) override {
-      if (key.name == "port") whole = port;
-    }
-    void value(const Setting& key, std::string& text) override {
-      if (key.name == "address") text = "127.0.0.1";
-    }
-    void value(const Setting&, std::vector<double>&) override {}
-    std::uint16_t port;
-  };
   class GripClock final : public Clock {
    public:
     GripClock(GripLine& of, std::unique_ptr<Clock> clock) : of_(of), clock_(std::move(clock)) {}

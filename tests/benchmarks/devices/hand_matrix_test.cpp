@@ -14,6 +14,7 @@
 #include "hw_drivers/hand/drive/line_tracker.h"
 #include "hw_drivers/hand/fake/server.h"
 #include "models/setup/scene_file.h"
+#include "tests/benchmarks/devices/driver_values.h"
 #include "tests/benchmarks/devices/reaction.h"
 #include "tests/support/built.h"
 #include "tests/support/devices.h"
@@ -52,7 +53,10 @@ class HandLine {
     settings.transport = transport_;
     settings.port = settings.streams() ? 0 : net::bind_udp("127.0.0.1", 0).port();
     server_ = std::make_unique<hand::Server>(tracker_, settings);
-    HandTable table(transport_, settings.streams() ? server_->port() : settings.port);
+    DriverValues table;
+    table.numbers = {{"timeout_ms", 20.0}};  // s: a busy machine is slow
+    table.wholes = {{"port", settings.streams() ? server_->port() : settings.port}};
+    table.texts = {{"address", "127.0.0.1"}, {"transport", transport_}};
     std::atomic<bool> made = false;
     std::thread first([&] {  // the driver waits for its first hand
       for (Time now{}; !made; now += Duration(17'000'000)) {
@@ -72,22 +76,6 @@ class HandLine {
   [[nodiscard]] hand::Server& server() { return *server_; }
 
  private:
-  struct HandTable final : Settings {
-    HandTable(std::string over, std::int64_t at) : transport(std::move(over)), port(at) {}
-    void value(const Setting& key, double& number) override {
-      if (key.name == "timeout_ms") number = 20.0;  // s: a busy machine is slow
-    }
-    void value(const Setting& key, std::int64_t& whole) override {
-      if (key.name == "port") whole = port;
-    }
-    void value(const Setting& key, std::string& text) override {
-      if (key.name == "address") text = "127.0.0.1";
-      if (key.name == "transport") text = transport;
-    }
-    void value(const Setting&, std::vector<double>&) override {}
-    std::string transport;
-    std::int64_t port;
-  };
   class HandClock final : public Clock {
    public:
     HandClock(HandLine& of, std::unique_ptr<Clock> clock) : of_(of), clock_(std::move(clock)) {}
