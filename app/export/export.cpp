@@ -14,9 +14,9 @@
 
 #include "app/built.h"
 #include "app/common/options.h"
-#include "app/text_output.h"
 #include "app/common/words.h"
 #include "app/process.h"
+#include "app/text_output.h"
 #include "app/view/recorded/source.h"
 #include "core/base/error.h"
 #include "models/files.h"
