@@ -19,8 +19,10 @@
 #include "app/common/options.h"
 #include "app/laboratory/fakes.h"
 #include "app/process.h"
+#include "app/serve/serve.h"
 #include "app/sweep/sweep_options.h"
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "models/schema/wording.h"
 #include "trial/provenance/provenance.h"
 
@@ -126,6 +128,25 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
       ->check(unnamed);
   json_option(command, options.json);
   device_options(command, options);
+  force_option(command, options.force);
+  return command;
+}
+
+CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
+  CLI::App* command = add_command(
+      app, "serve",
+      "Run a scene in step with your program: rows on standard output, places of the tool's tip on standard "
+      "input.",
+      "serve tennis_ball --every-ms 10");
+  scene_options(command, options);
+  command->add_option_function<double>(
+      "--every-ms", [&options](double ms) { options.every = ms * kMillisecond; },
+      "time between two rows, ms; 0: each tick");
+  command->add_option("--for-s", options.seconds, "length of the run, s; default: until standard input ends");
+  command
+      ->add_option("--record", options.record,
+                   "write inputs and outputs of every tick, and the hand, to this file")
+      ->check(unnamed);
   force_option(command, options.force);
   return command;
 }
@@ -406,6 +427,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   add(app, add_view, view, code);
   add(app, add_tour, tour, code);
   add(app, add_params, params, code);
+  add(app, add_serve, serve, code);
   add(app, add_sweep, sweep, code);
   add(app, add_bench, bench, code);
   add(app, add_fit, fit, code);

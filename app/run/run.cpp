@@ -133,7 +133,7 @@ void join(const RunWindow& window, trial::Operator& person, trial::TrialOptions&
       if (here != trial::Hand::none && person.acts) person.acts(here, false);
       return here;
     };
-  options.draw_all = true;
+  options.draw_all = window.draws;
   if (std::isnan(options.seconds)) options.seconds = std::numeric_limits<double>::infinity();
 }
 

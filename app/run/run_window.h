@@ -1,5 +1,5 @@
-// The hooks with which the window of `encounter view` watches and steers a run. All are called on the run's
-// thread.
+// The hooks with which the window of `encounter view`, or the client of `encounter serve`, watches and steers
+// a run. All are called on the run's thread.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 namespace enc::app {
 
 struct RunWindow {
+  bool draws = true;                             // also builds parts that are only drawn
   std::function<void(models::Setup&)> adapts{};  // changes the setup before anything is built
   // Called before the first tick, unless the run is refused.
   std::function<void(trial::Trial&)> begins{};

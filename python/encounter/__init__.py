@@ -11,5 +11,6 @@ from .drawing import plot
 from .many import sweep
 from .program import Error, Run, program_file, run
 from .record import Record, read
+from .served import Served, serve
 
-__all__ = ["Error", "Record", "Run", "plot", "program_file", "read", "run", "sweep"]
+__all__ = ["Error", "Record", "Run", "Served", "plot", "program_file", "read", "run", "serve", "sweep"]

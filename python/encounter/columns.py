@@ -1,5 +1,6 @@
 """The program's tables as numpy arrays, a column each."""
 import csv
+import math
 
 import numpy
 
@@ -22,6 +23,15 @@ def _array(name, cells):
         return _numbers(cells)
     except ValueError:  # words that a sweep varies
         return numpy.array(cells, dtype=str)
+
+
+def value(name, cell):
+    """The value of one cell: a text, a whole number, or a number; NaN for an unknown one."""
+    if name in _TEXT:
+        return cell
+    if name in _WHOLE:
+        return int(cell)
+    return float(cell) if cell else math.nan
 
 
 def columns(table):

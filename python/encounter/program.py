@@ -65,25 +65,34 @@ class Run:
     code: int  # 0; 1: a limit of the scene was crossed; 4: ended in hold, or the physics diverged
 
 
+def run_words(command, scene, set, **options):
+    """The words of a command that runs a scene; an option that is None or False is left out."""
+    words = [command, scene]
+    for name, value in (set or {}).items():
+        words += ["--set", f"{name}={value_text(value)}"]
+    for name, value in options.items():
+        if value is not None and value is not False:
+            words += ["--" + name.replace("_", "-")] + ([] if value is True else [value])
+    return [str(word) for word in words]
+
+
+def run_of(text, record, code):
+    """The Run that a report tells of; Error if there is none."""
+    if not text:  # the physics diverged
+        raise Error("the run has no report; see the lines above", code)
+    figures = json.loads(text)
+    return Run(figures, figures["state_hash"], None if record is None else str(record), code)
+
+
 def run(scene, set=None, *, rig=None, seed=1, for_s=None, record=None, force=False):
     """Runs a scene (a shipped name or a file) in the twin and returns a Run.
 
     set: {"object.ball.radius_mm": 30}, any name of `encounter params SCENE`. for_s: length in s of simulated time.
     record: file to write; force: replace it.
     """
-    words = ["run", scene, "--json", "--seed", seed]
-    for name, value in (set or {}).items():
-        words += ["--set", f"{name}={value_text(value)}"]
-    for option, value in (("--rig", rig), ("--for-s", for_s), ("--record", record)):
-        if value is not None:
-            words += [option, value]
-    if force:
-        words.append("--force")
+    words = run_words("run", scene, set, seed=seed, rig=rig, for_s=for_s, record=record, force=force, json=True)
     code, text = call(*words, good=(0, 1, 4))
-    if not text:  # the physics diverged
-        raise Error("the run has no report; see the lines above", code)
-    figures = json.loads(text)
-    return Run(figures, figures["state_hash"], None if record is None else str(record), code)
+    return run_of(text, record, code)
 
 
 def main():

@@ -122,6 +122,64 @@ class Records(InFolder):
         self.assertTrue(0 < ticks < len(encounter.read(whole)["time_s"]))
 
 
+class Served(InFolder):
+    def test_without_a_place_it_is_the_run(self):
+        run = self.press("tennis_ball", for_s=2)
+        table = encounter.read(run.record, truth=True)
+        with encounter.serve("tennis_ball", for_s=2, every_ms=100) as served:
+            rows = [served.row]
+            while served.step():
+                rows.append(served.row)
+        self.assertEqual((served.run.state_hash, served.run.code), (run.state_hash, run.code))
+        self.assertEqual(len(rows), 21)
+        for name in table:
+            self.assertEqual(str([row[name] for row in rows]), str(list(table[name][::100].tolist())), name)
+
+    def test_a_place_moves_the_tool_and_the_record_repeats_it(self):
+        record = self.folder / "served.encrec"
+        for scene, place in (("tennis_ball", [20, -10, 50]), ("wall", [0, -120, 40])):
+            with encounter.serve(scene, every_ms=50, record=record, force=True) as served:
+                for _ in range(60):
+                    served.step(place)
+                tip = [served.row[f"true_tool_{axis}_mm"] for axis in "xyz"]
+            self.assertLess(max(abs(numpy.subtract(tip, place))), 3.0, scene)
+            said = program("run", scene, "--hand", record)
+            self.assertEqual(hash_of(said), served.run.state_hash)
+
+    def test_a_mistake_ends_it_in_a_line(self):
+        with self.assertRaisesRegex(encounter.Error, "clamped_tool.*no simulated hand"):
+            encounter.serve("clamped_tool")
+        with self.assertRaisesRegex(encounter.Error, "standard input:2: '1.0 2.0'; expected x, y and z"):
+            with encounter.serve("tennis_ball") as served:
+                served.step([1, 2, 3])
+                served.step([1, 2])
+        for line in ("nan 0 0", "0 0 1e5", "1 2 3 4", "0 0 0x1", "a", "1,2,3"):
+            done = subprocess.run([PROGRAM, "serve", "tennis_ball"], input=line + "\n", capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+            self.assertIn("standard input:1: '" + line, done.stderr)
+
+    def test_each_end_of_the_client_ends_it(self):
+        served = encounter.serve("tennis_ball")
+        self.assertEqual(served.close().figures["stopped"], True)
+        self.assertIsNone(served.step())
+        with self.assertRaises(ZeroDivisionError), encounter.serve("tennis_ball"):
+            1 / 0
+        silent = subprocess.Popen([PROGRAM, "serve", "tennis_ball"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        silent.stdout.readline()
+        silent.terminate()
+        self.assertEqual(silent.wait(10), 128 + 15)
+        silent.stdin.close()
+        silent.stdout.close()
+
+    def test_the_example_presses_as_hard_as_asked(self):
+        place = pathlib.Path(__file__).resolve().parents[2] / "examples/policy.py"
+        spec = importlib.util.spec_from_file_location("policy", place)
+        policy = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(policy)
+        for wanted in (2.0, 4.0):
+            self.assertAlmostEqual(policy.press(policy.PressEnv(wanted_N=wanted)), wanted, delta=0.5)
+
+
 class Notebook(InFolder):
     def test_its_cells_run(self):
         book = json.loads((pathlib.Path(__file__).resolve().parents[2] / "python/press.ipynb").read_text())
