@@ -2,7 +2,7 @@
 # that these include, without comments and white space. A module that was built from others is refused.
 # cmake -DROOT=... -DOUT=... -DCOMPILER=... -P border.cmake    writes OUT if it changed
 cmake_minimum_required(VERSION 3.20)
-set(waiting core/devices/module.h core/devices/fake.h core/vision/vision_module.h sim/view/view.h sim/window/window.h sim/camera/stage.h trial/bench_module.h app/calibrate/images/calibration_module.h app/fit/fit_module.h
+set(waiting core/devices/module.h core/devices/fake.h core/vision/vision_module.h sim/view/view.h sim/window/window.h sim/camera/stage.h trial/bench_module.h app/calibrate/images/calibration_module.h app/fit/fit_module.h app/live/live_module.h
     benchmarks/kit/entry.h benchmarks/peers/peers.h)
 set(seen)
 set(text "${COMPILER}\n")

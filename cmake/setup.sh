@@ -204,6 +204,12 @@ setup_mcap_ros2() {
   setup_judge mcap_ros2 mcap-ros2-support==0.6.0 0b5f86c88432a1370b6c8f0e8a26d1403dc02495d751052e3dd9f9a0679645ef "20 kB" pass
 }
 
+# websockets is a viewer of a run that is served live.
+setup_websockets() {
+  setup_judge websockets websockets==13.1 a9a396a6ad26130cdae92ae10c36af09d9bfe6cafe69670fd3b6da9b07b4044f "0.2 MB" "import websockets" \
+    --python-version 3.11 --platform any
+}
+
 # pymodbus is a client and a server of Modbus TCP.
 setup_pymodbus() {
   setup_judge pymodbus pymodbus==3.16.1 bb433f7417280bdea1190d95495aa6fb8e1fa8e0d720c436922b270bc378024c "0.2 MB" \

@@ -120,6 +120,11 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
                    "write the run to this MCAP file, for Foxglove (not with real devices)")
       ->check(unnamed);
   command
+      ->add_option("--live", options.live,
+                   "let viewers such as Foxglove watch the run at this port, or ADDRESS:PORT for other "
+                   "computers, such as 0.0.0.0:8765; the pace is then wall")
+      ->check(unnamed);
+  command
       ->add_option("--frames", options.frames,
                    "write the images of the scene's camera to this new folder (PNG)")
       ->check(unnamed);

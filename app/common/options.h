@@ -24,6 +24,7 @@ struct RunOptions : SceneOptions {
   std::optional<double> seconds;  // length; unset: until the user or the probe is done
   std::string record;
   std::string mcap;    // file; empty: none
+  std::string live;    // [ADDRESS:]PORT for viewers; empty: none
   std::string frames;  // folder for the frames of its camera
   std::string hand;    // record whose steered hand replaces the scene's own; empty: none
   bool json = false;

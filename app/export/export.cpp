@@ -22,6 +22,7 @@
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "trial/assemble/assemble.h"
+#include "trial/mcap/mcap_writer.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
 #include "trial/operator/signals.h"

@@ -97,7 +97,7 @@ std::string beside_program() {
   return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
 }
 bool ours(const std::string& name) {
-  constexpr std::array<std::string_view, 6> kOurs{"bench", "calibration", "camera", "fit", "peers", "vision"};
+  constexpr std::array<std::string_view, 7> kOurs{"bench", "calibration", "camera", "fit", "live", "peers", "vision"};
   return std::find(kOurs.begin(), kOurs.end(), name) != kOurs.end();
 }
 std::string file_of(const std::string& name) {
@@ -271,6 +271,8 @@ const ModuleInfo* module_if_there(const std::string& name) {
 }  // namespace
 
 const FitModule& fit_module() { return *static_cast<const FitModule*>(own_module("fit", "fit").fit); }
+
+const LiveModule& live_module() { return *static_cast<const LiveModule*>(load_module("live").live); }
 
 const CalibrationModule& calibration_module() {
   return *static_cast<const CalibrationModule*>(

@@ -10,6 +10,7 @@
 #include "app/calibrate/images/calibration_module.h"
 #include "app/common/options.h"
 #include "app/fit/fit_module.h"
+#include "app/live/live_module.h"
 #include "core/devices/module.h"
 #include "models/setup/scene_file.h"
 
@@ -47,6 +48,7 @@ namespace enc::app {
 // The program's own modules for its subcommands. A module that was not built is refused with the command that
 // builds it.
 const FitModule& fit_module();
+const LiveModule& live_module();
 const CalibrationModule& calibration_module();
 // A module by its name. Vision and the twin's camera are built on the first request for pictures; all other
 // names are drivers.

@@ -14,6 +14,7 @@
 #include "app/modules/modules.h"
 #include "app/process.h"
 #include "app/run/console.h"
+#include "app/run/live_run.h"
 #include "app/run/run_files.h"
 #include "app/run/run_report.h"
 #include "app/run/run_window.h"
@@ -40,6 +41,12 @@ double pace_of(const std::string& text) {
   return factor;
 }
 
+void check_options(const RunOptions& options) {
+  if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
+    throw Error("--for-s: expected a positive number of seconds below a million");
+  if (!options.live.empty()) static_cast<void>(live_address(options.live));
+}
+
 // Warnings about unstable rendering, printed before anything moves.
 std::vector<std::string> beyond(const models::Setup& setup,
                                 const std::vector<trial::ObjectCertificate>& certificates) {
@@ -60,6 +67,7 @@ trial::TrialOptions trial_options(const RunOptions& options, trial::Operator& pe
   all.seed = options.seed;
   all.seconds = options.seconds.value_or(kUnset);
   all.pace = pace_of(options.pace);
+  if (!options.live.empty() && all.pace == 0.0) all.pace = 1.0;
   all.drivers = load_module;
   all.armed = options.armed;
   all.lockstep = options.lockstep;
@@ -261,8 +269,7 @@ int run(const RunOptions& options, const RunWindow* window) {
   trial::Operator person;
   models::Setup setup = load_setup(options);
   if (window != nullptr && window->adapts) window->adapts(setup);
-  if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
-    throw Error("--for-s: expected a positive number of seconds below a million");
+  check_options(options);
   const bool moves = options.armed && trial::moves_device(setup);
   const bool attended = moves && !options.lockstep;  // lockstep runs have only fakes
   if (attended && !options.yes) trial::refuse_unasked();

@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/run/live_run.h"
 #include "app/run/run_report.h"
 #include "app/stability_text.h"
 #include "core/base/error.h"
 #include "models/files.h"
+#include "trial/mcap/mcap_writer.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/time/real_time.h"
 
@@ -103,13 +105,15 @@ void RunFiles::begin(const trial::Trial& trial, trial::WallTime started) {
   const RecordTexts texts = texts_of(options_, trial, started);
   if (!options_.record.empty()) record_ = std::make_unique<Record>(options_, texts, trial.scene(), beside);
   if (!options_.mcap.empty()) mcap_ = std::make_unique<Mcap>(options_, texts, trial);
+  if (!options_.live.empty()) live_ = std::make_unique<LiveRun>(options_.live, trial, texts);
 }
 
 void RunFiles::watch(trial::TrialOptions& how) {
-  if (options_.mcap.empty()) return;
+  if (options_.mcap.empty() && options_.live.empty()) return;
   how.watch = [this, counts = std::move(how.watch)](const trial::Glance& glance) {
     counts(glance);
-    mcap_->add(glance);
+    if (mcap_) mcap_->add(glance);
+    if (live_) live_->add(glance);
   };
 }
 
@@ -118,6 +122,7 @@ RecordWriter* RunFiles::record() { return record_ ? &record_->writer : nullptr; 
 void RunFiles::end(const RecordTexts& texts) {
   if (record_) record_->end(texts);
   if (mcap_) mcap_->end(texts);
+  if (live_) live_->end();
 }
 
 std::string RunFiles::record_error() const {

@@ -1,4 +1,4 @@
-// The files that a run writes while it goes on: its record, and the run as MCAP.
+// What a run writes while it goes on: its record, the run as MCAP, and the run for viewers.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,8 @@
 
 namespace enc::app {
 
+class LiveRun;
+
 class RunFiles {
  public:
   explicit RunFiles(const RunOptions& options);
@@ -21,7 +23,7 @@ class RunFiles {
 
   // Begins the files that the options name. Throws Error.
   void begin(const trial::Trial& trial, trial::WallTime started);
-  void watch(trial::TrialOptions& how);            // joins the hook after each tick; needed for MCAP
+  void watch(trial::TrialOptions& how);            // joins the hook after each tick
   [[nodiscard]] RecordWriter* record();            // null: no record
   void end(const RecordTexts& texts);              // texts known only after the run
   [[nodiscard]] std::string record_error() const;  // one line; empty: no error
@@ -32,6 +34,7 @@ class RunFiles {
   const RunOptions& options_;
   std::unique_ptr<Record> record_;
   std::unique_ptr<Mcap> mcap_;
+  std::unique_ptr<LiveRun> live_;
 };
 
 }  // namespace enc::app

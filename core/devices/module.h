@@ -38,6 +38,7 @@ struct ModuleInfo {
   const void* peers = nullptr;        // bench::PeersModule, peers module only
   const void* bench = nullptr;        // trial::BenchModule, bench module only
   const void* benchmark = nullptr;    // bench::BenchmarkModule, modules of encounter_benchmark() only
+  const void* live = nullptr;         // app::LiveModule, live module only
   const void* fit = nullptr;          // app::FitModule, fit module only
   const void* calibration = nullptr;  // app::CalibrationModule, calibration module only
 };

@@ -284,5 +284,57 @@ TEST_F(McapForeign, Ros2MessagesSayWhatJsonSays) {
   EXPECT_THAT(compared(carried), HasSubstr(" encounter_msgs/msg/Gripper\n"));
 }
 
+// ---- A run that is served live, against a viewer over websockets of PyPI.
+
+const std::string kWebsockets = tests::source_dir() + "/.deps/websockets";
+
+class LiveForeign : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kWebsockets)) GTEST_SKIP() << "no " << kWebsockets << ": ./check fetches it";
+  }
+  // The viewer starts `run SCENE --live 0` with these words more.
+  static tests::Result watched(const std::string& way, const std::string& scene,
+                               const std::vector<std::string>& more) {
+    std::vector<std::string> words{"/usr/bin/python3",
+                                   "-B",
+                                   kScripts + "live_viewer.py",
+                                   kWebsockets,
+                                   way,
+                                   tests::program_file(),
+                                   "run",
+                                   scene,
+                                   "--live",
+                                   "0"};
+    words.insert(words.end(), more.begin(), more.end());
+    return tests::run(words);
+  }
+};
+
+TEST_F(LiveForeign, AViewerGetsEachTickFromItsFirstOn) {
+  for (const char* scene : {"tennis_ball", "wall"}) {
+    const tests::Result said = watched("all", scene, {"--for-s", "4"});
+    EXPECT_EQ(said.code, 0) << said.err;
+    EXPECT_THAT(said.out,
+                AllOf(HasSubstr("\n/core "), HasSubstr(" 4000000000\nGAPS 0\n"), HasSubstr("ended 0 \n")))
+        << scene;
+    EXPECT_THAT(said.out, HasSubstr(scene == std::string("wall") ? "\n/arm " : "/frames 1 0 0\n"));
+  }
+}
+
+TEST_F(LiveForeign, AViewerThatReadsNothingDelaysNothing) {
+  const tests::Result said = watched("stall", "tennis_ball", {"--for-s", "60", "--pace", "20"});
+  EXPECT_THAT(said.out,
+              AllOf(HasSubstr("ended 0 live: a viewer was too slow for "), Not(HasSubstr("computer"))));
+}
+
+TEST_F(LiveForeign, ARequestThatIsNoneIsAnswered) {
+  const tests::Result said = watched("mistakes", "tennis_ball", {"--for-s", "2"});
+  EXPECT_EQ(said.code, 0) << said.err;
+  EXPECT_THAT(said.out,
+              AllOf(HasSubstr("'advertise' is not supported\n"), HasSubstr("there is no channel 99\n"),
+                    HasSubstr("GAPS 0\n"), HasSubstr("ended 0 \n")));
+}
+
 }  // namespace
 }  // namespace enc::test

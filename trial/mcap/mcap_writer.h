@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "trial/mcap/message_sink.h"
+
 namespace enc::trial {
 
 // CRC-32 as in zip, continued from `before`, the CRC of the preceding bytes.
@@ -18,7 +20,7 @@ namespace enc::trial {
 
 enum class ChunkCompression : std::uint8_t { none, zstd };
 
-class McapWriter {
+class McapWriter final : public MessageSink {
  public:
   using Sink = std::function<void(std::string_view)>;  // receives the bytes of the file, in order
 
@@ -32,18 +34,16 @@ class McapWriter {
   McapWriter(Sink sink, std::string_view library, const Form& form);
   McapWriter(Sink sink, std::string_view library) : McapWriter(std::move(sink), library, Form{}) {}
 
-  // Adds a schema or a channel; returns the number by which others refer to it.
   [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view encoding,
-                                         std::string_view data);
+                                         std::string_view data) override;
   [[nodiscard]] std::uint16_t add_channel(std::string_view topic, std::uint16_t schema,
-                                          std::string_view message_encoding);
-  // Times in ns.
+                                          std::string_view message_encoding) override;
   void message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
-               std::string_view data);
-  void attach(std::string_view name, std::string_view media_type, std::string_view data);
-  void metadata(std::string_view name, const std::map<std::string, std::string>& texts);
+               std::string_view data) override;
+  void attach(std::string_view name, std::string_view media_type, std::string_view data) override;
+  void metadata(std::string_view name, const std::map<std::string, std::string>& texts) override;
   // Writes the rest and the summary, without which the file is invalid.
-  void close();
+  void close() override;
 
  private:
   struct Entry {

@@ -267,7 +267,7 @@ Time stamp_or(const Measurement<T>& said, Time now) {
 
 }  // namespace
 
-RecordMcap::RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene,
+RecordMcap::RecordMcap(MessageSink& file, const models::Setup& setup, const Scene& scene,
                        const RecordTexts& texts, McapMessages form)
     : file_(file),
       scene_(scene),

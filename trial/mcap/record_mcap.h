@@ -1,4 +1,5 @@
-// A record as an MCAP file: its channels and their content (docs/reference/mcap.md).
+// A record as an MCAP file, or a run for live viewers: its channels and their content
+// (docs/reference/mcap.md).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 #include "core/record/record.h"
 #include "models/setup/scene_file.h"
-#include "trial/mcap/mcap_writer.h"
+#include "trial/mcap/message_sink.h"
 
 namespace enc::trial {
 
@@ -21,7 +22,7 @@ enum class McapMessages : std::uint8_t { json, ros2 };
 class RecordMcap {
  public:
   // Attaches the scene and the record's other texts. Setup, scene and file must outlive this.
-  RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene, const RecordTexts& texts,
+  RecordMcap(MessageSink& file, const models::Setup& setup, const Scene& scene, const RecordTexts& texts,
              McapMessages form = McapMessages::json);
 
   void add(const RecordedTick& frame);  // in order
@@ -37,7 +38,7 @@ class RecordMcap {
   void add_channels();
   void add_fixed_frames(Time t);
 
-  McapWriter& file_;
+  MessageSink& file_;
   const Scene& scene_;
   bool ros2_;
   RecordTexts about_;                               // short texts of the record

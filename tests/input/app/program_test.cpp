@@ -385,6 +385,14 @@ TEST(Export, ARunWritesTheMcapOfItsRecord) {
   EXPECT_THAT(line({"run", kWall, "--for-s", "0.1", "--mcap", direct}), HasSubstr("is there already"));
 }
 
+// `run --live` refuses what it cannot listen at, before anything is made.
+TEST(Live, RefusesItsAddressInALine) {
+  for (const char* where : {"x", "65536", "-1", ":80", "127.0.0.1:", "127.0.0.1:8765x", "1e3"})
+    EXPECT_THAT(line({"run", kWall, "--live", where}),
+                HasSubstr("expected a port from 0 to 65535, or ADDRESS:PORT"));
+  EXPECT_THAT(line({"run", kWall, "--live", "192.0.2.1:0"}), HasSubstr("192.0.2.1:0: cannot listen there"));
+}
+
 // `plot` draws each record, and refuses in one line.
 TEST(Plot, DrawsARecord) {
   const test::TemporaryFolder folder;
