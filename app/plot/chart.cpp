@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,11 @@ std::string number(double value, double step) {
 template <class Draw>
 void for_ticks(const Range& range, const Draw& draw) {
   const double step = tick_step(range);
-  const auto last = static_cast<int>(std::floor(range.most / step + 1e-9));
-  for (auto i = static_cast<int>(std::ceil(range.least / step - 1e-9)); i <= last; ++i)
-    draw(i * step, number(i * step, step));
+  const auto last = static_cast<std::int64_t>(std::floor(range.most / step + 1e-9));
+  for (auto i = static_cast<std::int64_t>(std::ceil(range.least / step - 1e-9)); i <= last; ++i) {
+    const double at = static_cast<double>(i) * step;
+    draw(at, number(at, step));
+  }
 }
 
 }  // namespace
@@ -41,9 +44,11 @@ void Range::see(double value) {
 
 Range rounded(const Range& range) {
   Range wide = range.any ? range : Range{0.0, 1.0, true};
-  if (wide.most - wide.least < 1e-9 * std::max(1.0, std::abs(wide.most))) {
-    wide.least -= 0.5;
-    wide.most += 0.5;
+  const double narrow = 1e-9 * std::max(1.0, std::abs(wide.most));
+  if (wide.most - wide.least < narrow) {
+    const double room = std::max(0.5, narrow);
+    wide.least -= room;
+    wide.most += room;
   }
   const double step = tick_step(wide);
   // Noise around zero gets no tick of its own.
@@ -65,9 +70,12 @@ void Path::add(double x, double y) {
 Trace::Trace(const Chart& chart) : chart_(chart), columns_(static_cast<std::size_t>(chart.width) + 1) {}
 
 void Trace::add(double time, double value) {
-  if (!std::isfinite(value)) return;
   const double at = std::clamp(chart_.px(time) - chart_.left, 0.0, chart_.width);
   Column& column = columns_[static_cast<std::size_t>(at)];
+  if (!std::isfinite(value)) {
+    column.unset = true;
+    return;
+  }
   if (column.range.any && value != column.range.least && value != column.range.most)
     column.rises = value > column.range.least;
   column.range.see(value);
@@ -78,7 +86,7 @@ std::string Trace::text() const {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const Column& column = columns_[i];
     if (!column.range.any) {
-      path.lift();
+      if (column.unset) path.lift();
       continue;
     }
     const double x = chart_.left + static_cast<double>(i);

@@ -50,7 +50,8 @@ class Trace {
  private:
   struct Column {
     Range range;
-    bool rises = true;  // the greatest value came last
+    bool rises = true;   // the greatest value came last
+    bool unset = false;  // an unset value came
   };
   const Chart& chart_;
   std::vector<Column> columns_;

@@ -52,7 +52,7 @@ struct Charts {
 // The approach is tens of millimetres long, the press a few: the gap's axis ends where the press is still
 // seen.
 Range gap_range(Range gap) {
-  if (gap.any) gap.most = std::min(gap.most, std::max(10.0, -3.0 * gap.least));
+  if (gap.any && gap.least < 10.0) gap.most = std::min(gap.most, std::max(10.0, -3.0 * gap.least));
   return gap;
 }
 

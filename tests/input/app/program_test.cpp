@@ -412,6 +412,19 @@ TEST(Plot, DrawsARecord) {
   EXPECT_EQ(run_program({"plot", kRecord}).code, 2);
 }
 
+// A record with fewer ticks than pixels, whose tip is still far: each curve is one line.
+TEST(Plot, AShortRecordHasWholeLines) {
+  const test::TemporaryFolder folder;
+  const std::string record = folder.file("r.encrec");
+  ASSERT_EQ(run_program({"run", kWall, "--for-s", "0.1", "--record", record}, kShipped).code, 0);
+  const std::string picture = run_program({"plot", record, "-"}).out;
+  EXPECT_THAT(picture, Not(HasSubstr("nan")));
+  const std::size_t begin = picture.rfind("<path", picture.find("clip-path='url(#c2)'"));
+  const std::string gap = picture.substr(begin, picture.find("clip-path", begin) - begin);
+  EXPECT_EQ(std::count(gap.begin(), gap.end(), 'M'), 1) << gap;
+  EXPECT_GE(std::count(gap.begin(), gap.end(), 'L'), 30) << gap;
+}
+
 // The program reports missing parts where people look: in the terminal, as for a table, and in the file.
 TEST(Export, McapSaysWhatOfItsRecordIsMissing) {
   const test::TemporaryFolder folder;
