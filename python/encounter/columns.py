@@ -1,5 +1,6 @@
 """The program's tables as numpy arrays, a column each."""
 import csv
+import io
 import math
 
 import numpy
@@ -36,6 +37,6 @@ def value(name, cell):
 
 def columns(table):
     """Columns by name. Unknown numbers are NaN, unknown texts empty."""
-    names, *rows = csv.reader(table.splitlines())
+    names, *rows = csv.reader(io.StringIO(table, newline=""))
     cells = zip(*rows) if rows else [()] * len(names)
     return {name: _array(name, column) for name, column in zip(names, cells)}

@@ -34,7 +34,13 @@ def program_file():
 
 def call(*words, good=(0,)):
     """Standard output of the program; Error for an exit code that is not good. Its notes go to our standard error."""
-    done = subprocess.run([program_file(), *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    done = subprocess.run(
+        [program_file(), *map(str, words)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        encoding="utf-8",  # whatever the locale
+        errors="backslashreplace",
+    )
     if done.returncode not in good:
         text = done.stderr.strip() or f"exit code {done.returncode}"
         raise Error(text.removeprefix("encounter: "), done.returncode)
@@ -44,6 +50,8 @@ def call(*words, good=(0,)):
 
 def value_text(value):
     """A value as --set reads it."""
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
     if value is None:
         return "unset"
     if isinstance(value, bool):

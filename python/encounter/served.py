@@ -17,9 +17,9 @@ class Served:
 
     def __init__(self, scene, set=None, *, every_ms=0, rig=None, seed=1, for_s=None, record=None, force=False):
         words = run_words("serve", scene, set, every_ms=every_ms, rig=rig, seed=seed, for_s=for_s, record=record, force=force)
-        self._said = tempfile.TemporaryFile("w+")
-        self._program = subprocess.Popen([program_file(), *words], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                         stderr=self._said)
+        self._said = tempfile.TemporaryFile("w+", encoding="utf-8", errors="backslashreplace")
+        self._program = subprocess.Popen([program_file(), *words], encoding="utf-8", errors="backslashreplace",
+                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said)
         self._record, self.run = record, None
         names = self._program.stdout.readline()
         if not names:

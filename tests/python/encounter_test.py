@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -53,6 +54,20 @@ class Runs(InFolder):
         self.assertEqual(run.state_hash, hash_of(program("run", "tennis_ball", "--for-s", 0.5, *words)))
         self.assertNotEqual(run.state_hash, encounter.run("tennis_ball", for_s=0.5).state_hash)
 
+    def test_values_of_numpy_are_written_as_those_of_python(self):
+        values = [numpy.bool_(True), numpy.float64(0.1), numpy.array(90.0), numpy.array([0, 0.25]), numpy.int64(3)]
+        texts = ["true", "0.1", "90.0", "[0.0,0.25]", "3"]
+        self.assertEqual([encounter.program.value_text(value) for value in values], texts)
+
+    def test_texts_are_utf_8_whatever_the_locale(self):
+        scene = self.folder / "s.toml"
+        shipped = DATA.parents[1] / "models/scenes/plane.toml"
+        scene.write_text(shipped.read_text(encoding="utf-8").replace('name = "wall"', 'name = "w\u00e4ll"'), encoding="utf-8")
+        code = f"import encounter; print('w\\u00e4ll' in str(encounter.run({str(scene)!r}, for_s=0.1).figures))"
+        plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+        said = subprocess.run([sys.executable, "-c", code], env=os.environ | plain, capture_output=True, text=True)
+        self.assertEqual((said.stdout, said.stderr), ("True\n", ""))
+
     def test_a_mistake_is_the_programs_line(self):
         with self.assertRaisesRegex(encounter.Error, r"--set object.ball.radius=30: .*radius_mm") as refusal:
             encounter.run("tennis_ball", {"object.ball.radius": 30})
@@ -83,6 +98,10 @@ class Records(InFolder):
                 record = self.press(scene, for_s=seconds).record
                 self.expect_equal(encounter.read(record), program("export", record))
                 self.expect_equal(encounter.read(record, truth=True), program("export", record, "--truth"))
+
+    def test_only_a_line_end_ends_a_row(self):
+        table = encounter.columns.columns('id,error\n1,"a\u2028b"\n2,"c\nd"\n')
+        self.assertEqual(table["error"].tolist(), ["a\u2028b", "c\nd"])
 
     def test_units_stand_in_the_names(self):
         record = encounter.read(DATA / "press.encrec")
