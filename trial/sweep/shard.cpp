@@ -41,7 +41,8 @@ std::optional<std::pair<std::int64_t, bool>> shard_name(std::string_view name) {
   if (!name.starts_with(kHead) || !name.ends_with(kTail)) return std::nullopt;
   const auto index = models::number_in<std::int64_t>(
       name.substr(kHead.size(), name.size() - std::min(name.size(), kHead.size() + kTail.size())));
-  return index ? std::optional(std::pair(*index, whole)) : std::nullopt;
+  if (!index || name != name_of(*index)) return std::nullopt;  // such as shard-00
+  return std::pair(*index, whole);
 }
 
 // Results that the end of a sweep writes, and their unfinished forms.
@@ -65,10 +66,11 @@ std::string difference(const std::string& there, const std::string& here) {
     return text.substr(at, text.find(",\"", at + 1) - at);
   };
   if (!there.starts_with("{\"sweep\":")) return "its first line is no header of a sweep";
-  constexpr std::array<std::pair<const char*, const char*>, 4> kParts{
+  constexpr std::array<std::pair<const char*, const char*>, 5> kParts{
       {{"of", "the sweep was begun in another number of shards"},
        {"program", "another Encounter wrote it"},
        {"sweep", "the design was another one then"},
+       {"shard", "its name is that of another shard"},
        {"setup", "the scene or its rig was another one then"}}};
   for (const auto& [key, what] : kParts)
     if (member(there, key) != member(here, key)) return what;
@@ -88,6 +90,17 @@ std::optional<std::int64_t> count_in(const std::string& header) {
   const auto at = header.rfind(",\"of\":");
   if (at == std::string::npos || !header.ends_with('}')) return std::nullopt;
   return models::number_in<std::int64_t>(std::string_view(header).substr(at + 6, header.size() - at - 7));
+}
+
+// 0, or the number of the error. One call writes at most 2 GiB.
+int write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(fd, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : ENOSPC;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
 }
 
 // Tries for a while, because --status holds a shared lock for a moment.
@@ -129,7 +142,9 @@ std::vector<ShardState> headers_in(const std::string& folder, const SweepIdentit
     const std::string name = entry.path().filename().string();
     const auto shard = shard_name(name);
     if (!shard && (is_result(name) || name.ends_with(".part.part"))) continue;
-    if (!shard)
+    const fs::file_type type = entry.status(none).type();
+    if (type == fs::file_type::not_found) continue;  // another process has just renamed it
+    if (!shard || type != fs::file_type::regular)
       throw Error(
           fmt::format("{}: is no file of a sweep; expected a new folder, or one of this sweep; name "
                       "another by --out, or remove the file",
@@ -242,11 +257,9 @@ void ShardFile::rewrite(const std::string& text) {
   const std::string fresh = part_ + ".part";  // a name that shards_in() takes for ours
   const int fd = open(fresh.c_str(), O_RDWR | O_APPEND | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (fd < 0) fail(errno);
-  const ssize_t written = write(fd, text.data(), text.size());
-  const bool good = written == static_cast<ssize_t>(text.size()) && fsync(fd) == 0 && locked(fd) &&
-                    rename(fresh.c_str(), part_.c_str()) == 0;
-  if (!good) {
-    const int why = written >= 0 && written < static_cast<ssize_t>(text.size()) ? ENOSPC : errno;
+  int why = write_all(fd, text);
+  if (why == 0 && !(fsync(fd) == 0 && locked(fd) && rename(fresh.c_str(), part_.c_str()) == 0)) why = errno;
+  if (why != 0) {
     close(fd);
     unlink(fresh.c_str());
     fail(why);
@@ -280,13 +293,11 @@ void ShardFile::append(const std::string& line) {
   if (!result) throw std::logic_error("not a line of a run: " + line);
   note(*result);
   const std::string text = line + "\n";
-  const ssize_t written = write(fd_, text.data(), text.size());
-  if (written != static_cast<ssize_t>(text.size())) {
-    const int why = written < 0 ? errno : ENOSPC;
+  if (const int why = write_all(fd_, text); why != 0) {
     if (ftruncate(fd_, size_) != 0) fail(errno);  // the next start drops the torn line
     fail(why);
   }
-  size_ += written;
+  size_ += static_cast<std::int64_t>(text.size());
 }
 
 void ShardFile::complete() {

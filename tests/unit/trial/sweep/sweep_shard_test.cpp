@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/support/error_of.h"
 #include "tests/support/files.h"
@@ -149,6 +150,25 @@ TEST_F(SweepShards, AForeignFileAndADamagedLineAreRefused) {
                 const ShardFile shard(folder(), kIdentity, {0, 1}, Retry::none);
               }),
               HasSubstr("notes.txt: is no file of a sweep"));
+}
+
+// A copy under another number, a number written otherwise, a folder and a pipe.
+TEST_F(SweepShards, AFileThatOnlyHasTheNameOfAShardIsRefused) {
+  go_on({0, 3});
+  const auto refused = [&] {
+    return error_of([&] { const ShardFile shard(folder(), kIdentity, {1, 3}, Retry::none); });
+  };
+  const std::string copy = folder_.file("shard-2.ndjson"), zeros = folder_.file("shard-00.ndjson");
+  fs::copy_file(folder_.file("shard-0.ndjson"), copy);
+  EXPECT_THAT(refused(), HasSubstr("its name is that of another shard"));
+  fs::rename(copy, zeros);
+  EXPECT_THAT(refused(), HasSubstr("shard-00.ndjson: is no file of a sweep"));
+  fs::remove(zeros);
+  fs::create_directory(copy);
+  EXPECT_THAT(refused(), HasSubstr("shard-2.ndjson: is no file of a sweep"));
+  fs::remove(copy);
+  ASSERT_EQ(mkfifo(copy.c_str(), 0600), 0);
+  EXPECT_THAT(refused(), HasSubstr("shard-2.ndjson: is no file of a sweep"));
 }
 
 TEST_F(SweepShards, AMergeNamesTheShardsThatAreNotWhole) {
