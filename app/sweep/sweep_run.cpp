@@ -80,7 +80,11 @@ void SweepRunner::prepare(std::int64_t point) {
 }
 
 void SweepRunner::check_measures() {
-  prepare(0);
+  try {
+    prepare(0);
+  } catch (const Error&) {  // refused values fail their own runs
+    now_.setup = sweep_setup(spec_, {});
+  }
   trial::TrialOptions how = trial_of(spec_, 1);
   const trial::RunMeasures measured(now_.setup, how);
   trial::Trial trial(now_.setup, how);
@@ -136,8 +140,9 @@ std::string SweepRunner::line(std::int64_t run) {
 
 std::string SweepRunner::line_of_killed(std::int64_t run, int signal, int times) const {
   RunLine line{.run = run, .seed = design_.seed(run)};
-  line.error = fmt::format("its process was ended by signal {}, {} times", signal, times);
-  line.exit = 128 + signal;
+  line.error = signal != 0 ? fmt::format("its process was ended by signal {}, {} times", signal, times)
+                           : fmt::format("its process ended, {} times", times);
+  line.exit = signal != 0 ? 128 + signal : 2;
   return line.text(0.0);
 }
 

@@ -206,6 +206,9 @@ void check_axes(const SweepSpec& spec, const models::Setup& setup) {
     }
     std::vector<std::string> values = axis.levels;
     if (values.empty()) values = {axis.at(0.0), axis.at(1.0)};
+    // A point between the ends: a whole number has none there.
+    constexpr double kBetween = 0.381966;
+    if (values.size() == 2 && axis.levels.empty() && axis.steps == 0) values.push_back(axis.at(kBetween));
     for (std::int64_t i = 0; i < std::min<std::int64_t>(axis.steps, 1000); ++i)
       values.push_back(axis.at(static_cast<double>(i) / static_cast<double>(axis.steps - 1)));
     models::Setup copy = setup;

@@ -117,10 +117,10 @@ TEST_F(Sweep, ARunIsTheRunOfTheSameSettings) {
 
 TEST_F(Sweep, RunsThatTheSceneRefusesAreNamedAndTheOthersAreDone) {
   static_cast<void>(written(test::replaced(spec(), "seeds = 20", "seeds = 2") +
-                            "[[vary]]\nname = \"follow.resume_mm\"\nvalues = [40, 5000]\n"));
+                            "[[vary]]\nname = \"follow.resume_mm\"\nvalues = [5000, 40]\n"));
   const Result r = run_program(words("out"));
   EXPECT_EQ(r.code, 1);
-  EXPECT_THAT(r.out, AllOf(HasSubstr("8 runs of "), HasSubstr("; 4 failed"), HasSubstr("failed      run 2: "),
+  EXPECT_THAT(r.out, AllOf(HasSubstr("8 runs of "), HasSubstr("; 4 failed"), HasSubstr("failed      run 0: "),
                            HasSubstr("expected at most 'pause_mm'")));
   const Result status = run_program(words("out", {"--status"}));
   EXPECT_EQ(status.code, 1);
@@ -136,6 +136,10 @@ TEST_F(Sweep, EachMistakeIsRefusedInOneLine) {
               AllOf(HasSubstr("s.toml:"), HasSubstr("unknown parameter")));
   EXPECT_THAT(sweep_refused(spec() + "[[vary]]\nname = \"truth.tracker.rate_hz\"\nvalues = [-1]\n"),
               AllOf(HasSubstr("s.toml:"), HasSubstr("-1")));
+  EXPECT_THAT(
+      sweep_refused("format = 1\nscene = \"reaching\"\ndesign = \"random\"\npoints = 5\nkeep = \"contacts\"\n"
+                    "[[vary]]\nname = \"user.reaches.count\"\nfrom = 1\nto = 10\n"),
+      AllOf(HasSubstr("s.toml:6:1: "), HasSubstr("expected a whole number")));
   EXPECT_THAT(sweep_refused(test::replaced(spec(), "contacts", "contact")),
               AllOf(HasSubstr("s.toml:5:1"), HasSubstr("did you mean 'contacts'")));
   EXPECT_THAT(sweep_refused(test::replaced(spec(), "presses.count", "presses.miss")), HasSubstr("miss_mm"));
