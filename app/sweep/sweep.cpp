@@ -191,6 +191,16 @@ SweepOptions with_folder(SweepOptions options) {
   return options;
 }
 
+// Each point loads the scene's files.
+void check_unchanged(const SweepOptions& options, const trial::SweepSpec& spec,
+                     const trial::SweepIdentity& identity) {
+  if (identity_of(spec, sweep_setup(spec, {})).text != identity.text)
+    throw Error(
+        fmt::format("{}: the scene, its rig or another file of them changed while this sweep ran; "
+                    "expected the same for all runs; remove {} and begin anew",
+                    spec.scene, options.out));
+}
+
 // A shard, and the results if it is the only one.
 int run_shard(const SweepOptions& options, const trial::SweepSpec& spec,
               const trial::SweepIdentity& identity) {
@@ -209,6 +219,7 @@ int run_shard(const SweepOptions& options, const trial::SweepSpec& spec,
       if (shard.finished() == 0) shard.discard(existed ? std::string() : options.out);
       throw;
     }
+    check_unchanged(options, spec, identity);
     shard.complete();
     if (!share.alone) {
       fmt::print("shard       {} of {}: {}, {} failed, {:.1f} s of CPU time\n", share.shard.index,

@@ -165,6 +165,18 @@ TEST_F(Sweep, AChangedSpecAndAForeignFileAreRefused) {
   EXPECT_THAT(refused(words("out", {"--shard", "1/2"})), HasSubstr("notes.txt: is no file of a sweep"));
 }
 
+TEST_F(Sweep, ASceneThatChangesDuringTheSweepIsRefused) {
+  static_cast<void>(written(test::replaced(spec(), "for_s = 0.2", "for_s = 5")));
+  std::thread change([&] {
+    while (!fs::exists(path("out/shard-0.ndjson.part"))) std::this_thread::yield();
+    edit("models/scenes/plane.toml", "[user]", "[user]\napproach_from_mm = 41");
+  });
+  const Result r = run_program(words("out"));
+  change.join();
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_THAT(r.err, HasSubstr("changed while this sweep ran"));
+}
+
 TEST_F(Sweep, AFullDiskIsRefusedAndTheSameCommandGoesOn) {
   static_cast<void>(written(spec()));
   Words command{"sh", "-c", "ulimit -f 4; exec \"$@\"", "sh", program_file()};  // blocks of 512 bytes
