@@ -124,6 +124,14 @@ std::string slurm_script(const SweepOptions& options, const std::string& program
                            : std::nullopt;
   if (!count || *count < 1)
     throw Error("--submit: the number of shards is missing; expected --shard auto/N; add it");
+  for (const std::string& name : {options.spec, options.out})
+    if (models::printable(name) != name)
+      throw Error(
+          fmt::format("--submit: {} cannot stand in a script; expected printable text on one line; "
+                      "choose another name",
+                      models::quoted(name)));
+  std::string log = options.out;  // a percent sign begins a name of Slurm's
+  for (std::size_t at = 0; (at = log.find('%', at)) != std::string::npos; at += 2) log.insert(at, 1, '%');
   const std::string command = fmt::format("{} sweep {} --out {}", shell_word(program),
                                           shell_word(options.spec), shell_word(options.out));
   return fmt::format(
@@ -134,10 +142,10 @@ std::string slurm_script(const SweepOptions& options, const std::string& program
       "#SBATCH --cpus-per-task=1\n"
       "#SBATCH --requeue\n"
       "#SBATCH --open-mode=append\n"
-      "#SBATCH --output={}-%a.log\n"
+      "#SBATCH --output={}\n"
       "# A shard that was killed goes on where it stopped. When all are whole: {} --merge\n"
-      "exec {} --shard auto\n",
-      *count - 1, options.out, command, command);
+      "exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\"\n",
+      *count - 1, shell_word(log + "-%a.log"), command, command, *count);
 }
 
 }  // namespace enc::app

@@ -188,6 +188,7 @@ std::string program_file() {
 
 SweepOptions with_folder(SweepOptions options) {
   if (options.out.empty()) options.out = fs::path(options.spec).stem().string() + "_sweep";
+  while (options.out.size() > 1 && options.out.ends_with('/')) options.out.pop_back();
   return options;
 }
 

@@ -212,7 +212,11 @@ TEST_F(Sweep, LaunchersNumberTheirShards) {
   EXPECT_EQ(number({{"_CONDOR_JOB_AD", path("job.ad")}}, "auto"), "shard       5 of 20");
   const Result script = run_program(words("out", {"--shard", "auto/20", "--submit", "slurm"}));
   EXPECT_THAT(script.out, AllOf(StartsWith("#!/bin/sh\n#SBATCH"), HasSubstr("--array=0-19\n"),
-                                HasSubstr("--shard auto\n")));
+                                HasSubstr("--shard \"$SLURM_ARRAY_TASK_ID/20\"\n")));
+  const Result blank = run_program(words("50 % of it/", {"--shard", "auto/20", "--submit", "slurm"}));
+  EXPECT_THAT(blank.out, AllOf(HasSubstr("#SBATCH --output='"), HasSubstr("/50 %% of it-%a.log'\n")));
+  EXPECT_THAT(refused(words("two\nlines", {"--shard", "auto/20", "--submit", "slurm"})),
+              HasSubstr("expected printable text on one line"));
 }
 
 }  // namespace
