@@ -210,6 +210,11 @@ setup_websockets() {
     --python-version 3.11 --platform any
 }
 
+# rosbags reads bags of ROS 2 without ROS. Its test imports it without what other bags need.
+setup_rosbags() {
+  setup_judge rosbags rosbags==0.11.9 010c5a48b326e4dad6a79183db243c7b59188121d37b629d8c166ecaed3fc890 "0.2 MB" pass
+}
+
 # pymodbus is a client and a server of Modbus TCP.
 setup_pymodbus() {
   setup_judge pymodbus pymodbus==3.16.1 bb433f7417280bdea1190d95495aa6fb8e1fa8e0d720c436922b270bc378024c "0.2 MB" \
