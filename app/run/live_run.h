@@ -33,7 +33,7 @@ class LiveRun {
 
  private:
   void work(const std::stop_token& stop);
-  static constexpr std::size_t kRoom = 2048;  // ticks, 2 s at 1 kHz
+  static constexpr std::size_t kRoom = 8192;  // ticks, 8 s at 1 kHz
   std::unique_ptr<LiveServer> server_;
   trial::RecordMcap mcap_;
   trial::Queue<RecordedTick, kRoom> ticks_;
