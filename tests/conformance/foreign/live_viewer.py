@@ -52,6 +52,9 @@ async def watch(way, port, program):
 
 run = subprocess.Popen(sys.argv[3:], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 where = run.stderr.readline()
-asyncio.run(watch(sys.argv[2], int(where.split(":")[-1].split(",")[0]), run))
+try:
+    asyncio.run(watch(sys.argv[2], int(where.split(":")[-1].split(",")[0]), run))
+except websockets.ConnectionClosed:
+    pass
 said = run.stderr.read().strip()
 print("ended", run.wait(), said)
