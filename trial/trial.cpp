@@ -76,14 +76,7 @@ void refuse_slow(const models::Setup& setup, const std::string& machine, const R
                   models::place_of(setup, machine), real_time.words()));
 }
 
-// `within_loop`: an armed machine would wait between its set-points for vision. The time of a fake in
-// lockstep waits, too.
-void refuse_camera(const models::Setup& setup, const TrialOptions& options, bool within_loop) {
-  if (within_loop && setup.scene.camera)
-    throw Error(models::place_of(setup, "camera") +
-                ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
-                "where a frame takes many periods; expected a real camera, for which it has a thread of its "
-                "own; a real machine is not armed for it");
+void refuse_camera(const models::Setup& setup, const TrialOptions& options) {
   if (setup.scene.camera && !options.drivers)
     throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
   if (!setup.scene.camera && !options.frames.empty())
@@ -116,9 +109,10 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const bool armed = slots.machine && options_.armed;
   if (armed || options_.certify) certificates_ = certificates_of(setup_, scene_);
   if (armed) refuse_limits(setup_, scene_, certificates_);
-  // Without a wall clock vision works within the loop, so that all runs are equal.
-  const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
-  refuse_camera(setup_, options_, armed && !threaded && !options_.lockstep);
+  // On the wall clock a frame takes many periods. Else vision works within the loop, so that all runs are
+  // equal.
+  const bool threaded = setup_.scene.camera && wall;
+  refuse_camera(setup_, options_);
   simulated_ = !slots.real;
   leads_ = slots.machine && slots.simulated && setup_.scene.manipulator.has_value();
   make_rig(slots.simulated || !slots.real);
@@ -129,7 +123,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
     result_.real_time = real_time_->words();
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
-  // A live camera comes first: it takes some frames' time to answer, and the arm then waits for nothing.
+  // The camera comes first: it takes some frames' time to answer, and the arm then waits for nothing.
   if (threaded) put_vision(false, true);
   if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
   // The devices have now reported whether they are fakes. Nothing moves before a tick.

@@ -79,9 +79,11 @@ class ObservedCamera final : public StereoCamera {
   Look look_;
 };
 
-std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const DriverSource& modules,
-                                          const sim::World& world, std::uint64_t seed) {
-  const auto& module = *static_cast<const sim::CameraModule*>(modules("camera").camera);
+const sim::CameraModule& camera_module(const DriverSource& modules) {
+  return *static_cast<const sim::CameraModule*>(modules("camera").camera);
+}
+
+sim::TwinCameraSpec twin_camera_spec(const models::Setup& setup, std::uint64_t seed) {
   sim::TwinCameraSpec spec;
   spec.stage = stage_of(setup.twin.camera, seed);
   const sim::CameraTruth& truth = setup.twin.camera;
@@ -89,8 +91,27 @@ std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const Driv
   spec.stalls = at(truth.stalls_at);
   spec.back = at(truth.back_at);
   spec.swaps = at(truth.swapped_at);
-  return module.camera(spec, show(setup, world));
+  return spec;
 }
+
+// Vision in its own thread, through the twin's camera. The loop, to which the twin's world belongs, exposes.
+class TwinVision final : public PoseTracker {
+ public:
+  // `camera` belongs to `tracker`.
+  TwinVision(std::unique_ptr<PoseTracker> tracker, DrawnCamera& camera)
+      : tracker_(std::move(tracker)), camera_(camera) {}
+  [[nodiscard]] std::string describe() const override { return tracker_->describe(); }
+  [[nodiscard]] bool linked() const noexcept override { return tracker_->linked(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return tracker_->remarks(); }
+  bool poll(Time now, Measurement<TrackedTool>& newest) noexcept override {
+    camera_.expose(now);
+    return tracker_->poll(now, newest);
+  }
+
+ private:
+  std::unique_ptr<PoseTracker> tracker_;
+  DrawnCamera& camera_;
+};
 
 std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const DriverSource& modules,
                                           const VisionOffer& offer) {
@@ -106,8 +127,11 @@ std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const Driv
 
 std::unique_ptr<StereoCamera> make_drawn_camera(const models::Setup& setup, const DriverSource& modules,
                                                 const sim::World& world, std::uint64_t seed, bool waits) {
-  const auto& module = *static_cast<const sim::CameraModule*>(modules("camera").camera);
-  return std::make_unique<DrawnCamera>(module, stage_of(setup.twin.camera, seed), show(setup, world), waits);
+  sim::TwinCameraSpec spec;
+  spec.stage = stage_of(setup.twin.camera, seed);
+  return std::make_unique<DrawnCamera>(
+      camera_module(modules), spec, show(setup, world),
+      waits ? DrawnCamera::Exposure::awaited : DrawnCamera::Exposure::polled);
 }
 
 std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const DriverSource& modules,
@@ -119,8 +143,19 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
   try {
     std::vector<Time> exposed;
     if (!offer.kept.empty()) exposed = exposures_in(offer.kept);
-    auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
-                            : real_camera(setup, modules, offer);
+    DrawnCamera* drawn = nullptr;
+    std::unique_ptr<StereoCamera> camera;
+    if (!simulated) {
+      camera = real_camera(setup, modules, offer);
+    } else if (!offer.threaded) {
+      camera = camera_module(modules).camera(twin_camera_spec(setup, offer.seed), show(setup, *offer.world));
+    } else {
+      auto of_twin =
+          std::make_unique<DrawnCamera>(camera_module(modules), twin_camera_spec(setup, offer.seed),
+                                        show(setup, *offer.world), DrawnCamera::Exposure::called);
+      drawn = of_twin.get();
+      camera = std::move(of_twin);
+    }
     if (!offer.keep.empty())
       camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
                                                *static_cast<const FrameFiles*>(modules("images").frames));
@@ -130,7 +165,9 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     const Release release = offer.threaded ? Release::when_done : Release::when_due;
     auto tracker = vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision, release);
     if (!offer.threaded) return tracker;
-    return std::make_unique<ThreadedTracker>(std::move(tracker));
+    tracker = std::make_unique<ThreadedTracker>(std::move(tracker));
+    if (drawn == nullptr) return tracker;
+    return std::make_unique<TwinVision>(std::move(tracker), *drawn);
   } catch (const Error& e) {
     if (e.key().empty()) throw;
     throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());

@@ -47,9 +47,8 @@ struct VisionOffer {
   std::uint64_t seed = 0;
   Log& log;
   bool waits = false, lockstep = false;  // as in Offer
-  // Runs in its own thread; not with the twin's camera, whose world belongs to the loop.
-  bool threaded = false;
-  Look look{};  // as in TrialOptions; may be empty
+  bool threaded = false;  // vision runs in its own thread, and the twin's camera draws in another
+  Look look{};            // as in TrialOptions; may be empty
   // Folders (kept_frames.h): `keep` receives the frames; the rig's camera plays `kept`. Empty: unused.
   std::string keep{}, kept{};
 };

@@ -1,14 +1,13 @@
-// The twin's stereo camera for fakes. A thread of its own draws each picture, which takes many periods. On
-// the wall clock the world goes on meanwhile; in lockstep it waits.
+// The twin's stereo camera where a world keeps wall-clock time, and for fakes. A thread of its own draws each
+// picture, which takes many periods. On the wall clock the world goes on meanwhile; in lockstep it waits.
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
+#include <cstdint>
 #include <exception>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/image.h"
 #include "core/devices/device.h"
@@ -18,41 +17,58 @@ namespace enc::trial {
 
 class DrawnCamera final : public StereoCamera {
  public:
-  // Throws Error as Stage does. `module` and whatever `show` reads outlive the camera. `waits`: poll()
-  // returns a due picture at once, as the twin's camera does.
-  DrawnCamera(const sim::CameraModule& module, const sim::StageSpec& stage, sim::Show show, bool waits);
+  enum class Exposure : std::uint8_t {
+    // poll() exposes what is due, and returns the picture at a later call.
+    polled,
+    // poll() exposes what is due, and returns the picture at once, as the twin's camera does.
+    awaited,
+    // Only expose() exposes, so that the world and poll() may have different threads.
+    called,
+  };
+
+  // Throws Error as Stage does. `module` and whatever `show` reads outlive the camera.
+  DrawnCamera(const sim::CameraModule& module, const sim::TwinCameraSpec& spec, sim::Show show,
+              Exposure exposure);
   ~DrawnCamera() override;
   DrawnCamera(const DrawnCamera&) = delete;
   DrawnCamera& operator=(const DrawnCamera&) = delete;
 
-  [[nodiscard]] ImageSize size() const override { return size_; }
-  // At a due exposure it takes what `show` shows. Unless it waits it returns that picture at a later call,
-  // with the stamp of the exposure, and leaves out an exposure that comes while the thread draws. Time may
-  // begin again.
+  [[nodiscard]] std::string describe() const override;
+  [[nodiscard]] bool linked() const noexcept override { return linked_; }
+  [[nodiscard]] std::vector<std::string> remarks() const override;
+  [[nodiscard]] ImageSize size() const override { return spec_.stage.camera.size(); }
+  // Takes what `show` shows if an exposure is due. Leaves out an exposure that comes before the last picture
+  // was drawn and fetched. Time may begin again.
+  void expose(Time now) noexcept;
+  // A picture has the stamp of its exposure. During a stall it reports faults as the twin's camera does.
   bool poll(Time now, Measurement<StereoFrame>& newest) noexcept override;
 
  private:
-  enum class Phase : std::uint8_t { idle, drawing, drawn };
-  void work(const sim::CameraModule& module, const sim::StageSpec& stage) noexcept;
+  enum class Phase : std::uint8_t { idle, drawing, drawn, fetched, failed, ended };
+  void work(const sim::CameraModule& module) noexcept;
+  void change(Phase phase) noexcept;
   [[nodiscard]] bool due(Time now) noexcept;
-  void expose(Time now) noexcept;
+  bool fetch(Time now, Measurement<StereoFrame>& newest) noexcept;
+  [[nodiscard]] bool silent(Time now) const noexcept;
 
-  ImageSize size_;
+  sim::TwinCameraSpec spec_;
   sim::Show show_;
-  bool waits_;
+  Exposure exposure_;
+  std::string renderer_;
+  // Data of the thread that exposes.
   DueTimes exposures_;
   Time last_{};
+  // Data of the thread that polls.
+  std::atomic<bool> linked_ = true;
 
-  // The thread's while it draws, else the caller's.
+  // Data of the thread that exposes while idle, of the drawing thread while it draws, then of the one that
+  // polls.
   sim::CameraScene scene_;
   Image left_, right_;
   Time exposed_{};
   std::uint64_t frame_ = 0;
 
-  std::mutex changes_;
-  std::condition_variable change_;
   std::atomic<Phase> phase_ = Phase::drawing;  // the thread begins with its stage
-  bool stop_ = false;
   std::exception_ptr failure_;
   std::thread thread_;
 };
