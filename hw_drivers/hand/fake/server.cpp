@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "core/base/error.h"
 #include "hw_drivers/hand/wire/coordinates.h"
 #include "hw_drivers/hand/wire/line.h"
 
 namespace enc::hand {
-namespace {}  // namespace
 
 std::string lines_of(const Measurement<HandSample>& hand, std::int64_t frame, bool from_wrist) {
   Packet wrist;
@@ -32,9 +32,10 @@ std::string lines_of(const Measurement<HandSample>& hand, std::int64_t frame, bo
   return line_of(wrist) + line_of(landmarks);
 }
 
-Server::Server(HandTracker& tracker, const HandSettings& settings, std::uint64_t seed)
+Server::Server(HandTracker& tracker, const HandSettings& settings, std::uint64_t seed, std::string name)
     : tracker_(tracker),
       settings_(settings),
+      name_(std::move(name)),
       socket_(settings.streams()
                   ? net::listen_tcp(settings.address, static_cast<std::uint16_t>(settings.port))
                   : net::connect_udp(settings.address == "0.0.0.0" ? "127.0.0.1" : settings.address,
@@ -42,8 +43,8 @@ Server::Server(HandTracker& tracker, const HandSettings& settings, std::uint64_t
       line_(settings.streams() ? net::BadLine::Wire::stream : net::BadLine::Wire::datagrams, seed) {}
 
 std::string Server::describe() const {
-  return settings_.streams() ? "headset with hands at " + net::place(settings_.address, port())
-                             : "headset that sends hands to " + settings_.place();
+  return name_ + (settings_.streams() ? " with hands at " + net::place(settings_.address, port())
+                                      : " that sends hands to " + settings_.place());
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
@@ -99,9 +100,14 @@ void Server::heal(Trouble::Kind kind) { line_.heal(kind); }
 std::unique_ptr<Fake> served(const FakeOffer& offer) {
   HandSettings settings;
   settings.declare(offer.table);
+  return served(offer, settings, "headset");
+}
+
+std::unique_ptr<Fake> served(const FakeOffer& offer, const HandSettings& settings, const std::string& name) {
   if (!offer.rig.hand_tracker)
-    throw Error("the scene names no [hand_tracker], whose hands a fake headset sends; choose another scene");
-  return std::make_unique<Server>(*offer.rig.hand_tracker, settings, offer.seed);
+    throw Error("the scene names no [hand_tracker], whose hands a fake " + name +
+                " sends; choose another scene");
+  return std::make_unique<Server>(*offer.rig.hand_tracker, settings, offer.seed, name);
 }
 
 }  // namespace enc::hand

@@ -22,7 +22,8 @@ class Server final : public Fake {
  public:
   // TCP with settings.port 0: any free port. Throws Error (kind device) if it cannot listen there. `tracker`
   // must outlive the server.
-  Server(HandTracker& tracker, const HandSettings& settings, std::uint64_t seed = 1);
+  Server(HandTracker& tracker, const HandSettings& settings, std::uint64_t seed = 1,
+         std::string name = "headset");
 
   [[nodiscard]] std::uint16_t port() const { return socket_.port(); }
   [[nodiscard]] std::string describe() const override;
@@ -38,6 +39,7 @@ class Server final : public Fake {
 
   HandTracker& tracker_;
   HandSettings settings_;
+  std::string name_;
   net::Socket socket_, client_;  // client_: TCP only
   net::BadLine line_;
   net::SendQueue unsent_;
@@ -46,5 +48,8 @@ class Server final : public Fake {
 
 // The fake of a rig's [driver.hand], in front of its hand tracker.
 [[nodiscard]] std::unique_ptr<Fake> served(const FakeOffer& offer);
+// A fake of another driver that sends these lines.
+[[nodiscard]] std::unique_ptr<Fake> served(const FakeOffer& offer, const HandSettings& settings,
+                                           const std::string& name);
 
 }  // namespace enc::hand
