@@ -194,6 +194,13 @@ setup_pyopenhaptics() {
   setup_judge pyopenhaptics pyOpenHaptics==1.0.1 13975e926723dd54b5def5038e29f0b23ca9b4b6d5f7b22962d70c55178c14ef "10 kB" pass
 }
 
+# forcedimension-core is a client of Force Dimension's DHD. It loads the library with its first import, so only its test can
+# do that.
+setup_forcedimension() {
+  setup_judge forcedimension_core forcedimension-core==1.0.0 1b6b8e271a24c03a0fbc70164119b1ddd7dd7d70e1870eaf3a77e3d99b2822c5 \
+    "0.1 MB" pass
+}
+
 # mcap is the reader of MCAP files of those who made the format. It takes Debian's zstandard for chunks that are compressed.
 setup_mcap() {
   setup_judge mcap mcap==1.6.0 7cd37fba2cf51d033f2139ca837d2ed3024dcec3cd9f8ecdf3d4d15930df6e17 "20 kB" "import mcap.reader"
