@@ -20,9 +20,9 @@ namespace enc::test {
 
 class VisHapFakes {
  public:
-  // `set` is for both programs. Waits until the fakes listen.
-  VisHapFakes(bool lockstep, std::vector<std::string> set, const std::string& scene = kScene)
-      : set_(std::move(set)), child_(words(lockstep, scene)) {
+  // `set` and `seed` are for both programs. Waits until the fakes listen.
+  VisHapFakes(bool lockstep, std::vector<std::string> set, const std::string& scene = kScene, int seed = 1)
+      : set_(std::move(set)), seed_(std::to_string(seed)), child_(words(lockstep, scene)) {
     std::string text;
     std::array<char, 256> bytes{};
     for (int i = 0; i < 600 && !child_.closed() && text.find("ends with SIGINT") == std::string::npos; ++i)
@@ -33,7 +33,7 @@ class VisHapFakes {
   // `encounter run` of the scene; `simulated`: the roles that the twin of the run fills.
   [[nodiscard]] tests::Result run(const std::vector<std::string>& simulated,
                                   const std::vector<std::string>& more) const {
-    std::vector<std::string> all{"run", kScene, "--rig", "fakes_vishap"};
+    std::vector<std::string> all{"run", kScene, "--rig", "fakes_vishap", "--seed", seed_};
     for (const std::string& role : simulated) all.insert(all.end(), {"--set", "rig." + role + ".driver=sim"});
     put_settings(all, simulated);
     all.insert(all.end(), more.begin(), more.end());
@@ -58,7 +58,8 @@ class VisHapFakes {
           "hand.port=" + std::to_string(net::bind_udp("127.0.0.1", 0).port()), "v4l2.left=" + here + "_left",
           "v4l2.right=" + here + "_right"})
       set_.push_back("rig.driver." + place);
-    std::vector<std::string> all{tests::program_file(), "fake", "fakes_vishap", "--scene", scene};
+    std::vector<std::string> all{
+        tests::program_file(), "fake", "fakes_vishap", "--scene", scene, "--seed", seed_};
     put_settings(all, {});
     if (lockstep) all.emplace_back("--lockstep");
     return all;
@@ -75,6 +76,7 @@ class VisHapFakes {
   }
 
   std::vector<std::string> set_;
+  std::string seed_;
   tests::PipedChild child_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "hw_drivers/v4l2/wire/relay.h"
+
 namespace enc::v4l2 {
 
 LockstepCamera::LockstepCamera(const Offer& offer, const V4l2Settings& settings,
@@ -13,8 +15,9 @@ LockstepCamera::LockstepCamera(const Offer& offer, const V4l2Settings& settings,
 
 bool LockstepCamera::poll(Time now, Measurement<StereoFrame>& newest) noexcept {
   if (!capture_.turn(Duration{}, picture_)) return false;
-  if (Time(picture_.exposed) > now) return false;  // from the world of an earlier client
-  newest = {{picture_.left.view(), picture_.right.view()}, Time(picture_.exposed), Health::ok};
+  const Time exposed(picture_.exposed - kLockstepZero);
+  if (exposed > now) return false;  // from the world of an earlier client
+  newest = {{picture_.left.view(), picture_.right.view()}, exposed, Health::ok};
   return true;
 }
 

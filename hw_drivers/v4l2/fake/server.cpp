@@ -131,7 +131,7 @@ void Server::wait_on(std::vector<int>& descriptors) const {
 
 // The last instant that is not later.
 Duration Server::steady_at(Time t) const {
-  if (settings_.lockstep) return t.time_since_epoch();
+  if (settings_.lockstep) return t.time_since_epoch() + kLockstepZero;
   const auto after = std::upper_bound(instants_.begin(), instants_.end(), t,
                                       [](Time a, const auto& one) { return a < one.first; });
   if (after == instants_.begin()) return net::steady_now();

@@ -15,11 +15,16 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/time.h"
 #include "hw_drivers/v4l2/wire/system.h"
 
 namespace enc::v4l2 {
 
 inline constexpr std::size_t kMostData = 512;  // bytes: the struct of any request here
+
+// Stamp of a frame from the world's time 0, of a fake in lockstep: a stamp of 0 is that of a driver that sets
+// none.
+inline constexpr Duration kLockstepZero{1'000'000'000};
 
 struct Call {
   enum class Kind : std::uint32_t { control, map };

@@ -28,11 +28,22 @@ TEST(VisHapLockstep, ARunThroughAllDevicesEqualsTheTwinsToTheBit) {
   EXPECT_EQ(pure["contacts"], 1);
   EXPECT_EQ(first["state_hash"], pure["state_hash"]);
   EXPECT_EQ(again["state_hash"], pure["state_hash"]);
+  EXPECT_THAT(first["log"].dump(), HasSubstr("0.000 ms apart on average, 0.000 ms at most"))
+      << "a stamp of 0";
   // The world of the run has its own hand, which feels nothing of the fake's arm, so only the touch is the
   // same.
   const nlohmann::json arm = there.result({"camera", "hand_tracker"}, kLockstep);
   EXPECT_EQ(arm["contacts"], 1);
   EXPECT_NEAR(arm["modes_s"].value("away", 0.0), pure["modes_s"].value("away", 0.0), 0.001);
+}
+
+TEST(VisHapLockstepLong, OtherSeedsAreEqualToTheBit) {
+  for (const int seed : {2, 3, 4, 5}) {
+    const VisHapFakes there(true, kPress, VisHapFakes::kScene, seed);
+    const nlohmann::json pure = there.result(kAll, kPure), fakes = there.result({}, kLockstep);
+    EXPECT_GE(pure["contacts"], 1) << seed;
+    EXPECT_EQ(fakes["state_hash"], pure["state_hash"]) << seed;
+  }
 }
 
 TEST(VisHapLockstep, WhatDoesNotFitIsOneLine) {
