@@ -161,8 +161,15 @@ constexpr auto words(Situation) {
 struct GripCell {
   const GripFault* fault = nullptr;
   Situation when = Situation::closing;
+  bool falsely = false;  // the core gets a false report
   Reaction of{};
 };
+
+Limits limits_of(const GripCell& cell) {
+  Limits limits = cell.fault->limits;
+  if (cell.fault->writes_only) limits.end = End::unharmed;  // the close output is on in all situations
+  return limits;
+}
 
 class GripRun {
  public:
@@ -174,6 +181,7 @@ class GripRun {
     options_.fit_out = [this](Rig& rig) { line_.fit_out(rig); };
     options_.disturb = [this](Inputs& in) {
       if (stopped_) in.tool.health = Health::fault;
+      if (cell_.falsely) report_.give(faulty_, limits_of(cell_).end, trial_->now().t, in.grip, in.missed);
     };
     trial_ = std::make_unique<trial::Trial>(setup_, options_);
   }
@@ -186,13 +194,14 @@ class GripRun {
     for (int i = 0; i < 10; ++i) trial_->tick();
     cell_.of.in = trial_->outputs().mode;
     cell_.fault->inject(line_);
+    faulty_ = true;
     for (int i = 1; i <= 100; ++i) {
       trial_->tick();
       if (trial_->outputs().mode != Mode::hold || cell_.of.hold < kNever) continue;
       cell_.of.hold = i;
       cell_.of.why = trial_->outputs().why;
     }
-    stopped_ = false;
+    stopped_ = faulty_ = false;
     cell_.fault->cure(line_);
     for (int i = 0; i < 100; ++i) {
       trial_->tick();
@@ -216,7 +225,8 @@ class GripRun {
   GripLine line_;
   trial::TrialOptions options_;
   std::unique_ptr<trial::Trial> trial_;
-  bool stopped_ = false;
+  FalseReport<GripSample> report_;
+  bool stopped_ = false, faulty_ = false;
 };
 
 TEST(GripperMatrix, EachFaultEndsAsStated) {
@@ -226,11 +236,20 @@ TEST(GripperMatrix, EachFaultEndsAsStated) {
   in_parallel(cells.size(), [&](std::size_t i) { GripRun(cells[i]).react(); });
   for (const GripCell& cell : cells) {
     const std::string name = fmt::format("{}, {}", cell.fault->name, word_of(cell.when));
-    Limits limits = cell.fault->limits;
-    if (cell.fault->writes_only) limits.end = End::unharmed;  // the close output is on in all of them
     const Mode mode = cell.when == Situation::held ? Mode::hold : cell.of.in;
-    EXPECT_EQ(wrong_with(limits, mode, cell.of), "") << name;
+    EXPECT_EQ(wrong_with(limits_of(cell), mode, cell.of), "") << name;
     testing::Test::RecordProperty(name, fmt::format("hold {} ms", cell.of.hold));
+  }
+}
+
+TEST(GripperMatrixLong, EachRowFailsForAFalseReport) {
+  std::vector<GripCell> cells;
+  for (const GripFault& fault : kGripFaults) cells.push_back({&fault, Situation::travels, true});
+  in_parallel(cells.size(), [&](std::size_t i) { GripRun(cells[i]).react(); });
+  for (const GripCell& cell : cells) {
+    const std::string wrong = wrong_with(limits_of(cell), cell.of.in, cell.of);
+    EXPECT_NE(wrong, "") << cell.fault->name;
+    testing::Test::RecordProperty(cell.fault->name, wrong);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/base/sample.h"
 #include "core/devices/mode.h"
 
 namespace enc::bench::devices {
@@ -39,5 +40,26 @@ struct Limits {
 // Lists the bounds that the reaction violates; empty if it meets all. In a run that holds already (`mode` is
 // hold) the fault adds no hold.
 [[nodiscard]] std::string wrong_with(const Limits& limits, Mode mode, const Reaction& of);
+
+// A false report of a device to the core: it hides a fault, or feigns one where no hold is expected. A row of
+// a matrix that can fail fails for it.
+template <class Sample>
+class FalseReport {
+ public:
+  // `faulty`: the fault lasts. Changes the device's sample, and the number of missed cycles.
+  void give(bool faulty, End expected, Time now, Measurement<Sample>& said, std::int64_t& missed) {
+    if (!faulty) {
+      last_ = said;
+    } else if (expected == End::unharmed) {
+      said.health = Health::fault;
+    } else {
+      said = {last_.value, now, Health::ok};
+      missed = 0;
+    }
+  }
+
+ private:
+  Measurement<Sample> last_;
+};
 
 }  // namespace enc::bench::devices
