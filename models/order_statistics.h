@@ -18,11 +18,14 @@ template <class T>
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
   return static_cast<double>(values[rank]);
 }
-// True if that many values determine such a percentile: on average at least one of them lies beyond it. p50
-// needs 2 values, p95 and p5 need 20, p99 needs 100, p99.9 needs 1000. Minimum and maximum need one.
+// True if that many values determine such a percentile: at least ten, and on average at least one of them
+// lies beyond it. p50 needs 10 values, p95 and p5 need 20, p99 needs 100, p99.9 needs 1000. Minimum and
+// maximum need one.
 [[nodiscard]] constexpr bool has_percentile(std::size_t count, double share) {
+  constexpr std::size_t kFewest = 10;
   const double beyond = share < 0.5 ? share : 1.0 - share;
-  return count > 0 && (beyond <= 0.0 || beyond * static_cast<double>(count) >= 1.0 - 1e-9);
+  if (beyond <= 0.0) return count > 0;
+  return count >= kFewest && beyond * static_cast<double>(count) >= 1.0 - 1e-9;
 }
 // As percentile(); NaN if there are too few values for it.
 template <class T>

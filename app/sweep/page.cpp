@@ -223,8 +223,8 @@ std::string sweep_page(const SweepTable& table) {
       table.crossed(), cpu, models::median(table.cpu), svg_text(table.program));
   text +=
       "<h2>Figures</h2>\n" + figure_rows(table) +
-      "<p>Interval: of the mean over all runs (Student's t). A percentile needs enough runs: 5 % and 95 % "
-      "need 20.</p>\n";
+      "<p>Interval: of the mean over all runs (Student's t). A percentile needs enough runs: the median 10, "
+      "5 % and 95 % 20.</p>\n";
   if (!table.spec.axes.empty())
     text += "<h2>Main effects</h2>\n" + share_rows(table, effects) +
             "<p>Share of a figure's variance between the values of a parameter, each alone (eta squared). "

@@ -35,6 +35,7 @@
 #include "models/tables/csv_reader.h"
 #include "trial/operator/operator.h"
 #include "trial/operator/terminal.h"
+#include "trial/sweep/statistics.h"
 
 namespace enc::bench {
 namespace {
@@ -241,6 +242,16 @@ std::string bounds(const Figure& f) {
 
 std::string value(const Figure& f) {
   return std::isnan(f.twin) ? std::string("absent") : fmt::format("{:.4g}", f.twin);
+}
+
+// The values over seeds; empty: fewer than two.
+std::string over_seeds(const Figure& f) {
+  const trial::Summary s = trial::summary_of(f.values);
+  if (s.n < 2) return "";
+  const std::string interval =
+      std::isnan(s.half) ? ""
+                         : fmt::format(", 95 % interval {:.4g} to {:.4g}", s.mean - s.half, s.mean + s.half);
+  return fmt::format("    n {}, mean {:.4g}, SD {:.3g}{}\n", s.n, s.mean, s.sd, interval);
 }
 
 // The command line, for the report: repeating it gives the report's figures.
@@ -475,6 +486,7 @@ class Session {
                  bounds(f), misses(f) ? fmt::format("  misses by {:+.3g}", miss_of(f)) : "",
                  differs ? fmt::format("  was {:.4g}", committed_.find(f.id)->value) : "",
                  f.ok() ? "" : "  OUT OF BOUNDS");
+      if (options_.repeats > 0) fmt::print("{}", over_seeds(f));
     }
     for (const Table& table : result.tables)
       if (table.printed && choice.ids.empty()) print_table(table);

@@ -29,6 +29,7 @@ struct Figure {
   double least = kUnset, most = kUnset;  // over seeds or repeats, if there are several
   bool absent = false;  // not measurable here, such as the ground truth of a real machine: no bounds apply
   bool cost = false;    // a time, a ratio of times or memory: depends on the computer, never fails
+  std::vector<double> values{};  // of each seed or repeat, in order, without those that have none
   [[nodiscard]] bool ok() const;
 };
 

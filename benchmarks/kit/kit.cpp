@@ -93,6 +93,7 @@ void Bench::figure(const std::string& id, const Value& twin, const char* unit, c
                    Bounds bounds, std::string note) {
   result.figures.push_back({result.name + "." + id, paper.value, twin.middle, unit, paper.role, bounds.low,
                             bounds.high, std::move(note), twin.least, twin.most});
+  result.figures.back().values = twin.values;
 }
 
 void Bench::cost(const std::string& id, const Value& twin, const char* unit, std::string note) {
@@ -126,7 +127,7 @@ void Bench::table(Table table) {
 }
 
 Value median_of(const std::vector<double>& values) {
-  return {median(values), percentile(values, 0.0), percentile(values, 1.0)};
+  return {median(values), percentile(values, 0.0), percentile(values, 1.0), values};
 }
 
 }  // namespace enc::bench

@@ -110,6 +110,6 @@ template <class Cell>
     if (!std::isnan(cell.*member)) values.push_back(cell.*member);
   return values;
 }
-[[nodiscard]] Value median_of(const std::vector<double>& values);  // has least and most; NaN if empty
+[[nodiscard]] Value median_of(const std::vector<double>& values);  // has least, most and all; NaN if empty
 
 }  // namespace enc::bench

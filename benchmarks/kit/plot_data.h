@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/frames.h"
@@ -14,11 +15,14 @@ namespace enc::bench {
 // A number, or the middle of several with their least and their most.
 struct Value {
   double middle = kUnset, least = kUnset, most = kUnset;
+  std::vector<double> values{};         // all of them, in the order of their seeds
   Value(double only) : middle(only) {}  // NOLINT(google-explicit-constructor): a number is a value
-  Value(double of, double from, double to) : middle(of), least(from), most(to) {}
+  Value(double of, double from, double to, std::vector<double> all = {})
+      : middle(of), least(from), most(to), values(std::move(all)) {}
 };
-[[nodiscard]] inline Value operator*(const Value& v, double by) {
-  return {v.middle * by, v.least * by, v.most * by};
+[[nodiscard]] inline Value operator*(Value v, double by) {
+  for (double& x : v.values) x *= by;
+  return {v.middle * by, v.least * by, v.most * by, std::move(v.values)};
 }
 
 // The kind of a series. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap.

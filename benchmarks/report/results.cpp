@@ -39,6 +39,8 @@ std::string figures_csv(const BenchResult& result) {
 }
 
 Json figure_json(const Figure& f) {
+  Json values = Json::array();
+  for (const double x : f.values) values.push_back(number(x));
   return {{"id", f.id},
           {"paper", number(f.paper)},
           {"twin", number(f.twin)},
@@ -51,6 +53,7 @@ Json figure_json(const Figure& f) {
           {"note", f.note},
           {"least", number(f.least)},
           {"most", number(f.most)},
+          {"values", std::move(values)},
           {"cost", f.cost}};
 }
 

@@ -296,9 +296,11 @@ void Figures::distribution(const std::string& id, const char* unit, const std::s
   if (values.empty()) return;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   for (const auto& [name, share] : shares)
-    if (models::has_percentile(values.size(), share))
+    if (models::has_percentile(values.size(), share)) {
       add(id + "." + name, percentile(values, share), unit, kUnset, kUnset,
           fmt::format("{}; {} presses", note, values.size()), *least, *most);
+      result_.figures.back().values = values;
+    }
 }
 
 void Figures::add_distributions() {
@@ -356,11 +358,13 @@ void Figures::add_change() {
       fmt::format("from when the hand takes the other tool until the overlay shows it; {} changes",
                   late.size()),
       shown.least, shown.most);
+  result_.figures.back().values = late;
   add("tool_change.miss_mm.max", first.most, "mm", kUnset, 5.0,
       fmt::format(
           "true tool tip to haptic-tip in the first press with the other tool, inset included; median {:.2f}",
           first.middle),
       first.least, first.most);
+  result_.figures.back().values = miss;
 }
 
 // A hand without drift, so that only the paths of the machine are compared.

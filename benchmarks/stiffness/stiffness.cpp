@@ -128,7 +128,7 @@ void add_error_figures(const std::vector<Level>& levels, const PaperText& paper,
           way.felt == &Push::measured && level.stiffness >= paper.within_from * kNewtonPerMillimetre * 0.999;
       const auto add = [&](const char* what, double value, Bounds bounds, const Paper& said) {
         bench.figure(fmt::format("{}.{}.{}", way.name, name_of(level.stiffness), what),
-                     {value, s.least, s.most}, "%", said, bounds, way.note);
+                     {value, s.least, s.most, s.values}, "%", said, bounds, way.note);
       };
       const Paper none{kUnset, Role::ours};
       // The threshold was assumed so that the knee lies where the paper has it.
@@ -544,6 +544,7 @@ Spread spread(const Level& level, double Push::*felt) {
     const double e = push.error(push.*felt);
     s.least = std::min(s.least, e);
     s.most = std::max(s.most, e);
+    s.values.push_back(e);
     s.mean += e / static_cast<double>(level.pushes.size());
   }
   return s;

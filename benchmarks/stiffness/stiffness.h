@@ -19,6 +19,7 @@ struct Level {
 // Statistics over the pushes of a level, %.
 struct Spread {
   double least = kUnset, mean = kUnset, most = kUnset;
+  std::vector<double> values{};
   [[nodiscard]] double worst() const;  // the larger of the two, without sign
 };
 [[nodiscard]] Spread spread(const Level& level, double Push::*felt);

@@ -145,7 +145,7 @@ void push_levels(Bench& bench, std::vector<RigLevel>& levels, std::size_t repeat
 // Worst value over all pushes; unset if one of them has none.
 Value worst_of(const Level& level, double Push::*felt) {
   const Spread s = spread(level, felt);
-  return std::isnan(s.mean) ? Value(kUnset) : Value(s.worst(), s.least, s.most);
+  return std::isnan(s.mean) ? Value(kUnset) : Value(s.worst(), s.least, s.most, s.values);
 }
 double longest_of(const Level& level, double Push::*way) {
   double longest = 0.0;

@@ -29,9 +29,10 @@ struct SyncSummary {
   bool held = false;
 };
 
-// Mean, least and most over seeds.
+// Mean, least and most over seeds, and the value of each.
 struct OverSeeds {
   double mean = kUnset, least = kUnset, most = kUnset;
+  std::vector<double> values{};
 };
 
 // Runs of one set-up, several seeds.
@@ -50,6 +51,7 @@ struct SyncGroup {
       all.mean += x / static_cast<double>(seeds.size());
       all.least = std::min(all.least, x);
       all.most = std::max(all.most, x);
+      all.values.push_back(x);
     }
     return all;
   }
@@ -455,6 +457,7 @@ void add(BenchResult& result, const SyncGroup& group, const FigureRow& w, Value 
   Figure f{"synchrony." + w.id, w.paper, over.mean * w.scale, w.unit, w.role, w.low, w.high, w.note};
   f.least = over.least * w.scale;
   f.most = over.most * w.scale;
+  for (const double x : over.values) f.values.push_back(x * w.scale);
   result.figures.push_back(std::move(f));
 }
 

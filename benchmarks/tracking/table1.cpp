@@ -129,6 +129,7 @@ SpannedTable twin_table(const Group& slow, const Group& fast, BiasSide side) {
   twin.least = twin.most = twin.table;
   for (std::size_t i = 0; i < slow.seeds.size(); ++i) {
     const Table1 one = table_of(slow.seeds[i], fast.seeds[i], side);
+    twin.seeds.push_back(one);
     for (std::size_t s = 0; s < one.size(); ++s)
       for (std::size_t a = 0; a < one[s].size(); ++a)
         for (const Statistic& statistic : kStatistics) {
@@ -169,6 +170,7 @@ void add_table_figures(BenchResult& result, const Table1& paper, const SpannedTa
     }
     f.least = twin.least[s][a].*what * 1e3;
     f.most = twin.most[s][a].*what * 1e3;
+    for (const Table1& one : twin.seeds) f.values.push_back(one[s][a].*what * 1e3);
     result.figures.push_back(std::move(f));
   };
   for (std::size_t s = 0; s < paper.size(); ++s)

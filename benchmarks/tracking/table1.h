@@ -74,6 +74,7 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
 // A table with the least and the most of each cell.
 struct SpannedTable {
   Table1 table{}, least{}, most{};
+  std::vector<Table1> seeds{};
 };
 [[nodiscard]] SpannedTable twin_table(const Group& slow, const Group& fast, BiasSide side);  // over seeds
 

@@ -195,6 +195,15 @@ TEST(Kit, TheMedianHasItsRangeAndGapsAreLeftOut) {
   EXPECT_THAT(median_of({}).middle, IsNan());
 }
 
+TEST(Kit, AFigureKeepsTheValueOfEachSeedInItsUnit) {
+  const BenchContext context = context_of();
+  Bench bench(kMade, context);
+  bench.figure("miss.median", median_of({5.0, 1.0, 2.0}) * 1e3, "mm");
+  EXPECT_THAT(bench.result.figures.back().values, ElementsAre(5000.0, 1000.0, 2000.0));
+  bench.figure("one", 1.0, "mm");
+  EXPECT_THAT(bench.result.figures.back().values, IsEmpty());
+}
+
 TEST(Kit, PointsKeepTheirBars) {
   Series line;
   line.add(1.0, 2.0);

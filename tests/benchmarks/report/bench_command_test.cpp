@@ -1,6 +1,7 @@
 // `bench` as a person calls it: its arguments, its refusals and the output of a stopped run. Also which
 // figures of a run differ from those in the repository.
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include "benchmarks/commands/committed_results.h"
 #include "benchmarks/report/choice.h"
 #include "core/base/error.h"
+#include "models/student.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"
 #include "tests/support/run_program.h"
@@ -304,6 +307,28 @@ TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
       run_program({"bench", "encounter", "--repeats=1", "--out", folder.file("out")}, {{"PATH", "/nowhere"}});
   EXPECT_THAT(r.err, HasSubstr("encounter: not drawn: gnuplot is missing"));
   EXPECT_THAT(bytes_of(folder.path() / "out/encounter.csv"), HasSubstr("encounter.miss.10.median"));
+}
+
+// The line of a figure that has a value for each seed agrees with the values in results.json.
+TEST(Bench, RepeatsPrintTheirStatistics) {
+  const test::TemporaryFolder folder;
+  const Result r = run_program({"bench", "encounter", "--repeats=3", "--out", folder.file("out")});
+  const auto json = nlohmann::json::parse(bytes_of(folder.path() / "out/results.json"));
+  const auto& figures = json["benchmarks"][0]["figures"];
+  const auto figure = std::find_if(figures.begin(), figures.end(),
+                                   [](const auto& one) { return one["id"] == "encounter.miss.10.median"; });
+  ASSERT_NE(figure, figures.end());
+  const auto values = (*figure)["values"].get<std::vector<double>>();
+  ASSERT_EQ(values.size(), 3U);
+  EXPECT_EQ(*std::min_element(values.begin(), values.end()), (*figure)["least"].get<double>());
+  const double mean = (values[0] + values[1] + values[2]) / 3.0;
+  double squares = 0.0;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  const double sd = std::sqrt(squares / 2.0), half = models::student(2.0) * sd / std::sqrt(3.0);
+  EXPECT_THAT(r.out,
+              HasSubstr(fmt::format("\n    n 3, mean {:.4g}, SD {:.3g}, 95 % interval {:.4g} to {:.4g}\n",
+                                    mean, sd, mean - half, mean + half)));
+  EXPECT_EQ(run_program({"bench", "encounter", "--repeats=1"}).out.find("    n "), std::string::npos);
 }
 
 // The same seed gives the same figures to the last digit, also on all cores; an override changes them.

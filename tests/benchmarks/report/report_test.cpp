@@ -242,6 +242,7 @@ Report small_report() {
   result.figures = {{"press.a.mean", 0.2, 0.25, "mm", Role::calibrated, 0.1, 0.3, "a | b <c>", 0.24, 0.26},
                     {"press.b.max", 0.5, 0.4, "mm", Role::predicted, 0.45, kUnset, ""},
                     {"press.c.max", kUnset, 3.0, "N", Role::ours, kUnset, kUnset, ""}};
+  result.figures.front().values = {0.24, 0.26};
   result.tables = {{"press.rows", "Rows", {"name", "value (mm)"}, {{"x, \"y\"", "1"}, {"z", "2"}}}};
   result.plots = {small_plot()};
   result.pictures = {{"press.seen", "Seen", "What the camera sees.", "Many"}};
@@ -406,8 +407,10 @@ TEST(ReportJson, KeepsItsForm) {
   EXPECT_EQ(first["high"], 0.3);
   EXPECT_EQ(first["ok"], true);
   EXPECT_EQ(first["least"], 0.24);
+  EXPECT_EQ(first["values"], nlohmann::json({0.24, 0.26}));
   const auto& second = json["benchmarks"][0]["figures"][1];
   EXPECT_TRUE(second["high"].is_null());
+  EXPECT_EQ(second["values"], nlohmann::json::array());
   EXPECT_EQ(second["ok"], false);
   EXPECT_TRUE(json["benchmarks"][0]["figures"][2]["paper"].is_null());
 }

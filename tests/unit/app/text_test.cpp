@@ -36,7 +36,8 @@ std::string of(std::size_t count) {
 TEST(Percentiles, NeedAValueBeyondThem) {
   EXPECT_EQ(of(0), "none");
   EXPECT_EQ(of(1), "max 1");
-  EXPECT_EQ(of(2), "p50 1, max 2");
+  EXPECT_EQ(of(9), "max 9");
+  EXPECT_EQ(of(10), "p50 5, max 10");
   EXPECT_EQ(of(99), "p50 50, max 99");
   EXPECT_EQ(of(100), "p50 50, p99 99, max 100");
   EXPECT_EQ(of(999), "p50 500, p99 989, max 999");
@@ -45,7 +46,7 @@ TEST(Percentiles, NeedAValueBeyondThem) {
 
 TEST(Percentiles, AreKnownOnBothSides) {
   for (const auto& [share, count] :
-       {std::pair{0.5, 2U}, {0.95, 20U}, {0.05, 20U}, {0.975, 40U}, {0.99, 100U}, {0.999, 1000U}}) {
+       {std::pair{0.5, 10U}, {0.95, 20U}, {0.05, 20U}, {0.975, 40U}, {0.99, 100U}, {0.999, 1000U}}) {
     EXPECT_TRUE(models::has_percentile(count, share)) << share;
     EXPECT_FALSE(models::has_percentile(count - 1, share)) << share;
   }
