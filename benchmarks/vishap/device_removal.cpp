@@ -228,12 +228,20 @@ Cell measure(const RemovalSetup& asked) {
   const Views views = views_of(play, scene);
   std::vector<FingerTracker> trackers = trackers_of(setup);
   const Image empty = play.empty();
+  std::vector<ArmPlay::Frame> rest(kLearning);
+  std::vector<Pair> without(kLearning);
+  play.rest(rest, without);
   ArmPlay::Frame frame;
   Pair bare;
   for (std::size_t i = 0; i < kLearning + asked.frames; ++i) {
     const bool learning = i < kLearning;
-    learning ? play.rest(frame) : play.next(frame);
-    play.without_arm(frame, bare);
+    if (learning) {
+      frame = rest[i];
+      bare = without[i];
+    } else {
+      play.next(frame);
+      play.without_arm(frame, bare);
+    }
     for (std::size_t b = 0; b < views.all.size(); ++b) {
       const double start = thread_seconds();
       views.all[b]->see(frame.pair.left.view(), frame.moment);
@@ -372,7 +380,8 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
 
 void add_device_removal(Bench& bench) {
   const models::Setup setup = bench.setup();
-  const std::size_t rooms = bench.context.quick ? 2 : 6, frames = bench.context.quick ? 20 : 60;
+  const bool full = bench.context.full;
+  const std::size_t rooms = full ? 6 : 2, frames = full ? 60 : bench.context.quick ? 12 : 40;
   std::vector<RemovalSetup> asked;
   for (std::size_t i = 0; i < rooms; ++i)
     asked.push_back({&camera(bench.context), &setup, test_seed(bench.context) + 800 + i, frames});

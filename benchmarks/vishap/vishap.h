@@ -31,7 +31,8 @@ class ArmPlay {
     AugmentedMoment moment;
     bool meets = false;  // the prop is just under the fingertip
   };
-  void rest(Frame& frame);  // the arm at its start, no person
+  // Exposures of the arm at its start without a person, and of the room without the arm.
+  void rest(std::vector<Frame>& with, std::vector<staged::Pair>& without);
   void next(Frame& frame);
   // Draws the frame again without the arm.
   void without_arm(const Frame& frame, staged::Pair& pair);
@@ -57,6 +58,16 @@ class ArmPlay {
   sim::Rgb skin_;
   std::uint64_t frames_ = 0;
 };
+
+// [VisHap Fig 5]: the rendered force over the distance that vision measures, of each picture.
+struct SeenForce {
+  double distance = kUnset;  // m, negative: under the surface
+  double felt = kUnset;      // N, commanded along the normal at the exposure, without the weight
+  double pushed = kUnset;    // N, of finger and prop on each other then
+};
+// Figures and plot of a scene's object. `object`: of the prepared scene; `free`: K_p.
+void add_fig5(Bench& bench, const std::string& scene, const std::vector<SeenForce>& pictures,
+              const Object& object, double free);
 
 // The haptic device removed from the left image, objects put in its place, and the effect of an arm in view
 // on the tracker.
