@@ -13,6 +13,7 @@
 #include "app/common/words.h"
 #include "app/fit/commands.h"
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -30,7 +31,8 @@ struct Unit {
   int digits;
 };
 constexpr Unit kTime{"ms", "ms", 1e3, 2}, kLength{"mm", "mm", 1e3, 4}, kLengthRms{"mm rms", "mm", 1e3, 4},
-    kForceRms{"N rms", "N", 1.0, 4}, kShare{"%", "percent", 1e2, 2};
+    kForceRms{"N rms", "N", 1.0, 4}, kShare{"%", "percent", 1e2, 2}, kForce{"N", "N", 1.0, 3},
+    kAngle{"deg", "deg", kDegPerRad, 2};
 
 // Text for a quantity: its name, and the meaning if the record is ahead of the twin or behind it.
 struct Meaning {
@@ -41,7 +43,7 @@ struct Meaning {
 };
 
 // The order is that of Quantity.
-constexpr std::array<Meaning, 11> kMeanings{{
+constexpr std::array<Meaning, 16> kMeanings{{
     {"time", kTime, "the machine answers {} later than the twin's",
      "the machine answers {} earlier than the twin's"},
     {"place", kLength, "the machine stands {} farther than the twin's, towards +",
@@ -67,6 +69,17 @@ constexpr std::array<Meaning, 11> kMeanings{{
      "the force differs from the twin's by {} less than expected: the sensor is better"},
     {"stiffness", kShare, "stiffness: the rendered object is {} stiffer than the twin's",
      "stiffness: the rendered object is {} softer than the twin's"},
+    {"noise", kShare, "noise: the poses of the tool scatter by {} more than those of the twin's tracker",
+     "noise: the poses of the tool scatter by {} less than those of the twin's tracker"},
+    {"loss", kShare, "loss: {} of the poses that the twin's tracker sends are missing",
+     "loss: the tracker sends {} more poses than the twin's"},
+    {"noise", kShare, "noise: the force scatters by {} more than that of the twin's sensor",
+     "noise: the force scatters by {} less than that of the twin's sensor"},
+    {"zero", kForce,
+     "zero: without a touch the force is {} farther from the weight than the twin's allows, towards +",
+     "zero: without a touch the force is {} farther from the weight than the twin's allows, towards -"},
+    {"turned", kAngle,
+     "the sensor is turned: the force of a press points {} away from the line between both tips", ""},
 }};
 constexpr Meaning kRegistrationAway{
     "registration", kLength,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/units.h"
 #include "trial/identify/shadow/shadow.h"
 #include "trial/identify/shadow/tape.h"
 
@@ -52,6 +53,20 @@ inline constexpr double kForceTime = 2.0e-3;  // s
 inline constexpr double kForceRest = 0.04;  // N rms
 // As kStiffness, with the machine's 3 um steps and its lag in place of the position.
 inline constexpr double kRendered = 0.02;  // share
+// Second differences of two seconds of poses, and of forces, give their noise within 10 %. A pressing hand
+// and the machine's servo add to it what the twin's sensors do not have. Noise half as large again is beyond
+// them.
+inline constexpr double kNoise = 0.5;  // share
+// The phase of the clocks decides about one pose at each end of a contact. Ten presses of half a second have
+// ten poses in 500 more or less, and a wired network loses fewer.
+inline constexpr double kLoss = 0.05;  // share
+// The zero of a sensor at its start is normal. A correct twin exceeds this multiple of its rms in 0.02 % of
+// the records, over three axes.
+inline constexpr double kZeros = 4.0;
+// The direction of a force near its threshold. The line between both tips turns by the registration,
+// kRegistration along each axis across it, over its length. Friction holds a tool that touches beside the
+// middle: its force may point anywhere between that line and the way on which the object yields.
+inline constexpr double kTurned = 2.0 / kDegPerRad;  // rad, plus those two
 
 }  // namespace bounds
 
@@ -59,6 +74,7 @@ void see_machine(const Tape& tape, Shadow& shadow);   // commands -> the machine
 void see_tool(const Tape& tape, Shadow& shadow);      // machine's poses -> tracked poses of the tool
 void see_probed(const Tape& tape, Shadow& shadow);    // probe's positions -> measured forces
 void see_rendered(const Tape& tape, Shadow& shadow);  // measured forces -> displacement of the tip
+void see_sensor(const Tape& tape, Shadow& shadow);    // untouched force sensor of a rendered object
 
 // Number of simulated twins of a sensor, with different seeds for noise, drift and phases. Their scatter is
 // the difference to expect from another run of this rig.

@@ -87,7 +87,7 @@ Shadow shadow(RecordReader& record, const std::string& path, const models::Setup
                     "answers; see `encounter devices`",
                     path));
   try {
-    for (const auto see : {see_machine, see_tool, see_probed, see_rendered}) see(tape, result);
+    for (const auto see : {see_machine, see_tool, see_probed, see_rendered, see_sensor}) see(tape, result);
   } catch (const Error& e) {  // a number that no plant accepts
     if (e.key().empty()) throw;
     throw Error(models::place_of(twin, e.key()) + ": " + e.what());

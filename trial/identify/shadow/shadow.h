@@ -30,12 +30,18 @@ enum class Quantity : std::uint8_t {
   object_place,   // m: the object is this much nearer to the pressing tip
   force_time,     // s: delay of the measured force
   force_rest,     // N rms: unexplained by these three, beyond the twin's residual
-  rendered        // share: extra stiffness of the rendered object
+  rendered,       // share: extra stiffness of the rendered object
+  tool_noise,     // share: extra noise of the poses of a pressing tool
+  tool_loss,      // share: missing poses of a pressing tool
+  force_noise,    // share: extra noise of the force while no tool touches
+  force_zero,     // N, an axis of F: force while no tool touches, without the weight
+  force_turned    // rad: angle between the force of a press and the line between both tips
 };
 constexpr auto words(Quantity) {
   return enum_words("machine_time", "machine_place", "machine_rest", "registration", "tool_latency",
                     "tool_stamps", "stiffness", "object_place", "force_time", "force_rest",
-                    "rendered_stiffness");
+                    "rendered_stiffness", "tool_noise", "tool_loss", "force_noise", "force_zero",
+                    "force_turned");
 }
 
 struct Divergence {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/rotation.h"
 #include "core/base/words.h"
 #include "models/identify/block_fit.h"
 #include "models/identify/tracker/latency_fit.h"
@@ -243,15 +244,35 @@ struct ToolComparison {
   models::Interval away;    // m
   models::Interval stamps;  // s
   models::Interval gives;   // m/N: approach of the tips under load
+  double noise = kUnset;    // m rms along each axis, from second differences
   std::size_t packets = 0;
 };
+
+// The vector between both tips in a packet that came at this time.
+struct LineSample {
+  double t;
+  Vec3 apart;
+};
+
+// Noise along each axis, from second differences. The machine follows the tool, so the press cancels.
+double noise_of(const std::vector<LineSample>& line, double pause) {
+  double squares = 0.0, n = 0.0;
+  for (std::size_t i = 2; i < line.size(); ++i) {
+    if (line[i].t - line[i - 2].t > 2.5 * pause) continue;
+    squares += (line[i].apart - 2.0 * line[i - 1].apart + line[i - 2].apart).squaredNorm();
+    n += 3.0;
+  }
+  return std::sqrt(squares / (6.0 * n));  // 6: variance of a second difference over that of a sample
+}
 
 ToolComparison seen_pressing(const Tape& tape, const PressData& pressed,
                              const std::vector<SeenPacket>& packets) {
   models::BlockFit fit(3, kPressBlock);
+  std::vector<LineSample> line;
   for (const SeenPacket& one : packets) {
     const Vec3 apart = from_tip(tape, pressed, one);
     if (!apart.allFinite()) continue;
+    line.push_back({in_seconds(one.t), apart});
     const Vec3 away = apart.normalized();
     const Vec3 speed = (tape.scene.X_WR * tape.tip.at(one.stamp).velocity).e();
     const double pressing =
@@ -261,7 +282,8 @@ ToolComparison seen_pressing(const Tape& tape, const PressData& pressed,
     fit.add(in_seconds(one.stamp), row, apart.norm() - length_between(tape.scene, one.tool));
   }
   const models::BlockFit::Result found = fit.solve();
-  return {found.values[0], found.values[2], found.values[1], fit.rows()};
+  return {found.values[0], found.values[2], found.values[1], noise_of(line, median_pause(packets)),
+          fit.rows()};
 }
 
 // The direction between both tips, as the mean of a contact's packets.
@@ -360,6 +382,59 @@ void add_stamps(const std::vector<SeenPacket>& recorded, const models::Interval&
       beside_twins({age.value + found.value, std::hypot(age.half, found.half)}, old), bounds::kToolLatency);
 }
 
+// Judges noise and number of the poses of a pressing tool. noise, packets: of each twin.
+void add_poses(const ToolComparison& found, const std::vector<double>& noise,
+               const std::vector<double>& packets, Shadow& shadow) {
+  if (const models::Interval usual = of_twins(noise); usual.value > 0.0)
+    add(shadow, Channel::tool, Quantity::tool_noise,
+        {found.noise / usual.value - 1.0, usual.half / usual.value}, bounds::kNoise);
+  const models::Interval usual = of_twins(packets);
+  const double lost = 1.0 - static_cast<double>(found.packets) / usual.value;
+  const double by_luck = 2.0 * std::sqrt(std::max(0.0, lost) / usual.value);  // each pose is lost alone
+  add(shadow, Channel::tool, Quantity::tool_loss, {lost, std::hypot(by_luck, usual.half / usual.value)},
+      bounds::kLoss);
+}
+
+// The force of a press beside the line between both tips, as a sensor with the twin's errors of direction
+// would show it. A turn about that line stays unknown.
+void add_turned(const Tape& tape, const PressData& pressed, const std::vector<SeenPacket>& recorded,
+                Shadow& shadow) {
+  const Quat rig = tape.scene.X_HF.q();
+  const Quat truth = pose_of<'H', 'F'>(tape.twin.twin.frames.H_F).q();
+  const Quat read = rotation_xyz(tape.twin.twin.force.turned).conjugate();
+  models::BlockFit right(1, kPressBlock), up(1, kPressBlock);
+  Vec3 any = Vec3::Constant(kUnset), line = Vec3::Zero(), began = any, deepest = any;
+  double most = 0.0;  // N
+  for (const SeenPacket& one : recorded) {
+    const Vec3 apart = from_tip(tape, pressed, one);
+    if (!apart.allFinite()) continue;
+    const Vec3 tip = (tape.scene.X_WR * tape.tip.at(one.stamp).X_RH.origin()).e();
+    const Vec3 felt = pressed.felt[static_cast<std::size_t>(pressed.tick(in_seconds(one.stamp)))];
+    const Quat q = (tape.scene.X_WR * tape.tip.at(one.stamp).X_RH).q();
+    const Vec3 along = q * (rig * (read * (truth.conjugate() * (q.conjugate() * Vec3(-apart.normalized())))));
+    if (!any.allFinite()) {
+      any = along.unitOrthogonal();
+      began = tip;
+    }
+    line += along;
+    if (felt.norm() > most) {
+      most = felt.norm();
+      deepest = tip;
+    }
+    const Vec3 side = along.cross(any).normalized();
+    const Eigen::VectorXd size = Eigen::VectorXd::Constant(1, felt.dot(along));
+    right.add(in_seconds(one.stamp), size, felt.dot(side));
+    up.add(in_seconds(one.stamp), size, felt.dot(side.cross(along)));
+  }
+  const models::Interval a = right.solve().values[0], b = up.solve().values[0];
+  const double length = length_between(tape.scene, recorded.front().tool);
+  const Vec3 yielded = deepest - began;
+  const double beside = std::atan2(line.cross(yielded).norm(), line.dot(yielded));
+  add(shadow, Channel::force, Quantity::force_turned,
+      {std::atan(std::hypot(a.value, b.value)), std::hypot(a.half, b.half)},
+      bounds::kTurned + std::sqrt(2.0) * bounds::kRegistration / length + beside);
+}
+
 void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
   const PressData pressed = pressed_in(tape, recorded);
   const ToolComparison found = seen_pressing(tape, pressed, recorded);
@@ -373,19 +448,23 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
                                     "none; expected {}: where it should be seen is not known",
                                     counted(found.packets, "packet"), kFewest));
   hold_in_twin(tape, pressed, trackers);
-  std::vector<double> away, stamps, gives;
-  for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
+  std::vector<double> away, stamps, gives, noise, number;
+  for (std::vector<double>* one : {&away, &stamps, &gives, &noise, &number}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {
     const ToolComparison twin = seen_pressing(tape, pressed, packets);
     away.push_back(twin.away.value);
     stamps.push_back(twin.stamps.value);
     gives.push_back(twin.gives.value);
+    noise.push_back(twin.noise);
+    number.push_back(static_cast<double>(twin.packets));
   }
   add(shadow, Channel::tool, Quantity::registration, beside_twins(found.away, away), bounds::kRegistration,
       "away");
   shadow.unjudged.push_back(
       {Channel::tool, "how far it is seen to the side of the tip that it presses: both are round there"});
   if (found.stamps.known()) add_stamps(recorded, found.stamps, stamps, ages.packets(), shadow);
+  add_poses(found, noise, number, shadow);
+  add_turned(tape, pressed, recorded, shadow);
   const models::Interval more = beside_twins(found.gives, gives);
   if (more.known())
     shadow.facts.push_back(

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "tests/support/built.h"
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
@@ -222,6 +223,20 @@ const std::vector<InjectedFault>& injections() {
        "tool registration away", Quantity::registration, "away", -1e-3},
       {"3 ms of the machine", pressing(), seven, four, "machine machine_time", Quantity::machine_time, "",
        3e-3},
+      // The noise of the markers, 8 um at the tip, stays.
+      {"noise of the tracker", pressing(), with("truth.tracker.noise_mm=[0.05,0.03,0.03]"),
+       with("truth.tracker.noise_mm=[0.0166,0.0069,0.0108]"), "tool tool_noise", Quantity::tool_noise, "",
+       1.68},
+      {"a tenth of the packets lost", pressing(), with("truth.tracker.loss=0.1"),
+       with("truth.tracker.loss=0"), "tool tool_loss", Quantity::tool_loss, "", 0.1},
+      // Steps of 0.025 N and the reported acceleration add to both.
+      {"noise of the force", pressing(), with("truth.force.noise_N=0.05"), with("truth.force.noise_N=0.0125"),
+       "force force_noise", Quantity::force_noise, "", 2.26},
+      {"zero of the force", pressing(), with("truth.force.zero_N=1.6"), with("truth.force.zero_N=0.5"),
+       "force force_zero x", Quantity::force_zero, "x", -2.52},
+      {"8 deg of the force sensor", pressing(), with("truth.force.turned_deg=[8,0,0]"),
+       with("truth.force.turned_deg=[0,0,0]"), "force force_turned", Quantity::force_turned, "",
+       8.0 / kDegPerRad},
   };
   return kAll;
 }
@@ -229,6 +244,7 @@ const std::vector<InjectedFault>& injections() {
 // The resolution is limited by the machine's steps, 3 um, and by 0.2 % of the force in each of them.
 double least_seen(Quantity quantity) {
   if (quantity == Quantity::stiffness || quantity == Quantity::rendered) return 2e-3;
+  if (quantity == Quantity::force_noise || quantity == Quantity::force_zero) return 0.03;
   return quantity == Quantity::registration ? 5e-6 : 2e-6;
 }
 
