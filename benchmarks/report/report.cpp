@@ -259,9 +259,9 @@ std::vector<Fact> facts(const Report& report) {
 // The tables after the benchmarks, in order. Empty tables are left out.
 std::vector<Table> closing_tables(const Report& report) {
   const std::vector<FigureVerdict> all = judged(report.results, report.background.thresholds);
-  std::vector<Table> tables{verdict_table(all), threshold_table(all),
-                            questionnaire::proxy_table(report.background.items, all), role_table(report),
-                            contradiction_table(report.background.contradictions)};
+  std::vector<Table> tables{
+      verdict_table(all), threshold_table(all),    questionnaire::proxy_table(report.background.items, all),
+      role_table(report), predicted_table(report), contradiction_table(report.background.contradictions)};
   std::erase_if(tables, [](const Table& t) { return t.rows.empty(); });
   for (Table& t : tables) drop_empty_columns(t);
   return tables;
@@ -436,6 +436,25 @@ Table role_table(const Report& report) {
   table.note =
       "Calibrated: the paper's value set a parameter, so that agreement is no merit. Predicted: it did not. "
       "Ours: the paper has no such value. Misses: the bounds exclude the paper's value.";
+  return table;
+}
+
+Table predicted_table(const Report& report) {
+  Table table{"predicted",
+              "Predicted, bounded and the paper's",
+              {"figure", "paper", "twin", "unit", "bounds", "misses by", "least .. most"}};
+  std::size_t missed = 0;
+  for (const BenchResult& result : report.results)
+    for (const Figure& f : result.figures) {
+      if (f.role != Role::predicted || !std::isfinite(f.paper) || !bounded(f)) continue;
+      missed += misses(f) ? 1 : 0;
+      table.rows.push_back({f.id, cell(f.paper), twin_cell(f), f.unit, range(f.low, f.high),
+                            misses(f) ? fmt::format("{:+.3g}", miss_of(f)) : "", range(f.least, f.most)});
+    }
+  table.note = fmt::format(
+      "{} figures, of which {} miss the paper: the paper has the value, it set no parameter of the twin, and "
+      "the twin's value is bounded.",
+      table.rows.size(), missed);
   return table;
 }
 

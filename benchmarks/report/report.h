@@ -44,6 +44,8 @@ struct Report {
 [[nodiscard]] std::vector<const Plot*> ordered_plots(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);
 [[nodiscard]] Table role_table(const Report& report);
+// Each figure of the paper that the twin predicts and that has bounds.
+[[nodiscard]] Table predicted_table(const Report& report);
 
 [[nodiscard]] std::string results_json(const Report& report);
 [[nodiscard]] std::string report_markdown(const Report& report);

@@ -325,6 +325,21 @@ TEST(ReportTable, CountsWhatIsCalibratedAndWhatPredicted) {
                                       ElementsAre("ours", "1", "1", "0", "0", "all others")));
 }
 
+TEST(ReportTable, ListsWhatIsPredictedBoundedAndThePapers) {
+  Report report = small_report();
+  EXPECT_THAT(predicted_table(report).rows,
+              ElementsAre(ElementsAre("press.b.max", "0.5", "0.4", "mm", "at least 0.45", "", "")));
+  std::vector<Figure>& figures = report.results.front().figures;
+  figures[1].low = 0.3;
+  figures[1].high = 0.45;
+  const Table table = predicted_table(report);
+  EXPECT_THAT(table.rows,
+              ElementsAre(ElementsAre("press.b.max", "0.5", "0.4", "mm", "0.3 .. 0.45", "-0.1", "")));
+  EXPECT_THAT(table.note, HasSubstr("1 figures, of which 1 miss the paper"));
+  figures[1].low = figures[1].high = kUnset;
+  EXPECT_TRUE(predicted_table(report).rows.empty());
+}
+
 // The bound holds, and it excludes the paper's value.
 TEST(ReportTable, AFigureWhoseBoundsExcludeThePaperMissesIt) {
   Report report = small_report();
