@@ -16,7 +16,8 @@ const Mutants kMutants{
                 "error_percent.100.mean", "error_percent.200.mean"}},
      {.what = "threshold x 15, step x 10",
       .set = {"rig.force.threshold_N=0.75", "truth.hexapod.step_um=30"},
-      .kills = {"error_percent.*.worst", "beyond.*.error_percent.*.worst"}},
+      .kills = {"error_percent.*.worst", "error_percent.*.*.worst", "beyond.*.error_percent.*.worst",
+                "beyond.*.error_percent.*.*.worst"}},
      {.what = "pusher half as stiff, no threshold, no damper; theory without dead time; a quarter softer "
               "than said",
       .set = {"truth.pusher.stiffness_N_per_mm=0.02", "rig.force.threshold_N=0",
