@@ -97,7 +97,8 @@ std::string beside_program() {
   return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
 }
 bool ours(const std::string& name) {
-  constexpr std::array<std::string_view, 7> kOurs{"bench", "calibration", "camera", "fit", "live", "peers", "vision"};
+  constexpr std::array<std::string_view, 7> kOurs{"bench", "calibration", "camera", "fit",
+                                                  "live",  "peers",       "vision"};
   return std::find(kOurs.begin(), kOurs.end(), name) != kOurs.end();
 }
 std::string file_of(const std::string& name) {

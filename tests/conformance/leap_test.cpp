@@ -443,7 +443,7 @@ TEST_F(LeapLibrary, ThatIsTooOldLacksAFunction) {
 }
 
 TEST_F(LeapLibrary, OfTheFakeGivesTheHandThatTheFakeSends) {
-  struct Known final : HandTracker {
+  struct KnownTracker final : HandTracker {
     bool poll(Time now, Measurement<HandSample>& newest) noexcept override {
       constexpr Duration kFrame{8'333'333};
       if (now - last < kFrame) return false;

@@ -78,19 +78,16 @@ struct DeviceEvent {
   std::uint32_t status = 0;
 };
 struct Message {
-  std::uint32_t size = sizeof(Message);
-  std::uint32_t type = 0;
+  std::uint32_t size = sizeof(Message), type = 0;
   const void* event = nullptr;  // valid until the next poll
   std::uint32_t device = 0;
 };
 struct ConnectionConfig {
-  std::uint32_t size = sizeof(ConnectionConfig);
-  std::uint32_t flags = 0;
+  std::uint32_t size = sizeof(ConnectionConfig), flags = 0;
   const char* server = nullptr;  // namespace of the service; null: the usual one
 };
 struct DeviceInfo {
-  std::uint32_t size = sizeof(DeviceInfo);
-  std::uint32_t status = 0, capabilities = 0, kind = 0, baseline = 0;
+  std::uint32_t size = sizeof(DeviceInfo), status = 0, capabilities = 0, kind = 0, baseline = 0;
   std::uint32_t serial_length = 0;  // room at `serial`, with the zero at its end
   char* serial = nullptr;
   float horizontal_view = 0, vertical_view = 0;

@@ -12,6 +12,7 @@
 #include "tests/support/built.h"
 #include "tests/support/files.h"
 #include "trial/assemble/assemble.h"
+#include "trial/mcap/mcap_writer.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
 
