@@ -181,8 +181,8 @@ TEST(BlockError, StudentsQuantile) {
   EXPECT_NEAR(models::student(1e9), 1.95996, 1e-4);
   EXPECT_NEAR(models::student(30), 2.0423, 1e-3);
   EXPECT_NEAR(models::student(10), 2.2281, 2e-3);
-  EXPECT_NEAR(models::student(5), 2.5706, 0.02);
-  EXPECT_NEAR(models::student(3), 3.1824, 0.02);
+  EXPECT_NEAR(models::student(5), 2.5706, 1e-3);
+  EXPECT_NEAR(models::student(3), 3.1824, 5e-3);
   EXPECT_NEAR(models::student(2), 4.3027, 1e-3);
   EXPECT_NEAR(models::student(1), 12.7062, 1e-3);
   EXPECT_NEAR(models::student(2, 2.575829), 9.9248, 1e-3);
