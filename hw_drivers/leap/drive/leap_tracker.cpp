@@ -100,8 +100,9 @@ bool LeapTracker::evaluate(const Frame& frame, Time now, Measurement<HandSample>
 // The library's clock was read at the frame's arrival, so a frame's age needs no relation of two clocks. The
 // relation smooths the moments at which the thread was interrupted between the two readings.
 bool LeapTracker::place_in_time(const Frame& frame, Time now, Time& exposed) noexcept {
+  const auto counts = [](std::int64_t us) { return -kMostClock < us && us < kMostClock; };
+  if (!counts(frame.read) || !counts(frame.stamp)) return false;
   const std::int64_t old = frame.read - frame.stamp;
-  if (!(std::abs(frame.read) < kMostClock && std::abs(frame.stamp) < kMostClock)) return false;
   if (counts_.frames > 1 && frame.read < read_) {
     ++counts_.steps;
     tie_.forget();
