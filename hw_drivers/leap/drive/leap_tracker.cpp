@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
+#include <memory>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,12 @@ constexpr std::int64_t kMostClock = std::int64_t{1} << 52;  // us, 140 years
 constexpr std::int64_t kOldest = 1'000'000;                 // us: no frame is on its way for so long
 constexpr std::int64_t kRestart = 1000;                     // frames back: the service began anew
 
+// Ends a service. One whose thread hangs in the library is kept for good, because that thread still uses it.
+void end(std::unique_ptr<Service> service) {
+  static auto* const hanging = new std::vector<std::unique_ptr<Service>>;  // never destroyed
+  if (!service->shut()) hanging->push_back(std::move(service));
+}
+
 }  // namespace
 
 LeapTracker::LeapTracker(const Offer& offer, const LeapSettings& settings, const leapc::Functions& leap)
@@ -30,14 +37,12 @@ LeapTracker::LeapTracker(const Offer& offer, const LeapSettings& settings, const
   try {
     wait_for_device();
   } catch (...) {
-    if (!service_->shut()) static_cast<void>(service_.release());  // its thread hangs in the library
+    end(std::move(service_));
     throw;
   }
 }
 
-LeapTracker::~LeapTracker() {
-  if (!service_->shut()) static_cast<void>(service_.release());
-}
+LeapTracker::~LeapTracker() { end(std::move(service_)); }
 
 // In lockstep the time of a fake stands until the run begins.
 void LeapTracker::wait_for_device() const {
