@@ -56,18 +56,22 @@ class Server final : public LiveServer {
     info.protocols = protocols_.data();
     info.gid = info.uid = static_cast<decltype(info.gid)>(-1);
     info.user = this;
-    info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND | LWS_SERVER_OPTION_DISABLE_IPV6;
+    info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
+                   LWS_SERVER_OPTION_DISABLE_IPV6;
     context_ = lws_create_context(&info);
-    if (context_ == nullptr)
+    vhost_ = context_ == nullptr ? nullptr : lws_create_vhost(context_, &info);
+    if (vhost_ == nullptr) {
+      lws_context_destroy(context_);
       throw Error(
           fmt::format("{}:{}: cannot listen there; expected an address of this computer and a free "
                       "port; choose others",
                       address, port));
+    }
   }
   ~Server() override { lws_context_destroy(context_); }
 
   [[nodiscard]] std::uint16_t port() const override {
-    return static_cast<std::uint16_t>(lws_get_vhost_listen_port(lws_get_vhost_by_name(context_, "default")));
+    return static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost_));
   }
   void serve() override { lws_service(context_, -1); }
   [[nodiscard]] std::uint64_t dropped() const override { return dropped_; }
@@ -217,6 +221,7 @@ class Server final : public LiveServer {
   std::array<lws_protocols, 2> protocols_{{{kProtocol, callback, 0, 0, 0, nullptr, 0}, {}}};
   std::string name_;
   lws_context* context_ = nullptr;
+  lws_vhost* vhost_ = nullptr;
   std::vector<Json> schemas_, channels_;
   std::vector<Newest> newest_;  // of each channel
   std::map<lws*, LiveClient> clients_;
