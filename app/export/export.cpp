@@ -169,12 +169,10 @@ bool write_truth(const ExportOptions& options, const std::string& csv, bool stop
                     options.record, kRemedy));
   TextOutput output(csv, models::existing(options.force));
   trial::RecordTable table(twin.setup(), twin.trial().scene());
-  std::string row(trial::RecordTable::header());
-  row.insert(row.size() - 1, trial::RecordTable::truth_header());
-  output.write(row);
+  output.write(trial::RecordTable::header_with_truth());
+  std::string row;
   const auto see = [&](const trial::Glance& glance) {
-    row = table.row(glance.tick, glance.in, glance.out);
-    row.insert(row.size() - 1, trial::RecordTable::truth_cells(glance.truth));
+    row = trial::RecordTable::with_truth(table.row(glance.tick, glance.in, glance.out), glance.truth);
   };
   while (twin.next(see)) {
     if (stoppable && trial::Signals::caught() != 0) return false;

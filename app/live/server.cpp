@@ -100,10 +100,9 @@ class Server final : public LiveServer {
   void metadata(std::string_view, const std::map<std::string, std::string>&) override {}
   // Sends what clients still take, for a moment.
   void close() override {
-    constexpr int kTurns = 100;
+    constexpr int kTurns = 10'000;
     const auto waits = [](const auto& one) { return !one.second.waiting.empty(); };
-    for (int turn = 0; turn < kTurns && std::any_of(clients_.begin(), clients_.end(), waits); ++turn)
-      for (int i = 0; i < kTurns; ++i) serve();
+    for (int turn = 0; turn < kTurns && std::any_of(clients_.begin(), clients_.end(), waits); ++turn) serve();
   }
 
  private:

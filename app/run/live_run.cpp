@@ -1,6 +1,5 @@
 #include "app/run/live_run.h"
 
-#include <charconv>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "core/base/error.h"
+#include "models/tables/number_text.h"
 
 namespace enc::app {
 
@@ -16,21 +16,20 @@ LiveAddress live_address(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon != std::string::npos) at.address = text.substr(0, colon);
   const std::string_view port = std::string_view(text).substr(colon == std::string::npos ? 0 : colon + 1);
-  const auto [end, bad] = std::from_chars(port.data(), port.data() + port.size(), at.port);
-  if (bad != std::errc() || end != port.data() + port.size() || at.address.empty())
+  const auto number = models::number_in<std::uint16_t>(port);
+  if (!number || at.address.empty())
     throw Error("--live '" + text + "': expected a port from 0 to 65535, or ADDRESS:PORT, such as 8765");
+  at.port = *number;
   return at;
 }
 
-LiveRun::LiveRun(const std::string& where, const trial::Trial& trial, const RecordTexts& texts)
-    : server_([&] {
-        const LiveAddress at = live_address(where);
-        return live_module().open(at.address, at.port, "Encounter: " + trial.setup().scene.title);
-      }()),
-      mcap_(*server_, trial.setup(), trial.scene(), texts),
-      thread_(trial::beside_loop([this](const std::stop_token& stop) { work(stop); })) {
-  print_notes({fmt::format("live at ws://{}:{}, for Foxglove and other viewers", live_address(where).address,
-                           server_->port())});
+LiveRun::LiveRun(const LiveAddress& at, const trial::Trial& trial, const RecordTexts& texts)
+    : server_(live_module().open(at.address, at.port, "Encounter: " + trial.setup().scene.title)),
+      mcap_(*server_, trial.setup(), trial.scene(), texts) {
+  print_notes(
+      {fmt::format("live at ws://{}:{}, for Foxglove and other viewers", at.address, server_->port())});
+  // From here on the server belongs to this thread.
+  thread_ = trial::beside_loop([this](const std::stop_token& stop) { work(stop); });
 }
 
 void LiveRun::add(const trial::Glance& glance) noexcept { ticks_.push({glance.tick, glance.in, glance.out}); }

@@ -25,7 +25,7 @@ struct LiveAddress {
 class LiveRun {
  public:
   // Listens, and says where. Throws Error. The trial must outlive this.
-  LiveRun(const std::string& where, const trial::Trial& trial, const RecordTexts& texts);
+  LiveRun(const LiveAddress& at, const trial::Trial& trial, const RecordTexts& texts);
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
   void add(const trial::Glance& glance) noexcept;  // never waits

@@ -105,7 +105,7 @@ void RunFiles::begin(const trial::Trial& trial, trial::WallTime started) {
   const RecordTexts texts = texts_of(options_, trial, started);
   if (!options_.record.empty()) record_ = std::make_unique<Record>(options_, texts, trial.scene(), beside);
   if (!options_.mcap.empty()) mcap_ = std::make_unique<Mcap>(options_, texts, trial);
-  if (!options_.live.empty()) live_ = std::make_unique<LiveRun>(options_.live, trial, texts);
+  if (!options_.live.empty()) live_ = std::make_unique<LiveRun>(live_address(options_.live), trial, texts);
 }
 
 void RunFiles::watch(trial::TrialOptions& how) {

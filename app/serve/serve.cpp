@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -23,6 +22,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "models/schema/printable.h"
+#include "models/tables/number_text.h"
 #include "trial/measure/record_table.h"
 #include "trial/operator/operator.h"
 
@@ -32,7 +32,7 @@ namespace {
 constexpr const char* kExpected =
     "expected x, y and z of the tool's tip in W, mm, each within 10 m, such as '0 0 40.5', or an empty line";
 
-constexpr double kFarthest_mm = 1e4;
+constexpr double kFarthest = 10.0;  // m, along each axis
 
 // Lines of standard input. Reading waits, but not past a signal.
 class Lines {
@@ -83,13 +83,11 @@ std::optional<Point<'W'>> place_in(std::string_view line, std::size_t number) {
   for (std::string_view rest = line;;) {
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     if (rest.empty()) break;
-    double number_mm = 0.0;
-    const auto [end, bad] = std::from_chars(rest.data(), rest.data() + rest.size(), number_mm);
-    const auto used = static_cast<std::size_t>(end - rest.data());
-    const bool cut = used < rest.size() && rest[used] != ' ' && rest[used] != '\t';
-    if (bad != std::errc() || cut || !(std::abs(number_mm) <= kFarthest_mm) || count == 3) refuse();
-    place[count++] = number_mm / kMmPerM;
-    rest.remove_prefix(used);
+    const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
+    rest.remove_prefix(word.size());
+    const double x = models::number_in<double>(word).value_or(kUnset) / kMmPerM;
+    if (!(std::abs(x) <= kFarthest) || count == 3) refuse();
+    place[count++] = x;
   }
   if (count == 0) return std::nullopt;
   if (count != 3) refuse();
@@ -103,16 +101,14 @@ class Client {
 
   void begin(const trial::Trial& trial) {
     table_.emplace(trial.setup(), trial.scene());
-    std::string names(trial::RecordTable::header());
-    names.insert(names.size() - 1, trial::RecordTable::truth_header());
-    send(names);
+    send(trial::RecordTable::header_with_truth());
     each_ = every_ > 0.0 ? std::max<std::int64_t>(std::llround(every_ * trial.setup().rig.loop.rate), 1) : 1;
   }
   void see(const trial::Glance& glance) {
-    std::string row = table_->row(glance.tick, glance.in, glance.out);
+    // The table sees each tick, because a pose of the tracker stands in the row of its arrival alone.
+    const std::string row = table_->row(glance.tick, glance.in, glance.out);
     if (glance.tick.index % each_ != 0) return;
-    row.insert(row.size() - 1, trial::RecordTable::truth_cells(glance.truth));
-    send(row);
+    send(trial::RecordTable::with_truth(row, glance.truth));
     const std::optional<std::string> line = lines_.next();
     ended_ = !line;
     if (line) place_ = place_in(*line, lines_.number());

@@ -32,6 +32,11 @@ def program_file():
     return found
 
 
+def refusal(said, code):
+    """The Error for what the program said."""
+    return Error(said.strip().removeprefix("encounter: ") or f"exit code {code}", code)
+
+
 def call(*words, good=(0,)):
     """Standard output of the program; Error for an exit code that is not good. Its notes go to our standard error."""
     done = subprocess.run(
@@ -42,8 +47,7 @@ def call(*words, good=(0,)):
         errors="backslashreplace",
     )
     if done.returncode not in good:
-        text = done.stderr.strip() or f"exit code {done.returncode}"
-        raise Error(text.removeprefix("encounter: "), done.returncode)
+        raise refusal(done.stderr, done.returncode)
     sys.stderr.write(done.stderr)
     return done.returncode, done.stdout
 

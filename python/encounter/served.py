@@ -5,7 +5,7 @@ import sys
 import tempfile
 
 from .columns import value
-from .program import Error, program_file, run_of, run_words
+from .program import program_file, refusal, run_of, run_words
 
 
 class Served:
@@ -79,7 +79,7 @@ class Served:
         said = self._said.read()
         self._said.close()
         if code not in (0, 1, 4):
-            raise Error(said.strip().removeprefix("encounter: ") or f"exit code {code}", code)
+            raise refusal(said, code)
         sys.stderr.write(said)
         self.run = run_of(text, self._record, code)
 

@@ -110,19 +110,22 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   return row + '\n';
 }
 
-std::string_view RecordTable::truth_header() {
-  return ",true_tool_x_mm,true_tool_y_mm,true_tool_z_mm,true_tip_x_mm,true_tip_y_mm,true_tip_z_mm,"
+std::string RecordTable::header_with_truth() {
+  std::string names(header());
+  names.pop_back();  // its newline
+  return names +
+         ",true_tool_x_mm,true_tool_y_mm,true_tool_z_mm,true_tip_x_mm,true_tip_y_mm,true_tip_z_mm,"
          "true_force_x_N,true_force_y_N,true_force_z_N,true_hand_x_N,true_hand_y_N,true_hand_z_N,"
-         "true_touching,true_press";
+         "true_touching,true_press\n";
 }
 
-std::string RecordTable::truth_cells(const sim::Truth& truth) {
-  std::string cells;
-  for (const double x : truth.tool_tip.xyz) add(cells, kMmPerM * x);
-  for (const double x : truth.tip.xyz) add(cells, kMmPerM * x);
-  for (const double x : truth.contact_force.xyz) add(cells, x);
-  for (const double x : truth.hand_force.xyz) add(cells, x);
-  return cells + fmt::format(",{:d},{}", truth.touching, truth.press);
+std::string RecordTable::with_truth(std::string row, const sim::Truth& truth) {
+  row.pop_back();  // its newline
+  for (const double x : truth.tool_tip.xyz) add(row, kMmPerM * x);
+  for (const double x : truth.tip.xyz) add(row, kMmPerM * x);
+  for (const double x : truth.contact_force.xyz) add(row, x);
+  for (const double x : truth.hand_force.xyz) add(row, x);
+  return row + fmt::format(",{:d},{}\n", truth.touching, truth.press);
 }
 
 std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {

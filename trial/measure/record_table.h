@@ -28,9 +28,9 @@ class RecordTable {
   [[nodiscard]] static std::string_view header();
   [[nodiscard]] std::string row(const Tick& tick, const Inputs& in, const Outputs& out);  // in order
 
-  // Further columns with the twin's ground truth: text to append to the header and to a row.
-  [[nodiscard]] static std::string_view truth_header();
-  [[nodiscard]] static std::string truth_cells(const sim::Truth& truth);
+  // The same with further columns, the twin's ground truth.
+  [[nodiscard]] static std::string header_with_truth();
+  [[nodiscard]] static std::string with_truth(std::string row, const sim::Truth& truth);
 
  private:
   // True if the tracker has a new pose since the last row.
