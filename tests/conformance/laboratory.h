@@ -45,9 +45,8 @@ struct Laboratory {
       while (!end) {
         fakes->turn();
         now = time();
-        if (stands()) continue;
-        moved = now;
-        moves = true;
+        moves = !stands();
+        if (moves) moved = now;
       }
     });
   }
@@ -78,7 +77,7 @@ struct Laboratory {
   }
   std::vector<std::string> ports = wires::free_ports();
   std::unique_ptr<app::Fakes> fakes;
-  std::atomic<bool> end = false, moves = false;  // the machine moved since a test last reset this
+  std::atomic<bool> end = false, moves = false;  // `moves`: the machine moves now
   std::atomic<double> now = 0.0;                 // s, world time
   std::thread thread;
   double moved = 0.0;  // s, world time of the last motion
