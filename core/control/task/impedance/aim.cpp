@@ -102,38 +102,49 @@ void ask(const ArmContext& context, const CommonState& state, ReachPrediction& n
   now.passes = passes_by(all, known, kAfter.back());
 }
 
-// The touch at a time after the newest picture, interpolated between the two nearest of kAfter. Its weight
-// falls as that time approaches one without evidence.
-Vec3 touch_at(const ReachPrediction& now, double after) {
-  std::size_t i = 0;
-  while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
-  const Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
-  const double share = std::clamp((after - kAfter[i]) / (kAfter[i + 1] - kAfter[i]), 0.0, 1.0);
-  if (std::isinf(a[2])) return {b[0], b[1], b[2] + std::log(share)};
-  if (std::isinf(b[2])) return {a[0], a[1], a[2] + std::log(1.0 - share)};
-  return a + share * (b - a);
+// The integrals of exp(-x s) and of s exp(-x s) over s from 0 to 1, for x >= 0.
+Vec2 decay(double x) {
+  if (x < 1e-3) return {1.0 - 0.5 * x, 0.5 - x / 3.0};
+  const double whole = -std::expm1(-x) / x;
+  return {whole, (whole - std::exp(-x)) / x};
+}
+
+// The integral of place times weight and of weight from `begin` on, between two neighbours of kAfter, in
+// closed form: sampled times would shake the goal from tick to tick, and the arm would pass that on to a
+// touching finger. The place goes evenly from one to the other, and so does the logarithm of the weight,
+// which falls by `discount`, 1/s, besides. To a time without evidence the weight itself goes evenly to
+// nothing.
+Vec3 touches_between(const ReachPrediction& now, std::size_t i, double begin, double most, double discount) {
+  Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
+  const bool begins = std::isinf(a[2]), ends = std::isinf(b[2]);
+  const double to = kAfter[i + 1], from = std::clamp(begin, kAfter[i], to);
+  if ((begins && ends) || !(from < to)) return Vec3::Zero();
+  if (begins) a = b;
+  if (ends) b = a;
+  const double share = (from - kAfter[i]) / (to - kAfter[i]);
+  a += share * (b - a);
+  const double at_a = a[2] - most - discount * (from - begin), at_b = b[2] - most - discount * (to - begin);
+  const Vec2 part = (to - from) * std::exp(std::max(at_a, at_b)) * decay(std::abs(at_b - at_a));
+  const double whole = part[0], late = at_a >= at_b ? part[1] : part[0] - part[1];
+  const Vec3 here(a[0], a[1], 1.0);
+  if (begins) return (share * whole + (1.0 - share) * late) * here;
+  if (ends) return (1.0 - share) * (whole - late) * here;
+  return whole * here + late * Vec3(b[0] - a[0], b[1] - a[1], 0.0);
 }
 
 // The mean over the times that are still to come, weighted by their fit and by how soon they are. Given in
 // the surface's axes; unset if none fits or if passing by is more probable.
 Vec2 expected(const ReachPrediction& now, double passed) {
-  constexpr std::size_t kSteps = 60;
-  const double first = std::clamp(passed, kAfter.front(), kAfter.back());
-  const double each = (kAfter.back() - first) / kSteps;
-  std::array<Vec3, kSteps> at;
+  const double begin = std::max(passed, kAfter.front());
   double most = now.passes;
-  for (std::size_t i = 0; i < kSteps; ++i) {
-    at[i] = touch_at(now, first + (static_cast<double>(i) + 0.5) * each);
-    most = std::max(most, at[i][2]);
-  }
+  for (std::size_t i = 0; i + 1 < kAfter.size(); ++i)
+    if (kAfter[i + 1] > begin) most = std::max({most, now.touches[i][2], now.touches[i + 1][2]});
   if (std::isinf(most)) return {kUnset, kUnset};
   Vec3 sum = Vec3::Zero();
   double touches = 0.0;
-  for (std::size_t i = 0; i < kSteps; ++i) {
-    const double w = std::exp(at[i][2] - most);
-    if (!(w > 0.0)) continue;
-    touches += w * each;
-    sum += w * std::exp(-(static_cast<double>(i) + 0.5) * each / kSoon) * Vec3(at[i][0], at[i][1], 1.0);
+  for (std::size_t i = 0; i + 1 < kAfter.size(); ++i) {
+    touches += touches_between(now, i, begin, most, 0.0)[2];
+    sum += touches_between(now, i, begin, most, 1.0 / kSoon);
   }
   if (touches < std::exp(now.passes - most) || !(sum[2] > 0.0)) return {kUnset, kUnset};
   return sum.head<2>() / sum[2];
