@@ -10,10 +10,12 @@
 
 namespace enc::bench::plane_button {
 
-// A run, tick by tick, from the ground truth; `believed` is the depth that the core assumed.
+// A run, tick by tick, from the ground truth; `believed` is the depth that the core assumed. A law is a force
+// over the depth of the device. The finger is deeper, by what its pad yields.
 struct PressTrace {
   std::vector<double> t;         // s
-  std::vector<double> depth;     // depth of the finger under the surface, m
+  std::vector<double> depth;     // depth of the prop's front under the surface, m
+  std::vector<double> finger;    // depth of the finger, m
   std::vector<double> believed;  // m
   std::vector<double> force;     // true contact force along the normal, N
   std::vector<double> side;      // across it, N
@@ -47,7 +49,7 @@ struct Line {
   double slope = kUnset, r2 = kUnset;  // N/m
   std::int64_t n = 0;
 };
-enum class Depth : std::uint8_t { truth, believed };
+enum class Depth : std::uint8_t { device, finger, believed };
 [[nodiscard]] Line line_of(const PressTrace& trace, sim::Phase phase, Depth of, double low, double high);
 
 // Largest change of the force from one tick to the next, N, in contact and deeper than `low`. `beyond`:
@@ -63,6 +65,11 @@ struct Curve {
 };
 [[nodiscard]] Curve curve_of(const PressTrace& trace, sim::Phase phase, double low, double high,
                              double width);
+
+// Mean of pressing and releasing, as the paper averages the force: damping and friction cancel, and the
+// hand's drift, which changes its speed, averages out.
+inline constexpr double kBin = 0.02e-3;  // m, of a mean curve
+[[nodiscard]] Curve mean_curve(const PressTrace& trace, double low, double high, double width);
 
 [[nodiscard]] Line line_of(const Curve& curve);
 

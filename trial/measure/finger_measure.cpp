@@ -111,8 +111,10 @@ void FingerMeasure::watch_force(const Glance& glance) {
     meeting.greatest_step = std::max(meeting.greatest_step, std::abs(force - last_force_));
   last_force_ = force;
   if (!pressed) return;
-  if (at.depth >= kFrom && at.depth <= kTo) {
-    fit_.add(at.depth, force);
+  // The law is a force over the depth of the device. The finger is deeper, by what its pad yields.
+  const double prop = at.depth + dot(at.touching - glance.truth.tip, at.normal);
+  if (prop >= kFrom && prop <= kTo) {
+    fit_.add(prop, force);
     believed_.add(glance.out.deflection, force);
   }
   if (force < kFelt) return;

@@ -51,7 +51,7 @@ class FingerMeasure {
   void see(const Glance& glance);
 
   [[nodiscard]] const std::vector<FingerEncounter>& meetings() const { return meetings_; }
-  [[nodiscard]] const LineFit& fit() const { return fit_; }  // force over the true depth of 2 to 10 mm
+  [[nodiscard]] const LineFit& fit() const { return fit_; }  // force over the prop's depth of 2 to 10 mm
   // Line over the depth as the core estimated it.
   [[nodiscard]] const LineFit& believed() const { return believed_; }
   [[nodiscard]] double far_speed() const { return far_.speed(); }
