@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,6 +85,7 @@ void ReachMeasure::see(const trial::Glance& glance) {
   phase_ = phase;
   const bool prepares = far_.see(glance);
   if (!begun_) return;
+  watch_force(glance);
   now_.contacts = glance.out.contacts - contacts_before_;
   if (prepares) ++now_.prepares;
   take_picture(glance, now);
@@ -126,6 +129,12 @@ void ReachMeasure::meet(const trial::Glance& glance, double now) {
   if (there > 0 && !std::isnan(now_.prepared))
     now_.arrived = now - glance.scene.dt * static_cast<double>(there - 1);
   watch_contact(glance, now);
+}
+
+void ReachMeasure::watch_force(const trial::Glance& glance) {
+  const Vec<'W'> force = glance.truth.touching ? glance.truth.contact_force : Vec<'W'>::zero();
+  const double change = (force - std::exchange(force_, force)).norm();
+  now_.force_step = std::max(now_.force_step, change);
 }
 
 void ReachMeasure::watch_contact(const trial::Glance& glance, double now) {
@@ -209,6 +218,16 @@ std::vector<double> misses(const std::vector<ReachOutcome>& reaches) {
 
 std::vector<double> impacts(const std::vector<ReachOutcome>& reaches) {
   return of_each(reaches, [](const ReachOutcome& r) { return r.impact; });
+}
+
+double contacts_per_reach(const std::vector<ReachOutcome>& reaches) {
+  const std::vector<double> all =
+      of_each(reaches, [](const ReachOutcome& r) { return static_cast<double>(r.contacts); });
+  return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+}
+
+std::vector<double> force_steps(const std::vector<ReachOutcome>& reaches) {
+  return of_each(reaches, [](const ReachOutcome& r) { return r.force_step; });
 }
 
 double in_time(const std::vector<ReachOutcome>& reaches) {

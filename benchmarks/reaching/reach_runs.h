@@ -30,6 +30,7 @@ struct ReachOutcome {
   double speed = kUnset;       // m/s, speed of the finger when they meet
   double miss = kUnset;        // m, along the surface: from the prop's middle to its ideal place
   double impact = 0.0;         // N, along the normal: largest force within 50 ms after
+  double force_step = 0.0;     // N: largest change of the force on the finger in a tick
   double slide_error = 0.0;  // m: largest distance along the surface between prop and finger while it is held
   std::int32_t contacts = 0;  // contacts counted by the core
   std::int32_t prepares = 0;  // number of times that it began to prepare
@@ -51,11 +52,13 @@ class ReachMeasure {
   void begin(const trial::Glance& glance);
   void take_picture(const trial::Glance& glance, double now);
   void meet(const trial::Glance& glance, double now);
+  void watch_force(const trial::Glance& glance);
   void watch_contact(const trial::Glance& glance, double now);
 
   std::vector<ReachOutcome> over_;
   ReachOutcome now_;
   std::int32_t contacts_before_ = 0;
+  Vec<'W'> force_ = Vec<'W'>::zero();  // N, on the finger, in the last tick
   bool begun_ = false;
   sim::Phase phase_ = sim::Phase::wait;
   trial::FarWatch far_;
@@ -100,7 +103,13 @@ void reach_at_random(models::Setup& setup, std::int64_t count);
 // One value for each reach with a rendered object.
 [[nodiscard]] std::vector<double> felts(const std::vector<ReachOutcome>& reaches, double ReachOutcome::*what);
 [[nodiscard]] std::vector<double> impacts(const std::vector<ReachOutcome>& reaches);  // N
+// Contacts of the core over the reaches that met the surface.
+[[nodiscard]] double contacts_per_reach(const std::vector<ReachOutcome>& reaches);
+[[nodiscard]] std::vector<double> force_steps(const std::vector<ReachOutcome>& reaches);  // N
 // Share of the reaches with the prop there in time.
 [[nodiscard]] double in_time(const std::vector<ReachOutcome>& reaches);
+
+// The parts that only `--full` runs: the camera's rate and latency, the filter's noise, the physics' steps.
+void add_sweeps(const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench::reaching

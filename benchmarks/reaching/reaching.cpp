@@ -1,6 +1,7 @@
 // The encounter of a bare finger: whether the prop is there before the finger, the distance between prop and
 // touch, and the impact [VisHap 2.2].
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -15,117 +16,13 @@
 namespace enc::bench::reaching {
 namespace {
 
-// Gains and costs of a faster finger tracker, another filter and finer steps of the physics.
-
-constexpr int kEach = 10;  // reaches for each of two tilts: 20 have a p95
-
-// Misses of a finger that comes obliquely with 200 mm/s, 20 and 40 degrees from the normal, p95, mm.
-std::vector<double> misses_with(const BenchContext& context, const std::vector<Settings>& settings) {
-  std::vector<ReachRun> runs;
-  for (const Settings& set : settings)
-    for (const double tilt : {20.0, 40.0})
-      runs.push_back(steady_reaches(0.2, tilt, kEach, context.seed) + set);
-  const std::vector<ReachResult> ran = run_all(context, runs);
-  std::vector<double> p95;
-  for (std::size_t i = 0; i < settings.size(); ++i)
-    p95.push_back(1e3 * percentile(misses(joined({ran[2 * i], ran[2 * i + 1]})), 0.95));
-  return p95;
-}
-
-void vision_part(const BenchContext& context, BenchResult& result) {
-  const std::vector<double> latency{0, 10, 25, 50, 75, 100}, rate{20, 60, 120};
-  Plot plot{"reaching_vision", "Miss over the age of what is seen", "latency of the vision (ms)",
-            "miss, p95 (mm)"};
-  for (const double hz : rate) {
-    std::vector<Settings> settings;
-    settings.reserve(latency.size());
-    for (const double ms : latency)
-      settings.push_back({fmt::format("truth.tracker.rate_hz={}", hz),
-                          fmt::format("truth.tracker.latency_ms={}", ms),
-                          fmt::format("rig.tracker.usual_age_ms={}", ms + 1e3 / hz + 10.0)});
-    plot.series.push_back({.name = fmt::format("{:.0f} Hz", hz),
-                           .x = latency,
-                           .y = misses_with(context, settings),
-                           .mark = Mark::both});
-  }
-  plot.caption =
-      "Of a finger that comes with 200 mm/s, 20 and 40 degrees from the normal, with 0.5 mm noise.";
-  result.plots.push_back(std::move(plot));
-}
-
-// The filter's one number: if it is too small, the filter lags when the hand changes its speed; if too large,
-// it passes noise on.
-void filter_part(const BenchContext& context, BenchResult& result) {
-  const std::vector<double> noise{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
-  std::vector<Settings> settings;
-  std::vector<ReachRun> runs;
-  for (const double q : noise) {
-    settings.push_back({fmt::format("rig.tracker.acceleration_noise_m_s2_per_sqrt_hz={}", q)});
-    for (const char* scene : {"wall", "reaching"})
-      runs.push_back(random_reaches(scene, 25, context.seed) + settings.back());
-  }
-  const std::vector<ReachResult> ran = run_all(context, runs);
-  Series random{"random reaches", noise};
-  for (std::size_t i = 0; i < noise.size(); ++i)
-    random.y.push_back(1e3 * percentile(misses(joined({ran[2 * i], ran[2 * i + 1]})), 0.95));
-  random.mark = Mark::both;
-  Plot plot{"reaching_filter",
-            "Miss over the acceleration that the filter thinks possible",
-            "acceleration noise (m/s^2/sqrt(Hz))",
-            "miss, p95 (mm)",
-            true,
-            true};
-  plot.series = {
-      random, {.name = "even 200 mm/s", .x = noise, .y = misses_with(context, settings), .mark = Mark::both}};
-  plot.caption =
-      "An even approach wants a filter that averages long; a hand that slows down before the touch wants one "
-      "that follows soon.";
-  result.plots.push_back(std::move(plot));
-}
-
-struct Steps {
-  std::string integrator;
-  std::vector<double> timestep_us;
-};
-
-// Equal reaches with other steps of the physics: error of the impact against fine steps, over the run time.
-void steps_part(const BenchContext& context, BenchResult& result) {
-  const auto with = [&](const std::string& integrator, double us) {
-    return steady_reaches(0.2, 20.0, kEach, context.seed) + seen(FingerTracking::live) +
-           Settings{fmt::format("truth.arm.integrator=\"{}\"", integrator),
-                    fmt::format("truth.arm.timestep_us={}", us)};
-  };
-  const std::vector<Steps> all{
-      {"euler", {1000, 500, 250, 125}}, {"implicitfast", {1000, 500, 250, 125}}, {"rk4", {1000, 500, 250}}};
-  std::vector<ReachRun> runs{with("rk4", 62.5)};
-  for (const Steps& steps : all)
-    for (const double us : steps.timestep_us) runs.push_back(with(steps.integrator, us));
-  const std::vector<ReachResult> ran = run_all(context, runs);
-  const std::vector<double> reference = impacts(ran[0].reaches);
-  Plot plot{"reaching_steps",
-            "Work and precision of the physics",
-            "run time of a second (ms)",
-            "error of the impact (%)",
-            true,
-            true};
-  std::size_t next = 1;
-  for (const Steps& steps : all) {
-    Series series{steps.integrator};
-    series.mark = Mark::both;
-    for (std::size_t k = 0; k < steps.timestep_us.size(); ++k, ++next) {
-      const std::vector<double> impact = impacts(ran[next].reaches);
-      double sum = 0.0;
-      const std::size_t n = std::min(impact.size(), reference.size());
-      for (std::size_t i = 0; i < n; ++i) sum += std::abs(impact[i] / reference[i] - 1.0);
-      series.add(1e3 * ran[next].seconds / ran[next].simulated, 100.0 * sum / static_cast<double>(n));
-    }
-    plot.series.push_back(std::move(series));
-  }
-  plot.caption =
-      "Mean error of the peak force of a touch at 200 mm/s against rk4 at 62.5 us; steps of 1000, 500, 250 "
-      "(and 125) us from left to right. The haptic loop runs at 1 kHz in all.";
-  result.plots.push_back(std::move(plot));
-}
+// Bounds, chosen below what many seeds give (docs/reference/reaching.md).
+constexpr double kForceStep = 0.5;                       // N in a ms, p95
+constexpr double kForceStepMost = 1.0;                   // N in a ms
+constexpr double kFeltForce = 0.1;                       // N, threshold of a person [sources/hand 6]
+constexpr double kContacts = 2.2, kLiveContacts = 1.25;  // of a reach
+constexpr double kLiveInTime = 95.0;                     // %
+constexpr std::array<double, 2> kInTime{30.0, 80.0};     // %, wall and keypad
 
 // The arm stays at rest while the finger is far away, for every friction and onset.
 
@@ -136,11 +33,12 @@ struct Friction {
 };
 std::vector<Friction> frictions(const BenchContext& context) {
   std::vector<Friction> all;
+  if (context.quick) return {{0.01, 2.0, 1000.0}};
+  if (!context.full) return {{0.0028, 20.0, 1000.0}, {0.02, 2.0, 1000.0}};
   for (const double torque : {0.0028, 0.0056, 0.01, 0.02}) {
     for (const double time : {2.0, 6.0, 20.0}) all.push_back({torque, time, 1000.0});
-    if (context.full) all.push_back({torque, 0.1, 50.0});
+    all.push_back({torque, 0.1, 50.0});
   }
-  if (context.quick) return {all[6]};
   all.push_back({0.0, 20.0, 1000.0});
   return all;
 }
@@ -174,51 +72,90 @@ double percent(const std::vector<ReachOutcome>& reaches, const std::function<boo
 
 const std::array<std::string, 2> kScenes{"wall", "keypad"};
 
-// Reaches for random places of both scenes in turn, by several people at once.
-std::vector<ReachResult> random_runs(const BenchContext& context, FingerTracking how) {
-  // A thousand reaches for the wall by a finger that vision tracks.
-  const int people = context.quick ? 1 : !context.full ? 5 : how == FingerTracking::vision ? 100 : 25;
+// Random reaches, by scene.
+struct RandomReaches {
+  std::array<std::vector<ReachOutcome>, 2> of;
+  double far_speed = 0.0, simulated = 0.0;  // m/s, s
+
+  [[nodiscard]] std::vector<ReachOutcome> all() const {
+    std::vector<ReachOutcome> both = of[0];
+    both.insert(both.end(), of[1].begin(), of[1].end());
+    return both;
+  }
+};
+
+// Number of people who reach in a scene. Most reaches judge the share at the wall, which scatters most.
+std::size_t people_of(const BenchContext& context, FingerTracking how, std::size_t scene) {
+  if (context.full) return how == FingerTracking::vision ? context.count(100, 100) : context.count(25, 25);
+  if (context.quick || how == FingerTracking::live) return 1;
+  return scene == 0 ? context.count(8, 1) : 2;
+}
+
+RandomReaches random_reaches_of(const BenchContext& context, FingerTracking how) {
   const std::int64_t each = context.quick ? 8 : context.full ? 10 : 12;
   std::vector<ReachRun> runs;
-  for (int i = 0; i < people; ++i)
-    for (const std::string& scene : kScenes)
-      runs.push_back(random_reaches(scene, each, context.seed + static_cast<std::uint64_t>(i)) + seen(how));
-  return run_all(context, runs);
+  std::vector<std::size_t> scenes;
+  for (std::size_t scene = 0; scene < kScenes.size(); ++scene)
+    for (std::size_t i = 0; i < people_of(context, how, scene); ++i) {
+      runs.push_back(random_reaches(kScenes[scene], each, context.seed + i) + seen(how));
+      scenes.push_back(scene);
+    }
+  const std::vector<ReachResult> ran = run_all(context, runs);
+  RandomReaches random;
+  for (std::size_t i = 0; i < ran.size(); ++i) {
+    std::vector<ReachOutcome>& of = random.of[scenes[i]];
+    of.insert(of.end(), ran[i].reaches.begin(), ran[i].reaches.end());
+    random.far_speed = std::max(random.far_speed, ran[i].far_speed);
+    random.simulated += ran[i].simulated;
+  }
+  return random;
 }
 
-std::vector<ReachOutcome> of_scene(const std::vector<ReachResult>& ran, std::size_t scene) {
-  std::vector<ReachResult> these;
-  for (std::size_t i = scene; i < ran.size(); i += kScenes.size()) these.push_back(ran[i]);
-  return joined(these);
+// Largest change of the force on the finger in a tick of each reach.
+void force_figures(Bench& bench, const std::vector<ReachOutcome>& all, const std::string& key) {
+  const std::vector<double> steps = force_steps(all);
+  const double most = percentile(steps, 1.0);
+  if (models::has_percentile(steps.size(), 0.95)) {
+    const double p95 = percentile(steps, 0.95);
+    bench.figure(key + "force_step_N.p95", p95, "N", at_most(kForceStep),
+                 fmt::format("largest change of the force on the finger in a ms. A person feels {:g} N "
+                             "[sources/hand 6]: misses by {:.2f} N",
+                             kFeltForce, std::max(0.0, p95 - kFeltForce)));
+  }
+  bench.figure(key + "force_step_N.max", most, "N", at_most(bench.context.full ? kUnset : kForceStepMost),
+               "that of all reaches");
 }
 
-void random_figures(Bench& bench, const std::vector<ReachResult>& ran, FingerTracking how, bool bounded) {
+void random_figures(Bench& bench, const RandomReaches& random, FingerTracking how) {
+  const BenchContext& context = bench.context;
+  const auto if_judged = [&](double bound) { return context.quick ? kUnset : bound; };
   const std::string key = key_of(how);
   const std::string text = name_of(how);
-  const std::vector<ReachOutcome> all = joined(ran);
+  const std::vector<ReachOutcome> all = random.all();
+  const std::vector<ReachOutcome>& keys = random.of[1];
   bench.figure(key + "reaches", static_cast<double>(all.size()), "",
                "random reaches, 0.3 to 0.8 m/s at the peak and 50 to 200 mm/s wanted at the touch; " + text);
   bench.figure(key + "object_percent", percent(all, [](const ReachOutcome& r) { return r.chosen == r.aim; }),
                "%", "of the reaches in which the core has chosen the object that is met, when it is met");
-  bench.figure(key + "felt_percent",
-               percent(of_scene(ran, 1), [](const ReachOutcome& r) { return r.felt == r.aim; }), "%",
-               at_least(bounded ? 99.0 : kUnset),
+  bench.figure(key + "felt_percent", percent(keys, [](const ReachOutcome& r) { return r.felt == r.aim; }),
+               "%", at_least(if_judged(context.full ? 99.0 : 95.0)),
                "of the reaches at the keypad in which the key that is rendered, when the finger has met the "
                "prop, is the one that was meant");
-  const std::vector<ReachOutcome> keys = of_scene(ran, 1);
   const Tail after = tail_of(felts(keys, &ReachOutcome::felt_after), 0.95);
   bench.figure(key + "felt_after_ms." + after.word, 1e3 * after.value, "ms",
                "from where the finger passes the place of the key until a key is felt; the same reaches");
   const Tail depth = tail_of(felts(keys, &ReachOutcome::felt_depth), 0.95);
   bench.figure(key + "felt_depth_mm." + depth.word, 1e3 * depth.value, "mm",
                "how far the finger has gone beyond that place by then");
-  bench.figure(key + "contact_percent",
-               percent(all, [](const ReachOutcome& r) { return r.contacts == 1 && r.touched; }), "%",
-               "of the reaches that are one contact to the core");
+  bench.figure(key + "contacts_per_reach", contacts_per_reach(all), "",
+               at_most(if_judged(how == FingerTracking::live ? kLiveContacts : kContacts)),
+               "contacts that the core counts, over the reaches that met the surface");
+  force_figures(bench, all, key);
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
-    const std::vector<ReachOutcome> these = of_scene(ran, i);
+    const std::vector<ReachOutcome>& these = random.of[i];
+    const double least = how == FingerTracking::live ? kLiveInTime : kInTime[i];
     bench.figure(
-        key + "lead_percent." + kScenes[i], 100.0 * in_time(these), "%",
+        key + "lead_percent." + kScenes[i], 100.0 * in_time(these), "%", at_least(if_judged(least)),
         "of the reaches in which the prop is within 2 mm of where it is met before it is met; " + text);
     const Tail miss = tail_of(misses(these), 0.95);
     bench.figure(key + "random_miss_mm." + kScenes[i] + "." + miss.word, 1e3 * miss.value, "mm",
@@ -234,7 +171,8 @@ struct ReachVerdict {
 
 // The first `most` reaches, judged on all cores.
 std::vector<ReachVerdict> judged_by_ideal(const IdealSpec& spec, double acceleration,
-                                          const std::vector<ReachOutcome>& wall, std::size_t most) {
+                                          const std::vector<ReachOutcome>& wall, std::size_t most,
+                                          bool followed_too) {
   constexpr double kSoon = 0.01;  // s: gives the best ideal predictor
   std::vector<ReachVerdict> all(most);
   in_parallel(most, [&](std::size_t i) {
@@ -242,7 +180,9 @@ std::vector<ReachVerdict> judged_by_ideal(const IdealSpec& spec, double accelera
     if (std::isnan(r.met)) return;
     const IdealPrediction at = ideal_place(spec, r.seen, r.met, r.met);
     const Eigen::Vector2d carried = ideal_carried(spec, r.seen, acceleration);
-    const Eigen::Vector2d followed = ideal_followed(ideal_courses(spec, r.seen), r.met, acceleration, kSoon);
+    const Eigen::Vector2d followed =
+        followed_too ? ideal_followed(ideal_courses(spec, r.seen), r.met, acceleration, kSoon)
+                     : Eigen::Vector2d(kUnset, kUnset);
     const auto there = [&](const Eigen::Vector2d& place) { return (place - r.seen.where).norm() < kThere; };
     all[i] = {true, there(at.place), there(carried), there(followed), at.within};
   });
@@ -278,7 +218,7 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   spec.hand = setup.twin.hand;
   spec.noise = setup.twin.tracker.noise.maxCoeff();
   const std::size_t most = context.quick ? std::min<std::size_t>(wall.size(), 4) : wall.size();
-  const IdealCounts sum = counts_of(judged_by_ideal(spec, acceleration, wall, most), wall);
+  const IdealCounts sum = counts_of(judged_by_ideal(spec, acceleration, wall, most, context.full), wall);
   bench.figure("ideal.place_percent.wall", 100.0 * sum.reached / sum.counts, "%",
                fmt::format("of {:.0f} of these reaches: within 2 mm of where they meet is the best place "
                            "that an ideal predictor knows of by the same pictures, told when the finger "
@@ -290,9 +230,10 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
                fmt::format("the same if an arm carries the prop from picture to picture with {:.0f} m/s^2, "
                            "without any other delay",
                            acceleration));
-  bench.figure("ideal.followed_percent.wall", 100.0 * sum.followed / sum.counts, "%",
-               "the same of a predictor that is not told when it touches: the arm goes after the mean of "
-               "what is still to come; how soon was chosen on other reaches");
+  if (context.full)
+    bench.figure("ideal.followed_percent.wall", 100.0 * sum.followed / sum.counts, "%",
+                 "the same of a predictor that is not told when it touches: the arm goes after the mean of "
+                 "what is still to come; how soon was chosen on other reaches");
   bench.figure("vision.of_ideal_percent.wall", sum.reached > 0.0 ? 100.0 * sum.ours / sum.reached : kUnset,
                "%",
                fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches",
@@ -303,13 +244,13 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
 }
 
 // Distribution of the time in which finger and prop come to where they meet.
-Plot lead_plot(const std::vector<ReachResult>& ran, FingerTracking how) {
+Plot lead_plot(const RandomReaches& random, FingerTracking how) {
   Plot plot{how == FingerTracking::live ? "reaching_lead_live" : "reaching_lead",
             std::string("From \"prepare\" until they meet; the finger is ") + name_of(how), "time (ms)",
             "reaches (%)"};
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
     std::vector<double> lead, travel;
-    for (const ReachOutcome& r : of_scene(ran, i)) {
+    for (const ReachOutcome& r : random.of[i]) {
       lead.push_back(r.lead());
       travel.push_back(r.travel());
     }
@@ -325,26 +266,14 @@ Plot lead_plot(const std::vector<ReachResult>& ran, FingerTracking how) {
 }
 
 void random_part(Bench& bench) {
-  const BenchContext& context = bench.context;
   double far = 0.0;
   for (const FingerTracking how : {FingerTracking::vision, FingerTracking::live}) {
-    const std::vector<ReachResult> ran = random_runs(context, how);
-    for (const ReachResult& one : ran) {
-      far = std::max(far, one.far_speed);
-      bench.result.simulated += one.simulated;
-    }
-    // The bound for vision is a quarter below the measured value, because 60 random reaches scatter.
-    bench.figure(key_of(how) + "lead_percent", 100.0 * in_time(joined(ran)), "%",
-                 at_least(context.quick                 ? kUnset
-                          : how == FingerTracking::live ? 95.0
-                                                        : 50.0),
-                 how == FingerTracking::live
-                     ? "of the reaches in which the machine is within 2 mm of where it is met before it is "
-                       "met: the finger is seen live, so that the machine's travel alone counts"
-                     : "the same of a finger that vision sees at 20 Hz, 50 ms late");
-    random_figures(bench, ran, how, !context.quick);
-    if (how == FingerTracking::vision) add_ideal(bench, of_scene(ran, 0));
-    bench.result.plots.push_back(lead_plot(ran, how));
+    const RandomReaches random = random_reaches_of(bench.context, how);
+    far = std::max(far, random.far_speed);
+    bench.result.simulated += random.simulated;
+    random_figures(bench, random, how);
+    if (how == FingerTracking::vision) add_ideal(bench, random.of[0]);
+    bench.result.plots.push_back(lead_plot(random, how));
   }
   bench.figure("far_speed_mm_s", 1e3 * far, "mm/s", at_most(0.1),
                "of the tip, at most, while the finger is far, from a second after it went away");
@@ -359,14 +288,14 @@ constexpr std::array<double, 3> kTilts{0.0, 20.0, 40.0};  // deg
 
 Speeds steady(const BenchContext& context, BenchResult& result, FingerTracking how) {
   Speeds speeds{{0.05, 0.1, 0.2}, {}};
-  if (!context.quick) speeds.each = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
+  if (context.full) speeds.each = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
   std::vector<ReachRun> runs;
   for (const double v : speeds.each)
     for (const double tilt : kTilts)
       runs.push_back(steady_reaches(v, tilt,
-                                    context.quick  ? 1
-                                    : context.full ? 12
-                                                   : 7,  // reaches for each of three tilts: 21 have a p95
+                                    context.full                                   ? 12
+                                    : context.quick || how == FingerTracking::live ? 1
+                                                                                   : 3,
                                     context.seed) +
                      seen(how));
   const std::vector<ReachResult> ran = run_all(context, runs);
@@ -423,7 +352,7 @@ void speed_part(Bench& bench) {
       miss.series.push_back(
           over_speed(fmt::format("{}, {}", name_of(how), text), speeds, share, 1e3, misses));
     impact.series.push_back(over_speed(fmt::format("{}, median", name_of(how)), speeds, 0.5, 1.0, impacts));
-    bench.figure("impact_N." + key_of(how) + "200.p50", impact.series.back().y[bench.context.quick ? 2 : 3],
+    bench.figure("impact_N." + key_of(how) + "200.p50", impact.series.back().y[bench.context.full ? 3 : 2],
                  "N", fmt::format("at 200 mm/s, {}", name_of(how)));
   }
   miss.caption =
@@ -438,8 +367,8 @@ void speed_part(Bench& bench) {
 
 void slide_part(Bench& bench) {
   const BenchContext& context = bench.context;
-  const std::vector<double> speeds = context.quick ? std::vector<double>{0.03, 0.1, 0.3}
-                                                   : std::vector<double>{0.01, 0.03, 0.06, 0.1, 0.2, 0.3};
+  const std::vector<double> speeds =
+      context.full ? std::vector<double>{0.01, 0.03, 0.06, 0.1, 0.2, 0.3} : std::vector<double>{0.1};
   Plot plot{"reaching_slide",
             "Error while the finger slides along the wall",
             "sliding speed (mm/s)",
@@ -472,14 +401,6 @@ void slide_part(Bench& bench) {
   bench.result.plots.push_back(std::move(plot));
 }
 
-// Run by `--full`: costs and gains of the finger's rate and latency, the filter's noise and the physics'
-// steps.
-void add_reaching_full(const BenchContext& context, BenchResult& result) {
-  vision_part(context, result);
-  filter_part(context, result);
-  steps_part(context, result);
-}
-
 // Reaches for the wall with each friction, by `people` each.
 std::vector<ReachRun> rest_runs(const BenchContext& context, const std::vector<Friction>& all, int people) {
   std::vector<ReachRun> runs;
@@ -502,7 +423,7 @@ void add_far_figures(Bench& bench, const FarTip& tip) {
   bench.figure("rest.far_speed_mm_s", 1e3 * tip.most, "mm/s", at_most(0.1),
                "of the tip, at most, while the finger is far: joints with 0.0028 to 0.02 N m of friction, "
                "which sets in within 2 to 20 ms (--full: from 0.1 ms on)");
-  if (!bench.context.quick)
+  if (bench.context.full)
     bench.figure("rest.without_friction_mm_s", 1e3 * tip.none, "mm/s",
                  "the same of joints without any: nothing holds what the law lets go");
 }
@@ -549,9 +470,11 @@ void run(Bench& bench) {
   bench.progress(context.full ? 0.5 : 0.9);
   slide_part(bench);
   add_rest(bench);
-  if (context.full) add_reaching_full(context, bench.result);
-  add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=40", "user.press_s=0.8",
-                              "user.hold_s=0.2", "user.release_s=0.8"});
+  if (context.full) {
+    add_sweeps(context, bench.result);
+    add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=40", "user.press_s=0.8",
+                                "user.hold_s=0.2", "user.release_s=0.8"});
+  }
   bench.progress(1.0);
 }
 
