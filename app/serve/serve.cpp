@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <exception>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,15 +42,16 @@ class Lines {
   // Unset: the input has ended, or a signal came.
   std::optional<std::string> next() {
     for (;;) {
-      if (const std::size_t end = text_.find('\n'); end != std::string::npos) {
+      const std::size_t end = text_.find('\n');
+      if (std::min(end, text_.size()) > kLongest)
+        throw Error(place(number_ + 1) + ": longer than 1000 characters; " + kExpected);
+      if (end != std::string::npos) {
         std::string line = text_.substr(0, end);
         text_.erase(0, end + 1);
         ++number_;
         if (!line.empty() && line.back() == '\r') line.pop_back();
         return line;
       }
-      if (text_.size() > kLongest)
-        throw Error(place(number_ + 1) + ": longer than 1000 characters; " + kExpected);
       if (!more()) return std::nullopt;
     }
   }
@@ -63,7 +66,11 @@ class Lines {
       std::array<char, 4096> bytes;
       const ssize_t got = ::read(STDIN_FILENO, bytes.data(), bytes.size());
       if (got > 0) text_.append(bytes.data(), static_cast<std::size_t>(got));
-      if (got >= 0 || errno != EINTR) return got > 0;
+      if (got >= 0) return got > 0;
+      if (errno != EINTR && errno != EAGAIN)
+        throw Error(
+            fmt::format("standard input: cannot be read: {}; expected a pipe from the client's program",
+                        std::strerror(errno)));
     }
     return false;
   }
@@ -104,17 +111,21 @@ class Client {
     send(trial::RecordTable::header_with_truth());
     each_ = every_ > 0.0 ? std::max<std::int64_t>(std::llround(every_ * trial.setup().rig.loop.rate), 1) : 1;
   }
+  // A client's mistake, or its death, ends the run, so that the record is sealed and keeps its places.
   void see(const trial::Glance& glance) {
-    // The table sees each tick, because a pose of the tracker stands in the row of its arrival alone.
-    const std::string row = table_->row(glance.tick, glance.in, glance.out);
-    if (glance.tick.index % each_ != 0) return;
-    send(trial::RecordTable::with_truth(row, glance.truth));
-    const std::optional<std::string> line = lines_.next();
-    ended_ = !line;
-    if (line) place_ = place_in(*line, lines_.number());
+    try {
+      if (!ended_) exchange(glance);
+    } catch (const Error&) {
+      failure_ = std::current_exception();
+      ended_ = true;
+    }
   }
   void end() { std::fputs("\n", stdout); }  // the report follows
   [[nodiscard]] bool ended() const { return ended_; }
+  // Throws what ended the run too early.
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
   std::optional<trial::HandWord> take() {
     if (!place_) return std::nullopt;
     trial::HandWord word;
@@ -123,6 +134,15 @@ class Client {
   }
 
  private:
+  void exchange(const trial::Glance& glance) {
+    // The table sees each tick, because a pose of the tracker stands in the row of its arrival alone.
+    const std::string row = table_->row(glance.tick, glance.in, glance.out);
+    if (glance.tick.index % each_ != 0) return;
+    send(trial::RecordTable::with_truth(row, glance.truth));
+    const std::optional<std::string> line = lines_.next();
+    ended_ = !line;
+    if (line) place_ = place_in(*line, lines_.number());
+  }
   static void send(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
       fail_output();
@@ -133,6 +153,7 @@ class Client {
   Lines lines_;
   std::optional<Point<'W'>> place_;
   bool ended_ = false;
+  std::exception_ptr failure_;
 };
 
 void refuse(const models::Setup& setup, const std::string& scene) {
@@ -162,7 +183,9 @@ int serve(const ServeOptions& options) {
   hooks.steer = [&](std::int64_t) { return client.take(); };
   ServeOptions reported = options;
   reported.json = true;
-  return run(reported, &hooks);
+  const int code = run(reported, &hooks);
+  client.check();
+  return code;
 }
 
 }  // namespace enc::app

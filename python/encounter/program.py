@@ -6,7 +6,9 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
 
+TEXT = {"encoding": "utf-8", "errors": "backslashreplace"}  # whatever the locale
 _HERE = pathlib.Path(__file__).resolve().parent
 
 
@@ -37,19 +39,32 @@ def refusal(said, code):
     return Error(said.strip().removeprefix("encounter: ") or f"exit code {code}", code)
 
 
-def call(*words, good=(0,)):
-    """Standard output of the program; Error for an exit code that is not good. Its notes go to our standard error."""
-    done = subprocess.run(
-        [program_file(), *map(str, words)],
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        encoding="utf-8",  # whatever the locale
-        errors="backslashreplace",
-    )
-    if done.returncode not in good:
-        raise refusal(done.stderr, done.returncode)
-    sys.stderr.write(done.stderr)
-    return done.returncode, done.stdout
+def call(*words, good=(0,), progress=None):
+    """Standard output of the program; Error for an exit code that is not good. Its notes go to our standard error at its end,
+    and its lines that are progress, as the function says, at once."""
+    said = ""
+    with tempfile.TemporaryFile("w+", **TEXT) as output:
+        program = subprocess.Popen([program_file(), *map(str, words)], **TEXT,
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.PIPE)
+        with program.stderr:
+            try:
+                for line in program.stderr:
+                    if progress is not None and progress(line):
+                        sys.stderr.write(line)
+                        sys.stderr.flush()
+                    else:
+                        said += line
+            except BaseException:  # such as Ctrl-C
+                program.terminate()
+                raise
+            finally:
+                code = program.wait()
+        output.seek(0)
+        text = output.read()
+    if code not in good:
+        raise refusal(said, code)
+    sys.stderr.write(said)
+    return code, text
 
 
 def value_text(value):

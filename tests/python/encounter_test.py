@@ -2,14 +2,18 @@
 set (cmake/tests.cmake). Needs numpy."""
 import contextlib
 import csv
+import gc
 import importlib.util
 import io
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy
@@ -172,10 +176,18 @@ class Served(InFolder):
             with encounter.serve("tennis_ball") as served:
                 served.step([1, 2, 3])
                 served.step([1, 2])
-        for line in ("nan 0 0", "0 0 1e5", "1 2 3 4", "0 0 0x1", "a", "1,2,3"):
+        for line in ("nan 0 0", "0 0 1e5", "1 2 3 4", "0 0 0x1", "a", "1,2,3", "inf 0 0", "0 1e400 0", "0 0\0 1"):
             done = subprocess.run([PROGRAM, "serve", "tennis_ball"], input=line + "\n", capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
-            self.assertIn("standard input:1: '" + line, done.stderr)
+            self.assertIn("standard input:1: '" + line.replace("\0", "\\x00"), done.stderr)
+        for spaces in (2000, 100000):  # in one piece, and in many
+            done = subprocess.run([PROGRAM, "serve", "tennis_ball"], input=" " * spaces + "\n", capture_output=True, text=True)
+            self.assertIn("standard input:1: longer than 1000 characters", done.stderr)
+        folder = os.open(self.folder, os.O_RDONLY)
+        done = subprocess.run([PROGRAM, "serve", "tennis_ball"], stdin=folder, capture_output=True, text=True)
+        os.close(folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("standard input: cannot be read: Is a directory", done.stderr)
 
     def test_each_end_of_the_client_ends_it(self):
         served = encounter.serve("tennis_ball")
@@ -189,6 +201,93 @@ class Served(InFolder):
         self.assertEqual(silent.wait(10), 128 + 15)
         silent.stdin.close()
         silent.stdout.close()
+
+    # The program is still there at the first step of each: only the pipe says that it is dead.
+    def test_a_program_that_was_killed_is_an_error(self):
+        for go_on in (encounter.Served.step, encounter.Served.close):
+            served = encounter.serve("tennis_ball")
+            served._program.kill()
+            served._program.wait()
+            with self.assertRaisesRegex(encounter.Error, "exit code -9") as death:
+                go_on(served)
+            self.assertEqual(death.exception.code, -9)
+            self.assertEqual((served.step([0, 0, 40]), served.close(), served.row), (None, None, None))
+
+    def expect_hand(self, record, most):
+        said = program("run", "tennis_ball", "--hand", record)
+        self.assertTrue(1 < int(said.rpartition("after")[2].split()[0]) < most, said)
+
+    def test_whatever_ends_a_run_its_record_is_sealed(self):
+        record = self.folder / "r.encrec"
+        begin = lambda: encounter.serve("tennis_ball", record=record, force=True)
+        with self.assertRaises(ZeroDivisionError), begin() as served:
+            served.step([0, 0, 60])
+            1 / 0
+        self.expect_hand(record, 9)
+        self.assertIsNone(served.step())
+        served = begin()
+        served.step([0, 0, 60])
+        ended = served._program
+        del served
+        gc.collect()
+        self.assertEqual(ended.returncode, 128 + 15)
+        self.expect_hand(record, 9)
+        with self.assertRaises(encounter.Error), begin() as served:
+            served.step([0, 0, 60])
+            served.step([0, 0])
+        self.expect_hand(record, 9)
+        dead = subprocess.Popen([PROGRAM, "serve", "tennis_ball", "--record", record, "--force"], text=True,
+                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        for _ in range(4):
+            dead.stdout.readline()
+            dead.stdin.write("0 0 60\n")
+            dead.stdin.flush()
+        dead.stdout.close()
+        with contextlib.suppress(BrokenPipeError):
+            dead.stdin.write("0 0 60\n" * 9)
+            dead.stdin.flush()
+        self.assertIn("standard output: cannot be written: Broken pipe", dead.stderr.read())
+        self.assertEqual(dead.wait(), 2)
+        with contextlib.suppress(BrokenPipeError):
+            dead.stdin.close()
+        dead.stderr.close()
+        self.expect_hand(record, 20)
+
+    def test_a_step_that_is_broken_off_ends_the_run(self):
+        def ring(*_):
+            raise TimeoutError
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, ring))
+        served = encounter.serve("tennis_ball", every_ms=10000)
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(TimeoutError):
+            while served.step():
+                pass
+        self.assertEqual((served.step(), served.row, served.close()), (None, None, None))
+
+    def test_a_forked_child_does_not_hold_the_run(self):
+        served = encounter.serve("tennis_ball")
+        child = os.fork()
+        if child == 0:
+            code = 0 if served.step() is None and served.close() is None else 1
+            time.sleep(20)  # s; is killed
+            os._exit(code)
+        begin = time.monotonic()
+        self.assertIsNotNone(served.step())
+        self.assertTrue(served.close().figures["stopped"])
+        self.assertLess(time.monotonic() - begin, 10)
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+
+    def test_threads_may_step_together(self):
+        served = encounter.serve("tennis_ball")
+        threads = [threading.Thread(target=lambda: [served.step() for _ in range(300)], daemon=True) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(20)
+        self.assertEqual(served.row["time_s"], 0.9)
+        served.close()
 
     def test_the_example_presses_as_hard_as_asked(self):
         place = pathlib.Path(__file__).resolve().parents[2] / "examples/policy.py"
