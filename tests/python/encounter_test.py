@@ -298,6 +298,31 @@ class Served(InFolder):
             self.assertAlmostEqual(policy.press(policy.PressEnv(wanted_N=wanted)), wanted, delta=0.5)
 
 
+class Sweeps(InFolder):
+    def test_progress_is_seen_and_ctrl_c_stops_it(self):
+        class Reader(io.StringIO):
+            def write(self, text):
+                super().write(text)
+                if " of 100000 runs" in text:
+                    raise KeyboardInterrupt
+
+        spec = self.folder / "s.toml"
+        spec.write_text("format = 1\nscene = 'tennis_ball'\nfor_s = 1\ndesign = 'random'\npoints = 100000\n"
+                        "keep = 'contacts'\n[[vary]]\nname = 'object.ball.radius_mm'\nfrom = 30\nto = 33\n")
+        with self.assertRaises(KeyboardInterrupt), contextlib.redirect_stderr(Reader()) as said:
+            encounter.sweep(spec, self.folder / "out")
+        self.assertRegex(said.getvalue(), r"^encounter: \d+ of 100000 runs")
+        status = subprocess.run([PROGRAM, "sweep", spec, "--out", self.folder / "out", "--status"], capture_output=True, text=True)
+        self.assertIn("; stopped\n", status.stdout)
+
+    def test_a_mistake_is_the_programs_line(self):
+        spec = self.folder / "s.toml"
+        spec.write_text("format = 1\n")
+        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaisesRegex(encounter.Error, "s.toml:1:1: "):
+            encounter.sweep(spec, self.folder / "out")
+        self.assertEqual(said.getvalue(), "")
+
+
 class Notebook(InFolder):
     def test_its_cells_run(self):
         book = json.loads((pathlib.Path(__file__).resolve().parents[2] / "python/press.ipynb").read_text())
