@@ -21,6 +21,7 @@ import numpy
 import encounter
 
 PROGRAM = encounter.program_file()
+ALL = bool(os.environ.get("ENCOUNTER_ALL_SEEDS"))  # ./check --full
 DATA = pathlib.Path(__file__).resolve().parents[1] / "data"
 
 
@@ -95,11 +96,13 @@ class Records(InFolder):
                 texts = [str(x) for x in column.tolist()]
             self.assertEqual(texts, [cell.removesuffix(".0") for cell in cells], name)
 
-    def test_columns_equal_the_table_of_each_kind_of_record(self):
-        kinds = {"tennis_ball": 1, "wall": 1.5, "keypad": 0.5, "tracking": 1, "rig_identify": 1, "hit_ball": 0.5}
-        for scene, seconds in kinds.items():
+    def test_columns_equal_the_table_of_each_scene(self):
+        few = {"tennis_ball": 1, "wall": 1.5, "keypad": 0.5, "tracking": 1, "rig_identify": 1, "hit_ball": 0.5}
+        all_scenes = {line.split()[0] for line in program("scenes").splitlines()}
+        self.assertLess(set(few), all_scenes)
+        for scene in sorted(all_scenes) if ALL else few:
             with self.subTest(scene):
-                record = self.press(scene, for_s=seconds).record
+                record = self.press(scene, for_s=few.get(scene, 0.2 if scene.startswith("camera/") else 1.5)).record
                 self.expect_equal(encounter.read(record), program("export", record))
                 self.expect_equal(encounter.read(record, truth=True), program("export", record, "--truth"))
 
