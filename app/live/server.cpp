@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -25,6 +26,13 @@ using Json = nlohmann::json;
 constexpr const char* kProtocol = "foxglove.websocket.v1";
 constexpr std::size_t kMostWaiting = std::size_t{8} << 20U;     // bytes for a client that does not take them
 constexpr std::size_t kLongestRequest = std::size_t{1} << 16U;  // bytes
+
+// The number of a channel or subscription. Throws Error.
+std::uint32_t number_of(const Json& json) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
+    throw Error("expected a whole number of 32 bits, not " + json.dump(-1, ' ', true).substr(0, 100));
+  return json.get<std::uint32_t>();
+}
 
 // Bytes for a client, behind the room that libwebsockets wants in front.
 struct Packet {
@@ -98,11 +106,12 @@ class Server final : public LiveServer {
   }
   void attach(std::string_view, std::string_view, std::string_view) override {}
   void metadata(std::string_view, const std::map<std::string, std::string>&) override {}
-  // Sends what clients still take, for a moment.
+  // Sends what clients still take, for a moment. The rest counts as dropped.
   void close() override {
     constexpr int kTurns = 10'000;
     const auto waits = [](const auto& one) { return !one.second.waiting.empty(); };
     for (int turn = 0; turn < kTurns && std::any_of(clients_.begin(), clients_.end(), waits); ++turn) serve();
+    for (const auto& one : clients_) dropped_ += one.second.waiting.size();
   }
 
  private:
@@ -168,20 +177,21 @@ class Server final : public LiveServer {
       if (what == "subscribe") {
         for (const Json& one : request.at("subscriptions")) subscribe(link, client, one);
       } else if (what == "unsubscribe") {
-        for (const Json& one : request.at("subscriptionIds")) client.channels.erase(one.get<std::uint32_t>());
+        for (const Json& one : request.at("subscriptionIds")) client.channels.erase(number_of(one));
       } else {
         warn(link, client, "'" + what + "' is not supported");
       }
     } catch (const Json::exception&) {
       warn(link, client, "a request that is no subscribe or unsubscribe");
+    } catch (const Error& e) {
+      warn(link, client, e.what());
     }
   }
   void subscribe(lws* link, LiveClient& client, const Json& one) {
-    const auto channel = one.at("channelId").get<std::uint64_t>();
-    const auto id = one.at("id").get<std::uint32_t>();
+    const std::uint32_t channel = number_of(one.at("channelId")), id = number_of(one.at("id"));
     if (channel >= channels_.size())
       warn(link, client, fmt::format("there is no channel {}", channel));
-    else if (client.channels.size() > kMostSubscriptions)
+    else if (client.channels.size() >= kMostSubscriptions)
       warn(link, client, "too many subscriptions");
     else
       add(link, client, id, static_cast<std::uint16_t>(channel));
@@ -197,7 +207,7 @@ class Server final : public LiveServer {
     send(link, client, {{"op", "status"}, {"level", kWarning}, {"message", text}});
   }
 
-  static int callback(lws* link, lws_callback_reasons reason, void*, void* in, std::size_t length) {
+  static int callback(lws* link, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
     auto* const self = static_cast<Server*>(lws_context_user(lws_get_context(link)));
     switch (reason) {
       case LWS_CALLBACK_ESTABLISHED:
@@ -210,8 +220,8 @@ class Server final : public LiveServer {
       case LWS_CALLBACK_CLOSED:
         self->clients_.erase(link);
         break;
-      default:
-        break;
+      default:  // also answers a browser that asks for a page: 404
+        return lws_callback_http_dummy(link, reason, user, in, length);
     }
     return 0;
   }

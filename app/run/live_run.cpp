@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -17,8 +18,12 @@ LiveAddress live_address(const std::string& text) {
   if (colon != std::string::npos) at.address = text.substr(0, colon);
   const std::string_view port = std::string_view(text).substr(colon == std::string::npos ? 0 : colon + 1);
   const auto number = models::number_in<std::uint16_t>(port);
-  if (!number || at.address.empty())
-    throw Error("--live '" + text + "': expected a port from 0 to 65535, or ADDRESS:PORT, such as 8765");
+  // libwebsockets listens at all addresses if it is given one that it cannot use.
+  in_addr ipv4{};
+  if (!number || inet_pton(AF_INET, at.address.c_str(), &ipv4) != 1)
+    throw Error("--live '" + text +
+                "': expected a port from 0 to 65535, or ADDRESS:PORT with an IPv4 address; write, for "
+                "example, 8765 or 0.0.0.0:8765");
   at.port = *number;
   return at;
 }

@@ -57,7 +57,6 @@ struct RunFiles::Record {
       : file(writable(options.record), models::existing(options.force)),
         writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1,
                file.stream()) {
-    file.spare();  // a killed run leaves a readable record
     if (beside) thread.emplace(writer);
   }
   void end(const RecordTexts& texts) {
@@ -106,6 +105,8 @@ void RunFiles::begin(const trial::Trial& trial, trial::WallTime started) {
   if (!options_.record.empty()) record_ = std::make_unique<Record>(options_, texts, trial.scene(), beside);
   if (!options_.mcap.empty()) mcap_ = std::make_unique<Mcap>(options_, texts, trial);
   if (!options_.live.empty()) live_ = std::make_unique<LiveRun>(live_address(options_.live), trial, texts);
+  // Nothing is refused any more; from here on a killed run leaves a readable record.
+  if (record_) record_->file.spare();
 }
 
 void RunFiles::watch(trial::TrialOptions& how) {

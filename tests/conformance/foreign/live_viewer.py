@@ -4,6 +4,7 @@ then "GAPS n", the ticks that /core lacks in between; "stall" subscribes and rea
 and says the answers. The last line is the program's exit code and what it said."""
 import asyncio
 import json
+import socket
 import struct
 import subprocess
 import sys
@@ -12,7 +13,16 @@ sys.path.insert(0, sys.argv[1])
 import websockets
 
 SPOILT = ["", "{", "[]", "null", '{"op": 1}', '{"op": "advertise"}', '{"op": "subscribe", "subscriptions": [{"id": -1}]}',
+          '{"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 0}]}', '{"op": "unsubscribe", "subscriptionIds": [4294967296]}',
+          '{"op": "subscribe", "subscriptions": [{"id": 0, "channelId": 1.5}]}',
           '{"op": "subscribe", "subscriptions": [{"id": 0, "channelId": 99}]}', b"\1\2\3", "\u00e4" * 100]
+
+
+def page(port):
+    """What a browser gets."""
+    with socket.create_connection(("127.0.0.1", port), 10) as browser:
+        browser.sendall(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+        return browser.recv(100).decode().splitlines()[0]
 
 
 async def watch(way, port, program):
@@ -23,6 +33,8 @@ async def watch(way, port, program):
         channels = json.loads(await link.recv())["channels"]
         for channel in channels:
             assert json.loads(channel["schema"])["type"] == "object" and channel["encoding"] == "json", channel
+        if way == "mistakes":
+            print(await asyncio.to_thread(page, port))
         for spoilt in SPOILT if way == "mistakes" else []:
             await link.send(spoilt)
             if isinstance(spoilt, str):

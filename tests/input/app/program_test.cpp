@@ -387,10 +387,18 @@ TEST(Export, ARunWritesTheMcapOfItsRecord) {
 
 // `run --live` refuses what it cannot listen at, before anything is made.
 TEST(Live, RefusesItsAddressInALine) {
-  for (const char* where : {"x", "65536", "-1", ":80", "127.0.0.1:", "127.0.0.1:8765x", "1e3"})
+  // For an address of IPv6 the library would listen at all addresses.
+  for (const char* where : {"x", "65536", "-1", ":80", "127.0.0.1:", "127.0.0.1:8765x", "1e3", "::1:0",
+                            "lo:0", "fe80::1:0", "[::1]:0", "127.1:0", "127.0.0.1 :0"})
     EXPECT_THAT(line({"run", kWall, "--live", where}),
-                HasSubstr("expected a port from 0 to 65535, or ADDRESS:PORT"));
-  EXPECT_THAT(line({"run", kWall, "--live", "192.0.2.1:0"}), HasSubstr("192.0.2.1:0: cannot listen there"));
+                HasSubstr("expected a port from 0 to 65535, or ADDRESS:PORT with an IPv4 address"));
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(line({"run", kWall, "--live", "192.0.2.1:0", "--record", folder.file("r.encrec"), "--mcap",
+                    folder.file("r.mcap")}),
+              HasSubstr("192.0.2.1:0: cannot listen there"));
+  EXPECT_THAT(line({"run", kWall, "--record", folder.file("r"), "--mcap", folder.file("r")}),
+              HasSubstr("another run is writing it"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 // `plot` draws each record, and refuses in one line.
