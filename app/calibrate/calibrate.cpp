@@ -92,7 +92,8 @@ void add_camera(CLI::App& calibrate, CameraOptions& options, int& code) {
   command->add_flag(
       "--through-images", options.through_images,
       "rig only: find a ball at the tip in images of the twin's camera; default: the camera measures points");
-  command->add_option("--out", options.out, "rig only: CSV file to write, with the points")->check(unnamed);
+  command->add_option("--out", options.out, "rig only: CSV file to write, with the points")
+      ->check(bad_output);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] {
@@ -141,7 +142,7 @@ void add_rig(CLI::App& calibrate, RigOptions& options, int& code) {
   command->add_option("--set", options.set, "override, as for run");
   device_options(command, options);
   command->add_option("--out", options.out, "TOML to write, which the rig's [calibration] reads")
-      ->check(unnamed);
+      ->check(bad_output);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] { code = run_rig(options); });
@@ -154,8 +155,8 @@ void add_stereo(CLI::App& calibrate, StereoOptions& options, int& code) {
   command->add_option("folder", options.folder, "folder with left01.png, right01.png, ...")->required();
   command->add_option("--square-mm", options.square_mm, "side of the board's squares, as measured");
   command->add_option("--corners", options.corners, "inner corners of the board")->capture_default_str();
-  command->add_option("--picture", options.picture, "PNG of rectified pairs to write")->check(unnamed);
-  command->add_option("--out", options.out, "TOML to write, which a rig's [camera] reads")->check(unnamed);
+  command->add_option("--picture", options.picture, "PNG of rectified pairs to write")->check(bad_output);
+  command->add_option("--out", options.out, "TOML to write, which a rig's [camera] reads")->check(bad_output);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] {
@@ -175,7 +176,7 @@ void add_skin(CLI::App& calibrate, SkinOptions& options, int& code) {
       ->required()
       ->check(unnamed);
   command->add_option("--out", options.out, "TOML to write, with the lines for a rig's [vision]")
-      ->check(unnamed);
+      ->check(bad_output);
   force_option(command, options.force);
   json_option(command, options.json);
   command->callback([&] {

@@ -33,14 +33,14 @@ namespace {
 void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* record) {
   CLI::Option* shot =
       command->add_option("--shot", options.shot, "write a picture to this PNG file and open no window")
-          ->check(unnamed)
+          ->check(bad_output)
           ->excludes(record);
   CLI::Option* video =
       command
           ->add_option("--video", options.video,
                        "write a film to this file and open no window: .mp4, .webm, .gif, .mkv or .mov with "
                        "ffmpeg; without an ending, or without ffmpeg, a folder of PNGs")
-          ->check(unnamed)
+          ->check(bad_output)
           ->excludes(record)
           ->excludes(shot);
   command
@@ -72,7 +72,7 @@ CLI::App* add_view(CLI::App& app, ViewOptions& options) {
       command
           ->add_option("--record", options.record,
                        "write inputs and outputs of every tick, and the hand, to this file (window only)")
-          ->check(unnamed);
+          ->check(bad_output);
   drawing_options(command, options, record);
   device_options(command, options);
   force_option(command, options.force);
@@ -83,7 +83,7 @@ CLI::App* add_tour(CLI::App& app, TourOptions& options) {
   CLI::App* command =
       add_command(app, "tour", "Make a film of each shipped scene, from a second before its first touch.",
                   "tour --out films");
-  command->add_option("--out", options.out, "folder for the films")->check(unnamed)->capture_default_str();
+  command->add_option("--out", options.out, "folder for the films")->check(bad_output)->capture_default_str();
   command->add_option("--for-s", options.seconds, "length of each film, s of experiment")
       ->capture_default_str();
   force_option(command, options.force);
@@ -114,11 +114,11 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
                       "length of the run, s; default: until the simulated user or the probe is done, or 10 s "
                       "if all devices are real");
   command->add_option("--record", options.record, "write inputs and outputs of every tick to this file")
-      ->check(unnamed);
+      ->check(bad_output);
   command
       ->add_option("--mcap", options.mcap,
                    "write the run to this MCAP file, for Foxglove (not with real devices)")
-      ->check(unnamed);
+      ->check(bad_output);
   command
       ->add_option("--live", options.live,
                    "let viewers such as Foxglove watch the run at this port, or ADDRESS:PORT for other "
@@ -127,7 +127,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   command
       ->add_option("--frames", options.frames,
                    "write the images of the scene's camera to this new folder (PNG)")
-      ->check(unnamed);
+      ->check(bad_output);
   command
       ->add_option("--hand", options.hand, "repeat the hand's motion from this record of `view`, to its end")
       ->check(unnamed);
@@ -151,7 +151,7 @@ CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   command
       ->add_option("--record", options.record,
                    "write inputs and outputs of every tick, and the hand, to this file")
-      ->check(unnamed);
+      ->check(bad_output);
   force_option(command, options.force);
   return command;
 }
@@ -165,7 +165,7 @@ CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
                    "file with scene, parameters, seeds and measures (docs/guide/sweep.md)")
       ->required();
   command->add_option("--out", options.out, "folder for the results; default: the spec's name with _sweep")
-      ->check(unnamed);
+      ->check(bad_output);
   CLI::Option* shard = command->add_option(
       "--shard", options.shard,
       "do a part: I/N, such as 0/7 to 6/7; auto or auto/N: as Slurm array, MPI launcher, HTCondor or GNU "
@@ -266,7 +266,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->check(unnamed);
   CLI::Option* mcap =
       command->add_option("--mcap", options.mcap, "MCAP file to write, for Foxglove (record only)")
-          ->check(unnamed);
+          ->check(bad_output);
   command
       ->add_flag("--ros2", options.ros2, "messages of ROS 2, for ros2 bag and PlotJuggler, instead of JSON")
       ->needs(mcap);
@@ -312,7 +312,7 @@ CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
   command
       ->add_option("--out", options.out,
                    "folder for report.html, REPORT.md, results.json, pictures and tables")
-      ->check(unnamed);
+      ->check(bad_output);
   command->add_option("--seed", options.seed, "first seed")->capture_default_str()->check(bad_seed);
   command->add_option("--repeats", options.repeats, "seeds per row; default: the benchmark's own")
       ->check(CLI::Range(1, 1'000'000));
@@ -342,7 +342,7 @@ CLI::App* add_fit(CLI::App& app, FitOptions& options) {
                   "fit loop.csv --out models/responses/foam.toml");
   command->add_option("loop", options.loops, "CSV with time_s, deflection_mm, force_N, repeat")->required();
   command->add_option("--out", options.out, "response file to write, models/responses/NAME.toml")
-      ->check(unnamed);
+      ->check(bad_output);
   command->add_option("--limit-mm", options.limit_mm, "deflection up to which the response is valid")
       ->capture_default_str();
   command->add_option("--rig", options.rig, "rig that will render the response; sets the minimum stiffness")
@@ -376,7 +376,7 @@ CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
   CLI::App* command = add_command(app, "mesh", "Write a closed example mesh (.glb, .obj or .stl).",
                                   "mesh ball --fine 71 --out ball.glb");
   command->add_option("name", options.name, "ball, cube, hare, knot or turned_part")->required();
-  command->add_option("--out", options.out, "file to write")->required()->check(unnamed);
+  command->add_option("--out", options.out, "file to write")->required()->check(bad_output);
   command->add_option("--fine", options.fine, "fineness n, 3 to 400; a ball has 20 n^2 triangles");
   force_option(command, options.force);
   return command;
@@ -389,11 +389,12 @@ CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
                   "questionnaire vhmr_2020 --store answers.csv");
   command->add_option("form", options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
-  command->add_option("--store", options.store, "CSV file to which the answers are appended")->check(unnamed);
+  command->add_option("--store", options.store, "CSV file to which the answers are appended")
+      ->check(bad_output);
   command->add_option("--answers", options.answers, "CSV file with answers of many people, instead of asking")
       ->check(unnamed);
   command->add_option("--participant", options.participant, "number or code; default: the next number");
-  command->add_option("--out", options.out, "folder for picture and tables")->check(unnamed);
+  command->add_option("--out", options.out, "folder for picture and tables")->check(bad_output);
   command
       ->add_option("--results", options.results,
                    "results.json of a bench run: shows its figures beside the items")

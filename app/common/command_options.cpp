@@ -18,6 +18,10 @@ std::string unnamed(const std::string& text) {
   return text.empty() ? "expected a name, and this one is empty" : std::string();
 }
 
+std::string bad_output(const std::string& text) {
+  return text == "-" ? "'-' is no name of a file; expected one; choose one" : unnamed(text);
+}
+
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& sentence,
                       const std::string& example) {
   CLI::App* command = parent.add_subcommand(name, sentence);

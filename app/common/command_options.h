@@ -12,6 +12,9 @@ namespace enc::app {
 // Checks for CLI11: return the problem, or an empty text.
 std::string bad_seed(const std::string& text);
 std::string unnamed(const std::string& text);
+// Of a file or folder to write. "-" is refused: it would be a file of that name, while the report goes to
+// standard output.
+std::string bad_output(const std::string& text);
 
 // A subcommand whose help begins with a sentence and ends with an example, "run tennis_ball".
 CLI::App* add_command(CLI::App& parent, const std::string& name, const std::string& sentence,

@@ -52,9 +52,6 @@ void refuse_others(const ExportOptions& options) {
     refuse(!options.csv.empty(), "--csv", "a table, and --mcap is given", kAlone);
     refuse(options.ledger, "--ledger", "a table, and --mcap is given, which has the ledger, too", kAlone);
     refuse(options.truth, "--truth", "a table, and --mcap is given", kAlone);
-    if (options.mcap == "-")
-      throw Error(
-          "--mcap -: MCAP is not written to standard output; expected a file; name one, such as r.mcap");
     return;
   }
   constexpr const char* kInstead = "a scene and the file that its world is written to";

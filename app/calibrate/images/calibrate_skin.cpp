@@ -285,7 +285,6 @@ std::string skin_toml(const SkinStudy& study) {
 }  // namespace
 
 int calibrate_skin(const SkinOptions& options) {
-  refuse_dash("--out", options.out);
   const std::vector<HandFiles> files = list_hands(options.folder, options.masks);
   std::optional<models::OutFile> file;  // refused before the work
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));

@@ -505,8 +505,6 @@ fs::path whole(const fs::path& path) {
 }
 
 void refuse_names(const StereoOptions& options) {
-  refuse_dash("--out", options.out);
-  refuse_dash("--picture", options.picture);
   if (options.picture.empty()) return;
   const fs::path picture = whole(options.picture);
   if (!options.out.empty() && whole(options.out) == picture)

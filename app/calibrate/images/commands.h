@@ -14,7 +14,4 @@ int calibrate_skin(const SkinOptions& options);
 // `calibrate`.
 [[nodiscard]] std::string made_by(const std::string& command);
 
-// Throws Error for "-": the report goes to standard output, so a file needs a name.
-void refuse_dash(const std::string& option, const std::string& name);
-
 }  // namespace enc::app

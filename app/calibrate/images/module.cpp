@@ -6,7 +6,6 @@
 
 #include "app/calibrate/images/calibration_module.h"
 #include "app/calibrate/images/commands.h"
-#include "core/base/error.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -20,10 +19,6 @@ std::string made_by(const std::string& command) {
   return models::printable(
              fmt::format("# Encounter {}: ./encounter calibrate {}", ENCOUNTER_VERSION, command)) +
          "\n";
-}
-
-void refuse_dash(const std::string& option, const std::string& name) {
-  if (name == "-") throw Error(fmt::format("{}: '-' is no name of a file; expected one; choose one", option));
 }
 
 }  // namespace enc::app

@@ -331,8 +331,6 @@ TEST(Export, WhatIsOfTheOtherIsRefused) {
 TEST(Export, McapIsAFileOfItsOwn) {
   const test::TemporaryFolder folder;
   const std::string mcap = folder.file("r.mcap"), csv = folder.file("t.csv");
-  EXPECT_THAT(line({"export", kRecord, "--mcap", "-"}),
-              AllOf(StartsWith("encounter: --mcap -: "), HasSubstr("expected a file; name one")));
   EXPECT_THAT(line({"export", kRecord, "--mcap", ""}), AllOf(HasSubstr("--mcap"), HasSubstr("empty")));
   EXPECT_THAT(line({"export", kRecord, "--mcap"}), HasSubstr("--mcap"));
   EXPECT_THAT(line({"export", kRecord, "--mcap", mcap, "--csv", csv}), HasSubstr("--csv: only of a table"));
@@ -399,6 +397,36 @@ TEST(Live, RefusesItsAddressInALine) {
   EXPECT_THAT(line({"run", kWall, "--record", folder.file("r"), "--mcap", folder.file("r")}),
               HasSubstr("another run is writing it"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// "-" is standard output where an option says so, and never the name of a file.
+TEST(Output, ADashIsNoFile) {
+  const test::TemporaryFolder folder;
+  const std::string spec = folder.file("s.toml"), images = folder.file("images");
+  const std::vector<std::vector<std::string>> commands{{"run", kWall, "--record"},
+                                                       {"run", kWall, "--mcap"},
+                                                       {"run", kWall, "--frames"},
+                                                       {"serve", kWall, "--record"},
+                                                       {"view", kWall, "--record"},
+                                                       {"view", kWall, "--shot"},
+                                                       {"view", kWall, "--video"},
+                                                       {"tour", "--out"},
+                                                       {"sweep", spec, "--out"},
+                                                       {"export", kRecord, "--mcap"},
+                                                       {"bench", "ball", "--out"},
+                                                       {"fit", "loop.csv", "--out"},
+                                                       {"mesh", "ball", "--out"},
+                                                       {"questionnaire", "--store"},
+                                                       {"questionnaire", "--out"},
+                                                       {"calibrate", "rig", "sim", "--out"},
+                                                       {"calibrate", "stereo", images, "--picture"}};
+  for (std::vector<std::string> words : commands) {
+    words.emplace_back("-");
+    EXPECT_THAT(line(words), HasSubstr(words[words.size() - 2] + ": '-' is no name of a file")) << words[0];
+  }
+  EXPECT_THAT(line({"export", kWall, "-"}), HasSubstr("a world is not written to standard output"));
+  EXPECT_FALSE(std::filesystem::exists("-"));
+  EXPECT_FALSE(std::filesystem::exists("-.part"));
 }
 
 // `plot` draws each record, and refuses in one line.
