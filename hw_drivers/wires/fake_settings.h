@@ -15,13 +15,14 @@ namespace enc::wires {
 inline std::vector<std::string> free_ports() {
   std::vector<std::string> set;
   const net::Socket machine = net::listen_tcp("127.0.0.1", 0), page = net::listen_tcp("127.0.0.1", 0),
-                    commands = net::listen_tcp("127.0.0.1", 0);
+                    commands = net::listen_tcp("127.0.0.1", 0), coupler = net::listen_tcp("127.0.0.1", 0);
   const net::Socket records = net::bind_udp("127.0.0.1", 0), tools = net::bind_udp("127.0.0.1", 0);
   for (const auto& [key, port] : {std::pair{"gcs.port", machine.port()},
                                   {"netft.http_port", page.port()},
                                   {"netft.command_port", commands.port()},
                                   {"netft.port", records.port()},
-                                  {"igtl.port", tools.port()}})
+                                  {"igtl.port", tools.port()},
+                                  {"gripper.port", coupler.port()}})
     set.push_back("rig.driver." + std::string(key) + "=" + std::to_string(port));
   return set;
 }

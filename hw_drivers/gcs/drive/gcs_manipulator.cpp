@@ -14,6 +14,7 @@
 #include "hw_drivers/gcs/wire/error_text.h"
 #include "hw_drivers/gcs/wire/text.h"
 #include "hw_drivers/net/clocks.h"
+#include "hw_drivers/net/lockstep.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/net/thread_priority.h"
 
@@ -276,6 +277,7 @@ std::unique_ptr<Manipulator> connected(const Offer& offer) {
   constexpr Duration kConnect{2'000'000'000};
   GcsSettings settings;
   settings.declare(offer.table);
+  settings.timeout = net::longest_wait(settings.timeout, offer.lockstep);
   net::Socket socket = net::connect_tcp(settings.address, static_cast<std::uint16_t>(settings.port), kConnect,
                                         from_seconds(settings.timeout));
   auto link = std::make_unique<NetLink>(std::move(socket));

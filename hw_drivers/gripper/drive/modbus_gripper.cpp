@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "hw_drivers/net/clocks.h"
+#include "hw_drivers/net/lockstep.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::gripper {
@@ -129,6 +130,7 @@ std::vector<std::string> ModbusGripper::remarks() const {
 std::unique_ptr<Gripper> connected(const Offer& offer) {
   GripperSettings settings;
   settings.declare(offer.table);
+  settings.timeout = net::longest_wait(settings.timeout, offer.lockstep);
   return std::make_unique<ModbusGripper>(offer, settings);
 }
 

@@ -444,14 +444,18 @@ TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
 }
 
 // The wires add only rounding in lockstep. Table 1 equals the twin's; a stiffness differs by at most two
-// steps of the machine (3 um) in the 3 mm that 30 N press 10 N/mm in.
+// steps of the machine (3 um) in the 3 mm that 30 N press 10 N/mm in. The gripper is simulated: its driver
+// rests before it closes, which delays the travel by 21 ms.
 TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   const test::TemporaryFolder folder;
-  const Words ports = enc::wires::free_ports();
+  Words ports = enc::wires::free_ports();
+  std::erase_if(ports, [](const std::string& one) { return one.find("gripper") != std::string::npos; });
+  Words set = enc::wires::tight_times(ports);
+  set.emplace_back("rig.gripper.driver=sim");
   const tests::Result r =
       tests::run_program(bench_words({"tracking", "stiffness", "--rig", "fakes", "--armed", "--lockstep",
                                       "--fakes", "--quick", "--out", folder.file("out")},
-                                     enc::wires::tight_times(ports)),
+                                     set),
                          {}, 300);
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   EXPECT_THAT(r.out, AllOf(ContainsRegex("stiffness.rig.load.10.percent +absent"),
