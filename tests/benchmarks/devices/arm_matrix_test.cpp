@@ -119,15 +119,16 @@ models::Setup pressed_wall(double watchdog_ms) {
 }
 
 struct ArmRun {
-  ArmRun(Vendor vendor, const ArmFault& one, std::uint64_t seed)
+  ArmRun(Vendor vendor, const ArmFault& one, std::uint64_t seed, bool falsely = false)
       : fault(one),
         setup(pressed_wall(one.process && vendor == Vendor::phantom ? 5.0 : 200.0)),
         line(vendor, setup.rig, one.process ? 0.005 : 0.031),
         random(seed) {
     options.seed = seed;
     options.fit_out = [this](Rig& rig) { line.fit_out(rig); };
-    options.disturb = [this](Inputs& in) {
+    options.disturb = [this, falsely](Inputs& in) {
       if (blinded) in.tool.health = Health::fault;
+      if (falsely) report.give(counts, fault.limits.end, trial->now().t, in.arm, in.missed);
     };
     trial = std::make_unique<trial::Trial>(setup, options);
     line.exerts = [this] { return trial->world().arm->state().torque != PerJoint{}; };
@@ -182,6 +183,7 @@ struct ArmRun {
   trial::TrialOptions options;
   std::unique_ptr<trial::Trial> trial;
   Reaction of;
+  FalseReport<ArmSample> report;
   int ticks = 0;
   bool counts = false, blinded = false, goes_on = false;
 };
@@ -199,10 +201,26 @@ void expect_cells(Vendor vendor, const std::vector<ArmFault>& own) {
       }
 }
 
+void expect_red(Vendor vendor, const std::vector<ArmFault>& own) {
+  std::uint64_t seed = 0;
+  for (const std::vector<ArmFault>* all : {&kOfBoth, &own})
+    for (const ArmFault& fault : *all) {
+      const std::string wrong =
+          wrong_with(fault.limits, Mode::contact, ArmRun(vendor, fault, ++seed, true).react(Mode::contact));
+      EXPECT_NE(wrong, "") << fault.name;
+      testing::Test::RecordProperty(fault.name, wrong);
+    }
+}
+
 TEST(ArmMatrix, EachFaultOfAPhantomEndsAsStated) { expect_cells(Vendor::phantom, kOfPhantom); }
 
 TEST(ArmMatrix, EachFaultOfAForceDimensionEndsAsStated) {
   expect_cells(Vendor::forcedimension, kOfForceDimension);
+}
+
+TEST(ArmMatrixLong, EachRowFailsForAFalseReport) {
+  expect_red(Vendor::phantom, kOfPhantom);
+  expect_red(Vendor::forcedimension, kOfForceDimension);
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ struct CameraCell {
   const CameraFault* fault = nullptr;
   Mode mode = Mode::away;
   std::uint64_t seed = 1;
+  bool falsely = false;  // the core gets a false report
   Reaction of{};
   bool resumes = false;      // after the operator resumed it
   double worst_stamp = 0.0;  // s
@@ -56,6 +57,7 @@ class CameraRun {
     options_.fit_out = [this](Rig& rig) { line_.fit_out(rig); };
     options_.disturb = [this](Inputs& in) {
       if (stopped_) in.arm.health = Health::fault;
+      if (cell_.falsely) report_.give(faulty_, cell_.fault->limits.end, trial_->now().t, in.tool, in.missed);
     };
     trial_ = std::make_unique<trial::Trial>(
         models::load(tests::source_dir() + "/models/scenes/wall.toml", "vishap",
@@ -72,9 +74,10 @@ class CameraRun {
     for (int i = 0; stopped_ && i < 20; ++i) trial_->tick();
     cell_.of.in = trial_->outputs().mode;
     line_.suffer(cell_.fault->fault);
+    faulty_ = true;
     for (int i = 1; i <= 700; ++i) watch(i);
     cell_.of.zero = 0.0;
-    stopped_ = false;
+    stopped_ = faulty_ = false;
     line_.suffer(Fault::none);
     for (int i = 0; i < 200; ++i) {
       trial_->tick();
@@ -99,7 +102,8 @@ class CameraRun {
   CameraLine line_;
   trial::TrialOptions options_;
   std::unique_ptr<trial::Trial> trial_;
-  bool stopped_ = false;
+  FalseReport<TrackedTool> report_;
+  bool stopped_ = false, faulty_ = false;
 };
 
 TEST(CameraMatrix, EachFaultEndsAsStated) {
@@ -115,6 +119,17 @@ TEST(CameraMatrix, EachFaultEndsAsStated) {
     EXPECT_TRUE(cell.resumes) << name;
     EXPECT_LE(cell.worst_stamp, 1e-3) << name;
     testing::Test::RecordProperty(name, fmt::format("hold {} ms", cell.of.hold));
+  }
+}
+
+TEST(CameraMatrixLong, EachRowFailsForAFalseReport) {
+  std::vector<CameraCell> cells;
+  for (const CameraFault& fault : kCameraFaults) cells.push_back({&fault, Mode::contact, 1, true});
+  in_parallel(cells.size(), [&](std::size_t i) { CameraRun(cells[i]).react(); });
+  for (const CameraCell& cell : cells) {
+    const std::string wrong = wrong_with(cell.fault->limits, cell.mode, cell.of);
+    EXPECT_NE(wrong, "") << cell.fault->name;
+    testing::Test::RecordProperty(cell.fault->name, wrong);
   }
 }
 
