@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kMostClock = std::int64_t{1} << 52;  // us, 140 years
 constexpr std::int64_t kOldest = 1'000'000;                 // us: no frame is on its way for so long
-constexpr std::int64_t kRestart = 1000;                     // frames back: the service began anew
+constexpr std::uint64_t kRestart = 1000;                    // frames on: the service began anew
 
 // Ends a service. One whose thread hangs in the library is kept for good, because that thread still uses it.
 void end(std::unique_ptr<Service> service) {
@@ -85,8 +85,9 @@ bool LeapTracker::poll(Time now, Measurement<HandSample>& newest) noexcept {
 
 bool LeapTracker::evaluate(const Frame& frame, Time now, Measurement<HandSample>& newest) noexcept {
   ++counts_.frames;
-  if (any_ && frame.number > number_ + 1 && frame.number < number_ + kRestart)
-    counts_.missing += frame.number - number_ - 1;
+  // The numbers may be anything, and their difference wraps.
+  const std::uint64_t on = static_cast<std::uint64_t>(frame.number) - static_cast<std::uint64_t>(number_);
+  if (any_ && on > 1 && on < kRestart) counts_.missing += static_cast<std::int64_t>(on - 1);
   any_ = true;
   number_ = frame.number;
   Time exposed;
