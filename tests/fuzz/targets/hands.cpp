@@ -1,10 +1,12 @@
-// The driver's input from a headset that streams hands: lines in any pieces.
+// Hands: lines of a headset in any pieces, and structures of LeapC.
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "hw_drivers/hand/drive/reception.h"
 #include "hw_drivers/hand/fake/server.h"
 #include "hw_drivers/hand/wire/line.h"
+#include "hw_drivers/leap/wire/hand_of.h"
 #include "tests/fuzz/machine/fuzzing.h"
 
 namespace enc::fuzz {
@@ -65,7 +67,33 @@ Target lines() {
   return target;
 }
 
+// Bytes of a library's hand. What is taken is a hand, and the same once it was written.
+Target leap_hand() {
+  Target target;
+  const auto bytes = [](const leap::leapc::Hand& hand) {
+    return std::string(reinterpret_cast<const char*>(&hand), sizeof(hand));
+  };
+  target.seeds = {bytes(leap::said_of(any_hand())), bytes({})};
+  target.tokens = {std::string("\0\0\xc0\x7f", 4), std::string("\0\0\x80\x7f", 4), std::string("\1\0\0\0", 4),
+                   std::string("\0\0\x80\xbf", 4), std::string("\xff\xff\x7f\x7f", 4)};
+  target.run = [](const std::string& input) {
+    leap::leapc::Hand said;
+    std::memcpy(&said, input.data(), std::min(input.size(), sizeof(said)));
+    HandSample hand, again;
+    if (!leap::hand_of(said, hand)) return false;
+    expect(hand.wrist.valid() && hand.skin >= 0.0, "what was taken is no hand");
+    for (const Point<'L'>& joint : hand.joints) expect(joint.finite(), "a joint is no number");
+    expect(leap::hand_of(leap::said_of(hand), again), "what is written of it is no hand");
+    constexpr double kRounding = 1e-5;  // m, of single precision at 100 m
+    for (std::size_t i = 0; i < kHandJoints; ++i)
+      expect((again.joints[i] - hand.joints[i]).norm() < kRounding, "a joint moves when it is written");
+    return true;
+  };
+  return target;
+}
+
 const Offer kLines("hand_lines", &lines);
+const Offer kLeapHand("leap_hand", &leap_hand);
 
 }  // namespace
 }  // namespace enc::fuzz
