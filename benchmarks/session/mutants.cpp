@@ -17,7 +17,8 @@ const Mutants kMutants{
       .set = {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01",
               "truth.hexapod.misplaced_mm=[0,0,2]", "truth.hexapod.step_um=50",
               "truth.tracker.latency_ms=100", "truth.tracker.bias_mm=[0,0,-6]"},
-      .kills = {"presses.one_contact_percent", "aborted.contacts", "limit.over_mm", "tool_change.*.max"}}}};
+      .kills = {"presses.one_contact_percent", "aborted.contacts", "limit.over_mm", "tool_change.*.max"},
+      .form = Form::usual}}};
 
 }  // namespace
 }  // namespace enc::bench::session
