@@ -391,6 +391,8 @@ std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>
                                BenchResult& result) {
   const std::vector<std::vector<IndentRun>> runs = study.all(kAccuracy, study.runs);
   const std::vector<Cell> cells = cells_of(runs, Reading::recorded);
+  // N: the twin misses the cell of the paper that contradicts the paper's own MAE and bias.
+  constexpr double kLeastInconsistent = 0.107, kMostInconsistent = 0.135;
   std::string words;
   for (const std::string& word : kAccuracy) words += " --set " + word;
   for (std::size_t i = 0; i < kCells; ++i) {
@@ -400,8 +402,8 @@ std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>
              cells[i].rmse,
              "N",
              paper.consistent ? Role::calibrated : Role::predicted,
-             kUnset,
-             paper.consistent ? paper.rmse : kUnset,
+             paper.consistent ? kUnset : kLeastInconsistent,
+             paper.consistent ? paper.rmse : kMostInconsistent,
              "with" + words};
     f.least = cells[i].least;
     f.most = cells[i].most;
