@@ -18,13 +18,19 @@ namespace {
 // Error of the wall's curve over run time, integrators by time steps, against RK4 at 31.25 us.
 
 // A quick press by a hand without tremor, so that each depth has one force.
-PressTrace pressed(const BenchContext& context, const std::string& integrator, double step_us) {
-  return press_trace(
-      context, "wall",
-      live({"user.approach_mm_s=[100]", "user.approach_from_mm=40", "user.press_s=0.8", "user.hold_s=0.1",
-            "user.release_s=0.2", "truth.hand.tremor_mm=0", "truth.hand.drift_mm=0",
-            "truth.arm.integrator=\"" + integrator + "\"", fmt::format("truth.arm.timestep_us={}", step_us)}),
-      2.0);
+PressTrace pressed(const BenchContext& context, const std::string& integrator, double step_us,
+                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set{"user.approach_mm_s=[100]",
+                               "user.approach_from_mm=40",
+                               "user.press_s=0.8",
+                               "user.hold_s=0.1",
+                               "user.release_s=0.2",
+                               "truth.hand.tremor_mm=0",
+                               "truth.hand.drift_mm=0",
+                               "truth.arm.integrator=\"" + integrator + "\"",
+                               fmt::format("truth.arm.timestep_us={}", step_us)};
+  set.insert(set.end(), more.begin(), more.end());
+  return press_trace(context, "wall", live(std::move(set)), 2.0);
 }
 
 // Root of the mean square of the force's difference at equal depths, N.
@@ -340,9 +346,9 @@ void measure_step(const BenchContext& context, const Report& report) {
 
 // Error over run time. Runs alone on one core, because it measures time.
 void measure_precision(const BenchContext& context, const Report& report) {
-  const bool coarse = context.mutated("coarse_reference");
-  const Curve reference = coarse ? sampled(pressed(context, "euler", 1000.0))
-                                 : sampled(pressed(context, "rk4", context.full ? 31.25 : 125.0));
+  std::vector<std::string> other;
+  if (context.mutated("stiffer_reference")) other = {"behaviour.phantom_wall.stiffness_N_per_mm=0.606"};
+  const Curve reference = sampled(pressed(context, "rk4", context.full ? 31.25 : 125.0, other));
   Plot plot{"plane_button_precision",
             "Error of the wall's curve over run time",
             "run time (us a tick)",
@@ -368,7 +374,7 @@ void measure_precision(const BenchContext& context, const Report& report) {
       table.rows.push_back({integrator, fmt::format("{:g}", step), fixed(1e3 * error, 2), fixed(time, 1)});
       if (integrator == "rk4" && step == 1000.0)
         report.figure("precision.default", 1e3 * error, "mN", "rms error of the default, RK4 at 1 ms", 0.0,
-                      50.0);
+                      15.0);
     }
     plot.series.push_back(std::move(series));
   }
