@@ -310,8 +310,8 @@ TEST(Fakes, DevicesSaysWhatAnswersAndHowOften) {
 // late samples, because fakes share the processor with the run.
 TEST(Fakes, TheirRigIsTheSimulatedOne) {
   const auto text = [](models::Setup setup) {
-    for (std::string* driver :
-         {&setup.rig.manipulator.driver, &setup.rig.force.driver, &setup.rig.tracker.driver})
+    for (std::string* driver : {&setup.rig.manipulator.driver, &setup.rig.force.driver,
+                                &setup.rig.tracker.driver, &setup.rig.gripper.driver})
       *driver = "sim";
     setup.rig.drivers.clear();
     setup.rig.title.clear();
