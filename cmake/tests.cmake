@@ -69,7 +69,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
   elseif(kind MATCHES "unit|input")
     list(FILTER sources EXCLUDE REGEX "${slow}")
   endif()
-  list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
+  list(FILTER sources EXCLUDE REGEX "fuzz/coverage/|/preload/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
     list(FILTER sources EXCLUDE REGEX mesh_property_test)
   endif()
@@ -166,6 +166,15 @@ enc_test(conformance 1)
 if(OPENIGTLINK_INCLUDE_DIR AND OPENIGTLINK_LIBRARY)
   target_include_directories(test_conformance SYSTEM PRIVATE ${OPENIGTLINK_INCLUDE_DIR})
   target_link_libraries(test_conformance PRIVATE ${OPENIGTLINK_LIBRARY})
+endif()
+if(TARGET enc_v4l2) # for a foreign program, which has no sanitizer
+  add_library(video_preload MODULE tests/conformance/v4l2/preload/video_preload.cpp hw_drivers/v4l2/wire/relay.cpp hw_drivers/net/clocks.cpp)
+  target_include_directories(video_preload PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(video_preload PRIVATE -fno-sanitize=all)
+  target_link_options(video_preload PRIVATE -fno-sanitize=all)
+  target_link_libraries(video_preload PRIVATE Eigen3::Eigen fmt::fmt ${CMAKE_DL_LIBS})
+  set_target_properties(video_preload PROPERTIES PREFIX "" UNITY_BUILD OFF)
+  add_dependencies(test_conformance video_preload)
 endif()
 enc_test(terminal 2) # a person at the terminal of an armed run
 enc_test(benchmarks 2 $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench>)
