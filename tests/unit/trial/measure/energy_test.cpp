@@ -102,17 +102,24 @@ PassivityResult felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
   return felt;
 }
 
+// The greatest step is that of one tick of an impact, which scatters by 0.1 N: its mean over seeds is judged.
 TEST(TrialPassivity, TheShippedWallGivesOutNothingAndFeelsAsItDid) {
-  const PassivityResult off = felt_in(setup_of("wall", {})), on = felt_in(setup_of("wall", kControlled));
-  EXPECT_EQ(on.result.contacts, off.result.contacts);
-  EXPECT_NEAR(on.slope, off.slope, 1e-3 * off.slope);
-  EXPECT_NEAR(on.peak, off.peak, 0.02);
-  EXPECT_NEAR(on.step, off.step, 0.1);
-  EXPECT_LE(on.given, 0.1e-3) << "J, true";
-  EXPECT_LE(off.given, 0.1e-3) << "J, true: at the shipped stiffness nothing has to be controlled";
-  EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
-  EXPECT_LE(on.controller.dissipated, 0.1e-3) << "J";
-  EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
+  constexpr int kSeeds = 4;
+  double steps = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const PassivityResult off = felt_in(setup_of("wall", {}), seed),
+                          on = felt_in(setup_of("wall", kControlled), seed);
+    steps += on.step - off.step;
+    EXPECT_EQ(on.result.contacts, off.result.contacts) << seed;
+    EXPECT_NEAR(on.slope, off.slope, 1e-3 * off.slope) << seed;
+    EXPECT_NEAR(on.peak, off.peak, 0.02) << seed;
+    EXPECT_LE(on.given, 0.1e-3) << "J, true";
+    EXPECT_LE(off.given, 0.1e-3) << "J, true: at the shipped stiffness nothing has to be controlled";
+    EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
+    EXPECT_LE(on.controller.dissipated, 0.1e-3) << "J";
+    EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
+  }
+  EXPECT_NEAR(steps / kSeeds, 0.0, 0.1);
 }
 
 // This wall is useless to a hand, as its law rings. The controller withholds the energy for the ringing.
