@@ -199,6 +199,19 @@ std::string failure_list(const SweepTable& table) {
   return text.empty() ? text : "<h2>Failed runs</h2>\n<ul>\n" + text + "</ul>\n";
 }
 
+// Takes out the parameters with one value, which have no effect, and says them in a sentence.
+std::string take_constant(trial::SweepSpec& spec, std::vector<std::vector<std::string>>& parameters) {
+  std::string text;
+  for (std::size_t i = parameters.size(); i-- > 0;) {
+    const std::vector<std::string>& values = parameters[i];
+    if (values.empty() || std::count(values.begin(), values.end(), values[0]) != std::ssize(values)) continue;
+    text = fmt::format("{} = {}{}{}", spec.axes[i].name, values[0], text.empty() ? "" : ", ", text);
+    spec.axes.erase(spec.axes.begin() + static_cast<std::ptrdiff_t>(i));
+    parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return text.empty() ? text : "<p>In every run: " + svg_text(text) + ".</p>\n";
+}
+
 constexpr const char* kStyle =
     "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:1180px;padding:0 1em;color:#222}"
     "table{border-collapse:collapse}td,th{padding:.2em .7em;border-bottom:1px solid #ddd;text-align:right}"
@@ -206,7 +219,11 @@ constexpr const char* kStyle =
 
 }  // namespace
 
-std::string sweep_page(const SweepTable& table) {
+std::string sweep_page(const SweepTable& whole) {
+  trial::SweepSpec spec = whole.spec;
+  SweepTable table{spec,        whole.program, whole.parameters, whole.figures,
+                   whole.exits, whole.errors,  whole.cpu};
+  const std::string constant = take_constant(spec, table.parameters);
   std::vector<std::vector<Effect>> effects(table.figures.size());
   for (std::size_t i = 0; i < effects.size(); ++i)
     for (const std::vector<std::string>& parameter : table.parameters)
@@ -222,7 +239,7 @@ std::string sweep_page(const SweepTable& table) {
       counted(table.spec.points, "point"), counted(table.spec.seeds, "seed"), table.failures(),
       table.crossed(), cpu, models::median(table.cpu), svg_text(table.program));
   text +=
-      "<h2>Figures</h2>\n" + figure_rows(table) +
+      constant + "<h2>Figures</h2>\n" + figure_rows(table) +
       "<p>Interval: of the mean over all runs (Student's t). A percentile needs enough runs: the median 10, "
       "5 % and 95 % 20.</p>\n";
   if (!table.spec.axes.empty())

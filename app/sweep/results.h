@@ -31,6 +31,6 @@ SweepTable write_results(const std::string& folder, const trial::SweepSpec& spec
                          const trial::SweepIdentity& identity);
 
 // The page: a table of the figures, the share of each parameter, and their pictures.
-[[nodiscard]] std::string sweep_page(const SweepTable& table);
+[[nodiscard]] std::string sweep_page(const SweepTable& whole);
 
 }  // namespace enc::app

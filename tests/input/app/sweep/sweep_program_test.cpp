@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using test::bytes_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr int kRuns = 40;
@@ -113,6 +114,16 @@ TEST_F(Sweep, ARunIsTheRunOfTheSameSettings) {
                                     "--seed", std::to_string(json["seed"].get<std::uint64_t>()), "--json"});
   EXPECT_EQ(nlohmann::json::parse(alone.out)["state_hash"], json["state_hash"]);
   EXPECT_THAT(bytes_of(path("out/report.html")), AllOf(HasSubstr("95 % interval"), HasSubstr("<svg")));
+}
+
+TEST_F(Sweep, AParameterWithOneValueHasNoPicture) {
+  static_cast<void>(written(test::replaced(spec(), "seeds = 20", "seeds = 2") +
+                            "[[vary]]\nname = \"follow.resume_mm\"\nvalues = [40]\n"));
+  ASSERT_EQ(run_program(words("out")).code, 0);
+  const std::string page = bytes_of(path("out/report.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("<p>In every run: follow.resume_mm = 40.</p>"),
+                          HasSubstr(">truth.tracker.latency_ms</")));
+  EXPECT_THAT(page, Not(HasSubstr(">follow.resume_mm</")));
 }
 
 TEST_F(Sweep, RunsThatTheSceneRefusesAreNamedAndTheOthersAreDone) {
