@@ -17,8 +17,11 @@ namespace {
 
 constexpr std::size_t kParts = 8;  // levels of a range
 
+// Relative to the first value: the mean of equal values is that value, to the last bit.
 double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double x : values) sum += x - values[0];
+  return values[0] + sum / static_cast<double>(values.size());
 }
 double squares(const std::vector<double>& values, double mean) {
   double sum = 0.0;

@@ -42,6 +42,16 @@ TEST(SweepStatistics, AnEffectIsTheShareBetweenTheLevels) {
   EXPECT_NEAR(of_b.share, 0.0, 1e-12);
 }
 
+// 1.001 has no exact sum in binary.
+TEST(SweepStatistics, EqualValuesHaveNoSpreadAndNoEffect) {
+  const std::vector<double> values(16, 1.001);
+  EXPECT_EQ(summary_of(values).mean, 1.001);
+  EXPECT_EQ(summary_of(values).sd, 0.0);
+  std::vector<std::string> parameter(8, "3");
+  parameter.resize(16, "5");
+  EXPECT_TRUE(std::isnan(effect_of(parameter, values).share));
+}
+
 TEST(SweepStatistics, ARangeIsCutIntoEqualParts) {
   std::vector<std::string> x;
   std::vector<double> values;
