@@ -40,6 +40,7 @@ std::vector<Level> levels_by_value(const std::vector<std::string>& parameter) {
   std::map<std::string, std::vector<std::size_t>> by_value;
   for (std::size_t i = 0; i < parameter.size(); ++i) by_value[parameter[i]].push_back(i);
   std::vector<Level> levels;
+  levels.reserve(by_value.size());
   for (auto& [value, runs] : by_value) levels.push_back({value, number_of(value), std::move(runs)});
   if (std::none_of(levels.begin(), levels.end(), [](const Level& one) { return std::isnan(one.x); }))
     std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.x < b.x; });
