@@ -7,7 +7,7 @@ namespace enc::net {
 
 // s. The world of the fake stands until it answers, so in lockstep no answer is late, whatever the load of
 // the computer. This wait only ends a run whose fake hangs.
-inline constexpr double kFakeHangs = 30.0;
+inline constexpr double kFakeHangs = 5.0;
 
 // Longest wait for an answer, s.
 [[nodiscard]] inline double longest_wait(double timeout, bool lockstep) noexcept {
