@@ -130,9 +130,6 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     endif()
   endforeach()
   set(timeout 600)
-  if(kind STREQUAL "benchmarks") # the safety matrices wait for the wall clock
-    set(timeout 1500)
-  endif()
   if(kind STREQUAL "heavy" AND ENCOUNTER_SANITIZE)
     set(timeout 7200)
   endif()
