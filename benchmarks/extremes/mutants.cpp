@@ -53,7 +53,9 @@ const Mutants kMutants{
                 "hexapod.deep.start.value", "hexapod.deep.back.max", "hexapod.deep.outside.max",
                 "hexapod.training.outside.max", "*.impact.*.into.max", "*.dropout.*.error.max",
                 "hexapod.overloaded.said.value", "hexapod.*.rms.value", "hexapod.overloaded.given.max"}},
-     {.what = "twice the arm's force", .set = {"rig.arm.peak_N=17"}, .kills = {"arm.deep.exit_speed.max"}}}};
+     {.what = "a wall twice as stiff",
+      .set = {"behaviour.phantom_wall.stiffness_N_per_mm=1.2"},
+      .kills = {"arm.deep.exit_speed.max"}}}};
 
 }  // namespace
 }  // namespace enc::bench::extremes

@@ -115,7 +115,7 @@ CaseResult hours(const BenchContext& context, bool arm, double length) {
     const bool late = g.tick.index >= ticks / 2;
     const double times = late && context.mutated("late_work_doubled") ? 2.0 : 1.0;
     work[late ? 1 : 0] += times * dot(g.truth.contact_force, g.truth.tip_velocity) * g.scene.dt;
-    if (context.mutated("keeps_ticks")) kept.insert(kept.end(), 100, time_of(g));
+    if (context.mutated("keeps_ticks")) kept.insert(kept.end(), 400, time_of(g));
     const double t = time_of(g);
     drift = std::max(drift, std::abs(running->world().physics().data()->time - t));
     if (g.tick.index == ticks / 10) before = resident();

@@ -553,7 +553,7 @@ void run(Bench& bench) {
   const sim::CameraModule& module = camera(bench.context);
   const models::Setup rig = models::load_rig_setup(bench.context.models + "/rigs/vishap.toml",
                                                    settings_for(bench.context, bench.result.scene));
-  const std::size_t stages = bench.context.count(20, 4);
+  const std::size_t stages = bench.context.count(bench.context.full ? 20 : 10, 4);
   FingerSetup like{&module,
                    head(kWidth),
                    rig.rig.vision,

@@ -416,6 +416,7 @@ void run(Bench& bench) {
   bench.progress(0.3);
   add_cells(study, runs, bench);
   add_apart(study, runs, bench);
+  add_deadband(runs, bench);
   add_single_figures(study, runs, bench);
   bench.progress(0.5);
   const std::vector<Cell> standard = cells_of(runs, Reading::recorded);

@@ -50,6 +50,8 @@ struct LagTheory {
 // The paper does not give the press time: RMSE over it. Also checks whether halving it has the effect that
 // lag x speed x slope predicts.
 void add_press_time(const IndentStudy& study, BenchResult& result);
+// Share of the true force whose error a person may tell [sources/hand 6].
+void add_deadband(const IndentRuns& runs, Bench& bench);
 // The error of the other law between the two curves.
 void add_energy_stop(const IndentStudy& study, Bench& bench);
 // Neither force nor path depends on the time step: ratio of the true force's error at the shipped time step

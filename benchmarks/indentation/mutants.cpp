@@ -13,7 +13,7 @@ const Mutants kMutants{
                 "lag.ratio"}},
      {.what = "noise of the force sensor x 4; machine 0.2 mm lower than believed",
       .set = {"truth.force.noise_N=0.05", "truth.hexapod.misplaced_mm=[0,0,-0.2]"},
-      .kills = {"sensor.noise.rms", "peak_N", "overshoot_mm"}},
+      .kills = {"sensor.noise.rms", "peak_N", "overshoot_mm", "deadband.*.percent"}},
      {.what = "hand x 3: tremor, drift, spread of its times; a press of 4 s",
       .set = {"truth.hand.tremor_mm=0.18", "truth.hand.drift_mm=0.45", "user.press_s=4", "user.release_s=4"},
       .changes = {"restless_hand"},

@@ -5,8 +5,8 @@ namespace enc::bench::precision {
 namespace {
 
 const Mutants kMutants{"precision",
-                       {{.what = "orders against the coarsest path; the worst setting for the one that ships",
-                         .changes = {"coarse_truth", "worst_setting"},
+                       {{.what = "orders against the coarsest path; the force of 100 ms ago",
+                         .changes = {"coarse_truth", "late_force"},
                          .kills = {"order.*.*", "*.error.rms"}}}};
 
 }  // namespace

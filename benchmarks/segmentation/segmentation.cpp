@@ -534,7 +534,7 @@ void run(Bench& bench) {
   like.spec = rig.rig.vision.segmentation;
   tell_skin(bench, *like.camera, like.spec.model);
 
-  const std::size_t pairs = bench.context.count(24, 4);
+  const std::size_t pairs = bench.context.count(bench.context.full ? 24 : 12, 4);
   const std::uint64_t seed = test_seed(bench.context);
   const auto paper = judged(bench, of_the_paper(like, seed + 100, pairs));
   const auto rows = judged(bench, of_rows(like, seed + 200,

@@ -189,26 +189,32 @@ SessionSample sample_of(const trial::Glance& glance) {
           glance.out.view.tool};
 }
 
-// A mutant (mutants.cpp): the contact force pulls, the hand touches with the other tool, and a set-point in a
-// hundred is 1 mm off.
-void see_changed(const trial::Glance& glance, SessionMeasure& measure) {
+// Mutants (mutants.cpp): the contact force pulls, the hand touches with the other tool, a set-point in a
+// hundred is 1 mm off, and presses are taken for reaches that turn back; the overlay shows a tool once in 100
+// ms.
+void see_changed(const trial::Glance& glance, bool late_overlay, SessionMeasure& measure) {
   sim::Truth truth = glance.truth;
   Outputs out = glance.out;
-  truth.contact_force = -1.0 * truth.contact_force;
-  if (truth.touching && truth.tool >= 0) truth.tool = 1 - truth.tool;
-  if (glance.tick.index % 100 == 0)
-    out.manipulator.tip = out.manipulator.tip * Pose<'H', 'H'>::shift(1e-3, 0, 0);
+  const bool off = glance.tick.index % 100 == 0;
+  if (late_overlay) {
+    if (!off) out.view.tool = -1;
+  } else {
+    truth.contact_force = -1.0 * truth.contact_force;
+    truth.aborted = !truth.aborted;
+    if (truth.touching && truth.tool >= 0) truth.tool = 1 - truth.tool;
+    if (off) out.manipulator.tip = out.manipulator.tip * Pose<'H', 'H'>::shift(1e-3, 0, 0);
+  }
   measure.see(
       {glance.scene, glance.tick, truth, glance.in, out, glance.simulated, glance.state, glance.gate});
 }
 
 SessionRun run_once(const BenchContext& context, const models::Setup& setup, std::uint64_t seed,
                     std::vector<SessionSample>* drawn) {
-  const bool changed = context.mutated("changed_truth");
+  const bool changed = context.mutated("changed_truth"), late_overlay = context.mutated("late_overlay");
   SessionMeasure measure(setup);
   trial::TrialOptions options{.seed = seed};
   options.watch = [&](const trial::Glance& glance) {
-    changed ? see_changed(glance, measure) : measure.see(glance);
+    changed || late_overlay ? see_changed(glance, late_overlay, measure) : measure.see(glance);
     if (drawn != nullptr) drawn->push_back(sample_of(glance));
   };
   SessionRun run;
@@ -382,12 +388,11 @@ void add_precision(const BenchContext& context, BenchResult& result) {
   }
 }
 
-// Settings of the training: short by default. A mutant leaves each contact at once.
+// Settings of the training: short by default. A mutant has a force sensor with 2 N of noise.
 std::vector<std::string> training_settings(const BenchContext& context) {
   std::vector<std::string> set;
   if (!context.full) set = {"user.session.duration_s=20"};
-  if (context.mutated("left_at_once"))
-    set.insert(set.end(), {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01"});
+  if (context.mutated("loud_sensor")) set.emplace_back("truth.force.noise_N=2");
   return set;
 }
 

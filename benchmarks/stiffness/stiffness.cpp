@@ -176,7 +176,7 @@ std::vector<Level> levels_of(const models::Setup& setup, const std::vector<doubl
 void add_no_threshold(const BenchContext& context, const Extent& extent, Bench& bench) {
   std::vector<std::string> variant = no_threshold_no_drift();
   if (context.mutated("keep_threshold")) variant.clear();
-  if (!context.quick) variant.emplace_back("pusher.hold_s=30");
+  if (!context.quick) variant.emplace_back(context.full ? "pusher.hold_s=30" : "pusher.hold_s=15");
   const models::Setup setup = push_setup(context.models, extent.set, variant);
   const std::vector<double> stiffnesses = context.quick  ? std::vector<double>{300, 1000}
                                           : context.full ? std::vector<double>{30, 50, 100, 300, 2000}

@@ -428,7 +428,7 @@ struct FirstTouches {
 using TouchTable = std::array<std::array<FirstTouches, 5>, 3>;  // [prediction][speed]
 
 TouchTable first_touches(const models::Setup& setup, const BenchContext& context, double& simulated) {
-  const std::size_t seeds = context.quick ? 2 : (context.full ? 40 : 4);
+  const std::size_t seeds = context.full ? 40 : 2;
   std::vector<double> miss(3 * kSpeeds.size() * seeds, kUnset);
   std::vector<double> time(miss.size()), delay(miss.size(), kUnset);
   in_parallel(miss.size(), [&](std::size_t i) {

@@ -96,7 +96,7 @@ void tell_button(Bench& bench, const std::vector<SeenForce>& pictures, const Law
     Bounds bounds;
   };
   for (const Part& part :
-       {Part{"first", "before the trigger", 0.5 * does.trigger, does.trigger, Bounds{}},
+       {Part{"first", "before the trigger", 0.5 * does.trigger, does.trigger, between(-75.0, 25.0)},
         Part{"after", "after it, above the board", does.trigger + does.gradual, does.bottom,
              between(-20.0, 20.0)},
         Part{"board", "on the board", does.bottom + does.gradual, 1.0, between(-20.0, 20.0)}})
@@ -109,17 +109,18 @@ void tell_button(Bench& bench, const std::vector<SeenForce>& pictures, const Law
 
 void add_fig5(Bench& bench, const std::string& scene, const std::vector<SeenForce>& pictures,
               const Object& object, double free) {
-  const LawAt curve{object, free, bench.context.mutated("other_law") ? 1.5 : 1.0};
+  // Mutants: a law half as stiff again, or that of the button four times softer.
+  const bool button = object.interaction.kind == Interaction::click;
+  const LawAt curve{object, free, !bench.context.mutated("other_law") ? 1.0 : button ? 0.25 : 1.5};
   const LawAt law{object, free, curve.factor, begins(pictures, curve)};
   bench.figure(fmt::format("fig5.{}.begins_mm", scene), law.begins * kMmPerM, "mm", predicted(0.0),
-               between(0.0, 1.0),
+               between(-0.5, 1.5),
                "distance that vision sees when the force of Fig 4's curve begins, by least squares");
   bench.figure(
       fmt::format("fig5.{}.r2", scene), explained(pictures, law), "", predicted(1.0), between(0.85, 1.0),
       fmt::format("share of the force's variance that Fig 4's curve from there explains, {} pictures",
                   pictures.size()));
-  object.interaction.kind == Interaction::click ? tell_button(bench, pictures, law)
-                                                : tell_plane(bench, pictures, law);
+  button ? tell_button(bench, pictures, law) : tell_plane(bench, pictures, law);
   Series felt{"twin"}, shape{"the law (shape of Fig 4)"};
   felt.mark = Mark::points;
   double deepest = 0.0;
