@@ -381,8 +381,9 @@ struct ScoreBounds {
   bool paper = false;  // beside the paper's figures
 };
 // The twin's pictures are easier than the paper's, so these bounds exclude its values. Measured over 24
-// pairs: 99.93, 0.012, 0.061 %; over 4 pairs false negatives of 0.1 %.
+// pairs: 99.93, 0.012, 0.061 %; over 4 pairs, in six seeds, false negatives of up to 0.29 %.
 constexpr ScoreBounds kPublished{between(99.7, 99.99), between(0.001, 0.1), between(0.01, 0.25), true};
+constexpr ScoreBounds kFewPublished{between(99.5, 99.99), between(0.001, 0.1), between(0.01, 0.5), true};
 
 void tell(Bench& bench, const std::string& id, const Score& s, const std::string& what,
           const ScoreBounds& bounds = {}) {
@@ -422,7 +423,7 @@ void tell_sides(Bench& bench, const std::vector<PairResult>& pairs) {
 
 void judge_paper(Bench& bench, Table& table, const std::vector<PairResult>& pairs) {
   tell(bench, "published", score(pairs, published), "the published method on pairs of the paper's kind",
-       kPublished);
+       bench.context.quick ? kFewPublished : kPublished);
   tell(bench, "ours", score(pairs, ours), "our method on the same pairs");
   tell_sides(bench, pairs);
   double least = 1.0;
@@ -537,10 +538,7 @@ void run(Bench& bench) {
   const std::size_t pairs = bench.context.count(bench.context.full ? 24 : 12, 4);
   const std::uint64_t seed = test_seed(bench.context);
   const auto paper = judged(bench, of_the_paper(like, seed + 100, pairs));
-  const auto rows = judged(bench, of_rows(like, seed + 200,
-                                          bench.context.full    ? 8
-                                          : bench.context.quick ? 1
-                                                                : 2));
+  const auto rows = judged(bench, of_rows(like, seed + 200, bench.context.full ? 8 : 1));
   Table table{"pairs",
               "Segmentation: percent of all pixels, means over pairs with their 95 % intervals",
               {"pairs of", "method", "pairs", "correct", "false positives", "false negatives", "IoU"}};
