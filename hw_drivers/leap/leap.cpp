@@ -9,7 +9,6 @@ namespace {
 
 constexpr DriverModule kDriver{.settings = [](Settings& table) { LeapSettings{}.declare(table); },
                                .hand_tracker = opened,
-                               .lockstep = true,
                                .fake = served};
 constexpr ModuleInfo kInfo{.name = "leap", .driver = &kDriver};
 

@@ -30,10 +30,7 @@ void end(std::unique_ptr<Service> service) {
 }  // namespace
 
 LeapTracker::LeapTracker(const Offer& offer, const LeapSettings& settings, const leapc::Functions& leap)
-    : settings_(settings),
-      service_(std::make_unique<Service>(leap, settings)),
-      arrival_(!offer.waits),
-      lockstep_(offer.lockstep) {
+    : settings_(settings), service_(std::make_unique<Service>(leap, settings)), arrival_(!offer.waits) {
   try {
     wait_for_device();
   } catch (...) {
@@ -44,12 +41,11 @@ LeapTracker::LeapTracker(const Offer& offer, const LeapSettings& settings, const
 
 LeapTracker::~LeapTracker() { end(std::move(service_)); }
 
-// In lockstep the time of a fake stands until the run begins.
 void LeapTracker::wait_for_device() const {
   Frame frame;
   for (const Duration until = net::steady_now() + from_seconds(settings_.timeout);
        net::steady_now() < until;) {
-    if (lockstep_ ? service_->has_device() : service_->take(frame)) return;
+    if (service_->take(frame)) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   const std::string trouble = service_->trouble();
@@ -76,7 +72,7 @@ bool LeapTracker::poll(Time now, Measurement<HandSample>& newest) noexcept {
   const bool before_the_run = !std::exchange(polled_, true);
   const bool news = came && !before_the_run;
   if (news) heard_ = now;
-  const bool silent = !lockstep_ && age(now, heard_) > settings_.silent;
+  const bool silent = age(now, heard_) > settings_.silent;
   const bool linked = !silent && service_->has_device();
   counts_.silent += linked_ && !linked ? 1 : 0;
   linked_ = linked;

@@ -49,7 +49,7 @@ class LeapTracker final : public HandTracker {
   Frame frame_;
   std::int64_t number_ = 0, read_ = 0;  // of the last frame
   Time heard_{}, stamp_{};
-  bool lockstep_, polled_ = false, any_ = false, linked_ = true;
+  bool polled_ = false, any_ = false, linked_ = true;
 };
 
 // The driver by its table, with the vendor's library or the fake.

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "hw_drivers/arm/fake/client.h"
+#include "hw_drivers/net/lockstep.h"
 #include "hw_drivers/phantom/drive/settings.h"
 #include "hw_drivers/phantom/wire/coordinates.h"
 #include "hw_drivers/phantom/wire/hd.h"
@@ -24,8 +25,7 @@ namespace enc::phantom {
 namespace {
 
 constexpr hd::Handle kHandle = 1;
-// kAnswer: in lockstep no answer is late, so this only ends a run whose fake is gone.
-constexpr Duration kConnect{1'000'000'000}, kAnswer{30'000'000'000}, kTurn{20'000'000};
+constexpr Duration kConnect{1'000'000'000}, kTurn{20'000'000};
 
 struct CallbackEntry {
   unsigned long handle = 0;
@@ -182,7 +182,8 @@ void FakeHd::end_frame() {
   if (frames_ == 0) return fail(hd::kIllegalEnd);
   --frames_;
   if (!pushed_ || !client_.lockstep()) return;
-  if (!client_.exchange(enabled_ ? force_ : std::array<double, 3>{}, enabled_, kAnswer)) fail(hd::kCommError);
+  if (!client_.exchange(enabled_ ? force_ : std::array<double, 3>{}, enabled_, from_seconds(net::kFakeHangs)))
+    fail(hd::kCommError);
 }
 
 void FakeHd::enable(hd::Enum what, bool on) {

@@ -55,6 +55,25 @@ class ArmLine::Slot final : public HapticArm {
   ArmLine& of_;
 };
 
+// A device that exerts its last force instead of zero.
+class ArmLine::ForceKeeper final : public HapticArm {
+ public:
+  explicit ForceKeeper(HapticArm& arm) : arm_(arm) {}
+  [[nodiscard]] ArmAbility ability() const override { return arm_.ability(); }
+  [[nodiscard]] bool linked() const noexcept override { return arm_.linked(); }
+  Measurement<ArmSample> read(Time now) noexcept override { return arm_.read(now); }
+  void command(const Vec<'R'>& force) noexcept override {
+    if (force.norm() > 0.0) last_ = force;
+    arm_.command(last_);
+  }
+  void stop() noexcept override { arm_.command(last_); }
+  void move_prop(const PropCommand& prop) noexcept override { arm_.move_prop(prop); }
+
+ private:
+  HapticArm& arm_;
+  Vec<'R'> last_{0, 0, 0};
+};
+
 class ArmLine::LineClock final : public Clock {
  public:
   LineClock(ArmLine& of, std::unique_ptr<Clock> clock) : of_(of), clock_(std::move(clock)) {}
@@ -113,7 +132,8 @@ std::string ArmLine::said() const { return fmt::format("{}", fmt::join(log_.line
 
 void ArmLine::connect() {
   const Arm arm(spec_.arm.machine);
-  server_ = std::make_unique<arm::ArmServer>(*twin_,
+  keeper_ = std::make_unique<ForceKeeper>(*twin_);
+  server_ = std::make_unique<arm::ArmServer>(keeps_force_ ? *keeper_ : *twin_,
                                              arm::ArmServerSettings{.place = {"127.0.0.1", 0},
                                                                     .usual_error = phantom::hd::kWarmMotors,
                                                                     .home = arm.tip(arm.zero()).xyz},

@@ -20,9 +20,9 @@ enum class LibraryState : std::uint8_t { calls, hangs, hears_noise };
 
 class ArmLine {
  public:
-  // `firmware`: watchdog of the device, s.
-  ArmLine(Vendor vendor, const RigSpec& spec, double firmware)
-      : vendor_(vendor), spec_(spec), firmware_(firmware) {}
+  // `firmware`: watchdog of the device, s. `keeps_force`: the device exerts its last force instead of zero.
+  ArmLine(Vendor vendor, const RigSpec& spec, double firmware, bool keeps_force)
+      : vendor_(vendor), spec_(spec), firmware_(firmware), keeps_force_(keeps_force) {}
   ~ArmLine() = default;
   ArmLine(const ArmLine&) = delete;
   ArmLine& operator=(const ArmLine&) = delete;
@@ -47,6 +47,7 @@ class ArmLine {
 
  private:
   class Slot;
+  class ForceKeeper;
   class LineClock;
   template <class Act>
   void serve_while(Act act);
@@ -57,8 +58,9 @@ class ArmLine {
   Vendor vendor_;
   RigSpec spec_;
   double firmware_;
+  bool keeps_force_;
   trial::DeviceLog log_;
-  std::unique_ptr<HapticArm> twin_, driver_;
+  std::unique_ptr<HapticArm> twin_, driver_, keeper_;
   std::unique_ptr<arm::ArmServer> server_;
   Time now_{};
   Duration base_{}, standing_{};  // base_: the drivers' clock at the loop's time 0

@@ -118,17 +118,22 @@ models::Setup pressed_wall(double watchdog_ms) {
        "user.approach_mm_s=[200]", fmt::format("truth.arm.watchdog_ms={}", watchdog_ms)});
 }
 
+// What makes a cell wrong: a false report of the device to the core, or a device that keeps its force.
+enum class Flaw : std::uint8_t { none, false_report, keeps_force };
+
 struct ArmRun {
-  ArmRun(Vendor vendor, const ArmFault& one, std::uint64_t seed, bool falsely = false)
+  ArmRun(Vendor vendor, const ArmFault& one, std::uint64_t seed, Flaw flaw = Flaw::none)
       : fault(one),
-        setup(pressed_wall(one.process && vendor == Vendor::phantom ? 5.0 : 200.0)),
-        line(vendor, setup.rig, one.process ? 0.005 : 0.031),
+        setup(pressed_wall(one.process && vendor == Vendor::phantom && flaw != Flaw::keeps_force ? 5.0
+                                                                                                 : 200.0)),
+        line(vendor, setup.rig, one.process ? 0.005 : 0.031, flaw == Flaw::keeps_force),
         random(seed) {
     options.seed = seed;
     options.fit_out = [this](Rig& rig) { line.fit_out(rig); };
-    options.disturb = [this, falsely](Inputs& in) {
+    options.disturb = [this, flaw](Inputs& in) {
       if (blinded) in.tool.health = Health::fault;
-      if (falsely) report.give(counts, fault.limits.end, trial->now().t, in.arm, in.missed);
+      if (flaw == Flaw::false_report)
+        report.give(counts, fault.limits.end, trial->now().t, in.arm, in.missed);
     };
     trial = std::make_unique<trial::Trial>(setup, options);
     line.exerts = [this] { return trial->world().arm->state().torque != PerJoint{}; };
@@ -206,9 +211,22 @@ void expect_red(Vendor vendor, const std::vector<ArmFault>& own) {
   for (const std::vector<ArmFault>* all : {&kOfBoth, &own})
     for (const ArmFault& fault : *all) {
       const std::string wrong =
-          wrong_with(fault.limits, Mode::contact, ArmRun(vendor, fault, ++seed, true).react(Mode::contact));
+          wrong_with(fault.limits, Mode::contact,
+                     ArmRun(vendor, fault, ++seed, Flaw::false_report).react(Mode::contact));
       EXPECT_NE(wrong, "") << fault.name;
       testing::Test::RecordProperty(fault.name, wrong);
+    }
+}
+
+void expect_force(Vendor vendor, const std::vector<ArmFault>& own) {
+  std::uint64_t seed = 0;
+  for (const std::vector<ArmFault>* all : {&kOfBoth, &own})
+    for (const ArmFault& fault : *all) {
+      if (fault.limits.zero == kNever) continue;
+      Reaction of = ArmRun(vendor, fault, ++seed, Flaw::keeps_force).react(Mode::contact);
+      EXPECT_GT(of.zero, fault.limits.zero) << fault.name;
+      EXPECT_NE(wrong_with(fault.limits, Mode::contact, of), "") << fault.name;
+      testing::Test::RecordProperty(fault.name, fmt::format("force {} ms", of.zero));
     }
 }
 
@@ -221,6 +239,11 @@ TEST(ArmMatrix, EachFaultOfAForceDimensionEndsAsStated) {
 TEST(ArmMatrixLong, EachRowFailsForAFalseReport) {
   expect_red(Vendor::phantom, kOfPhantom);
   expect_red(Vendor::forcedimension, kOfForceDimension);
+}
+
+TEST(ArmMatrixLong, EachLimitOfForceFailsForADeviceThatKeepsIt) {
+  expect_force(Vendor::phantom, kOfPhantom);
+  expect_force(Vendor::forcedimension, kOfForceDimension);
 }
 
 }  // namespace
