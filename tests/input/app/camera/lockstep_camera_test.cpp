@@ -67,5 +67,12 @@ TEST(VisHapLockstep, WhatDoesNotFitIsOneLine) {
   EXPECT_THAT(there.run({"camera", "hand_tracker"}, {}).err, HasSubstr("begin the fake without --lockstep"));
 }
 
+TEST(VisHapLockstep, AHandTrackerWithItsOwnTimeIsRefused) {
+  const VisHapFakes there(true, kPress);
+  Words words = kLockstep;
+  words.insert(words.end(), {"--set", "rig.hand_tracker.driver=leap"});
+  EXPECT_THAT(there.run({"hand_tracker"}, words).err, HasSubstr("module 'leap' cannot keep step with a fake"));
+}
+
 }  // namespace
 }  // namespace enc::test
