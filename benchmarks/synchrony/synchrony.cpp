@@ -48,11 +48,12 @@ struct SyncGroup {
     OverSeeds all{0.0, value(seeds.front()), value(seeds.front())};
     for (const SyncSummary& s : seeds) {
       const double x = value(s);
-      all.mean += x / static_cast<double>(seeds.size());
+      all.mean += x;
       all.least = std::min(all.least, x);
       all.most = std::max(all.most, x);
       all.values.push_back(x);
     }
+    all.mean /= static_cast<double>(seeds.size());
     return all;
   }
 };
