@@ -21,7 +21,7 @@ const Mutants kMutants{
       .set = {"rig.contact.leave_time_ms=1", "rig.contact.leave_gap_mm=0.01",
               "truth.hexapod.misplaced_mm=[0,0,2]", "truth.hexapod.step_um=50",
               "truth.tracker.bias_mm=[0,0,-6]"},
-      .changes = {"late_overlay"},
+      .changes = {"rare_overlay"},
       .kills = {"presses.one_contact_percent", "tool_change.*.max"},
       .form = Form::usual}}};
 

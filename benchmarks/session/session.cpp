@@ -189,14 +189,14 @@ SessionSample sample_of(const trial::Glance& glance) {
           glance.out.view.tool};
 }
 
-// Mutants (mutants.cpp): the contact force pulls, the hand touches with the other tool, a set-point in a
-// hundred is 1 mm off, and presses are taken for reaches that turn back; the overlay shows a tool once in 100
-// ms.
-void see_changed(const trial::Glance& glance, bool late_overlay, SessionMeasure& measure) {
+// Mutants (mutants.cpp). `rare_overlay`: the overlay shows a tool in one tick of a hundred. Otherwise: the
+// contact force pulls, the hand touches with the other tool, a set-point in a hundred is 1 mm off, and a
+// press counts as a reach that turns back.
+void see_changed(const trial::Glance& glance, bool rare_overlay, SessionMeasure& measure) {
   sim::Truth truth = glance.truth;
   Outputs out = glance.out;
   const bool off = glance.tick.index % 100 == 0;
-  if (late_overlay) {
+  if (rare_overlay) {
     if (!off) out.view.tool = -1;
   } else {
     truth.contact_force = -1.0 * truth.contact_force;
@@ -210,11 +210,11 @@ void see_changed(const trial::Glance& glance, bool late_overlay, SessionMeasure&
 
 SessionRun run_once(const BenchContext& context, const models::Setup& setup, std::uint64_t seed,
                     std::vector<SessionSample>* drawn) {
-  const bool changed = context.mutated("changed_truth"), late_overlay = context.mutated("late_overlay");
+  const bool changed = context.mutated("changed_truth"), rare_overlay = context.mutated("rare_overlay");
   SessionMeasure measure(setup);
   trial::TrialOptions options{.seed = seed};
   options.watch = [&](const trial::Glance& glance) {
-    changed || late_overlay ? see_changed(glance, late_overlay, measure) : measure.see(glance);
+    changed || rare_overlay ? see_changed(glance, rare_overlay, measure) : measure.see(glance);
     if (drawn != nullptr) drawn->push_back(sample_of(glance));
   };
   SessionRun run;

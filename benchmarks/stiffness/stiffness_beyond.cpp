@@ -293,10 +293,10 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
       {.name = "paper: within 2 % from 0.3 N/mm", .x = {0.3, 200}, .y = {2, 2}, .paper = true});
   error.caption =
       "Worst of the pushes, where they come to rest. With the damper: no threshold, a fresh zero, a sensor "
-      "that averages eight readings.";
+      "that averages eight readings. --full draws the controller of the paper, too.";
   settling.caption =
       "Time after the push until the tip stays within 2 % of where it ends; as long as the hold where it "
-      "never does.";
+      "never does. --full draws the controller of the paper, too.";
   result.plots.push_back(std::move(error));
   result.plots.push_back(std::move(settling));
 }

@@ -320,7 +320,7 @@ void tell_cost(Bench& bench, const RunResult& wall, const RunResult& button) {
   bench.cost("wall.tick_over_yardstick.mean", tick / wall.yardstick, "x",
              "a tick of all this over a fixed piece of work of the same run (kit/cost.h)");
   bench.cost("button.step.p99_9", percentile(button.result.step_ns, 0.999) * 1e-3, "us",
-             "step() of the haptic loop, whose period is 1,000 us, beside vision");
+             "step() alone, in a run with vision; the period is 1,000 us");
 }
 
 // The camera sees a finger, which meets the prop: miss, force, time, and Fig 5.

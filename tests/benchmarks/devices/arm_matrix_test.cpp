@@ -118,6 +118,7 @@ models::Setup pressed_wall(double watchdog_ms) {
        "user.approach_mm_s=[200]", fmt::format("truth.arm.watchdog_ms={}", watchdog_ms)});
 }
 
+// The PHANToM's own watchdog of 5 ms would end a force that is kept, so it is 200 ms there.
 // What makes a cell wrong: a false report of the device to the core, or a device that keeps its force.
 enum class Flaw : std::uint8_t { none, false_report, keeps_force };
 
