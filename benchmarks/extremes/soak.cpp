@@ -88,8 +88,9 @@ CaseResult storm(const BenchContext& context, bool arm, double length) {
   return found;
 }
 
-// MiB of the program's memory.
+// MiB of the program's memory, without what earlier cases freed.
 double resident() {
+  malloc_trim(0);
   std::ifstream in("/proc/self/statm");
   double size = 0.0, pages = kUnset;
   in >> size >> pages;
@@ -119,10 +120,7 @@ CaseResult hours(const BenchContext& context, bool arm, double length) {
     if (context.mutated("keeps_ticks")) kept.insert(kept.end(), 100, time_of(g));
     const double t = time_of(g);
     drift = std::max(drift, std::abs(running->world().physics().data()->time - t));
-    if (g.tick.index == ticks / 10) {
-      malloc_trim(0);  // else memory that earlier cases freed hides what this one keeps
-      before = resident();
-    }
+    if (g.tick.index == ticks / 10) before = resident();
     if (g.tick.index > ticks / 10 && g.tick.index % 10000 == 0) most = std::max(most, resident());
   };
   options.stop = [&] { return judge.ticks > ticks; };
