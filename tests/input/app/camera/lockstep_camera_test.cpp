@@ -71,7 +71,8 @@ TEST(VisHapLockstep, AHandTrackerWithItsOwnTimeIsRefused) {
   const VisHapFakes there(true, kPress);
   Words words = kLockstep;
   words.insert(words.end(), {"--set", "rig.hand_tracker.driver=leap"});
-  EXPECT_THAT(there.run({"hand_tracker"}, words).err, HasSubstr("module 'leap' cannot keep step with a fake"));
+  EXPECT_THAT(there.run({"hand_tracker"}, words).err,
+              HasSubstr("module 'leap' cannot keep step with a fake"));
 }
 
 }  // namespace
