@@ -132,8 +132,11 @@ void add_fig5(Bench& bench, const std::string& scene, const std::vector<SeenForc
     deepest = std::max(deepest, -one.distance);
   }
   shape.paper = true;
-  for (double depth = -1e-3; depth < deepest; depth += 0.05e-3)
+  constexpr double kFirst = -1e-3, kStep = 0.05e-3;  // m
+  for (int i = 0; kFirst + i * kStep < deepest; ++i) {
+    const double depth = kFirst + i * kStep;
     shape.add((law.begins - depth) * kMmPerM, law(std::max(0.0, depth)));
+  }
   bench.plot({.id = "fig5_" + scene,
               .title = "Normal force over distance, " + scene + " (VisHap Fig 5)",
               .x_label = "distance that vision sees (mm), negative: under the surface",
