@@ -283,11 +283,10 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
     std::vector<BeyondLevel> all = studies[i].soft_end;
     all.insert(all.end(), studies[i].beyond.begin(), studies[i].beyond.end());
     error.series.push_back(series_of(all, "damped, re-tared" + pusher, false, true));
-    if (!studies[i].paper.empty())
-      error.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, false, true));
     settling.series.push_back(series_of(all, "damped, re-tared" + pusher, true, false));
-    if (!studies[i].paper.empty())
-      settling.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, true, false));
+    if (studies[i].paper.empty()) continue;
+    error.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, false, true));
+    settling.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, true, false));
   }
   error.series.push_back(
       {.name = "paper: within 2 % from 0.3 N/mm", .x = {0.3, 200}, .y = {2, 2}, .paper = true});

@@ -11,9 +11,8 @@ const Mutants kMutants{
       .kills = {"wall.miss_mm.*.max", "removal.device_percent.mean", "removal.device_percent.worst",
                 "overlay.error_px.shipped"}},
      {.what = "the law of the wall half as stiff again, of the button four times softer; a finger without "
-              "radius; "
-              "another seed; a margin of 12 px around the arm; the camera's picture for the one without the "
-              "device",
+              "radius; another seed; a margin of 12 px around the arm; the camera's picture for the one "
+              "without the device",
       .changes = {"other_law", "forgets_radius", "other_seed", "wide_margin", "device_stays"},
       .kills = {"fig5.*.*", "wall.same_hash.count", "removal.background_percent.mean",
                 "removal.residual.mean"}},
