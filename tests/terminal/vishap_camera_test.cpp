@@ -23,18 +23,32 @@ const Words kArmed{"--armed", "--yes", "--for-s", "7"};
 
 double contact_time(const nlohmann::json& run) { return run["modes_s"].value("contact", 0.0); }
 
+// Whether the finger cannot have been lost because the machine drew or searched its pictures too late: the
+// rig's tracker.lost_age_ms is 600.
+bool in_time(const nlohmann::json& run) {
+  const nlohmann::json &between = run["vision"]["interval_ms"]["max"], &age = run["vision"]["age_ms"]["max"];
+  return between.is_number() && age.is_number() && between.get<double>() + age.get<double>() < 600;
+}
+
+// A machine that stalls has not answered the question: it is asked again, three times in all.
+nlohmann::json asked(const VisHapFakes& there, const std::vector<std::string>& simulated, const Words& more) {
+  nlohmann::json run = there.result(simulated, more);
+  for (int i = 0; i < 2 && !in_time(run); ++i) run = there.result(simulated, more);
+  return run;
+}
+
 // Beside the hand tracker alone the twin has arm, camera and hand in one world, and presses as in the pure
 // simulation.
 TEST(VisHapLaboratory, RunsOverAllDevicesAndOverTheHandTrackerEndAsTheTwins) {
   const VisHapFakes there(false, kPress);
   const nlohmann::json pure = there.result({"arm", "camera", "hand_tracker"}, {}),
-                       real = there.result({}, kArmed),
-                       hand = there.result({"arm", "camera"}, {"--for-s", "7"});
+                       real = asked(there, {}, kArmed),
+                       hand = asked(there, {"arm", "camera"}, {"--for-s", "7"});
   EXPECT_EQ(pure["contacts"], 1);
   for (const nlohmann::json& run : {real, hand}) {
     EXPECT_EQ(run["contacts"], 1);
-    EXPECT_NEAR(contact_time(run) / contact_time(pure), 1.0, 0.3);
-    EXPECT_EQ(run["holds"].size(), 0U) << run["holds"];
+    EXPECT_NEAR(contact_time(run) / contact_time(pure), 1.0, 0.3) << run["modes_s"] << run["vision"];
+    EXPECT_EQ(run["holds"].size(), 0U) << run["holds"] << run["vision"];
   }
   EXPECT_THAT(hand["log"].dump(), ContainsRegex("answered: [1-9][0-9]* hands, "));
   for (const char* device : {"arm", "hand_tracker"})
@@ -48,7 +62,7 @@ TEST(VisHapLaboratory, RunsOverAllDevicesAndOverTheHandTrackerEndAsTheTwins) {
 TEST(VisHapLaboratory, CameraOrArmAlone) {
   const VisHapFakes there(false, kPress);
   EXPECT_GE(there.result({"arm", "hand_tracker"}, {"--for-s", "5"})["contacts"], 1);
-  const nlohmann::json arm = there.result({"camera", "hand_tracker"}, kArmed);
+  const nlohmann::json arm = asked(there, {"camera", "hand_tracker"}, kArmed);
   EXPECT_GE(arm["contacts"], 1);
   EXPECT_THAT(arm["devices"].value("arm", ""), HasSubstr("(a fake)"));
   EXPECT_TRUE(arm["vision"]["threaded"]);
