@@ -122,6 +122,10 @@ double steady_mean(std::span<const double> signal) {
 double strongest_frequency(std::span<const double> signal, double dt) {
   const double mean = steady_mean(signal);
   const auto n = static_cast<double>(signal.size());
+  std::vector<double> weighted(signal.size());
+  for (std::size_t i = 0; i < signal.size(); ++i)
+    weighted[i] =
+        (1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n)) * (signal[i] - mean);
   double best = kUnset;
   double most = std::norm(1e-9 * n * mean);           // rounding is no oscillation
   const double step = std::max(0.5, 1.0 / (n * dt));  // Hz
@@ -131,9 +135,9 @@ double strongest_frequency(std::span<const double> signal, double dt) {
     const std::complex<double> turn = std::polar(1.0, 2.0 * std::numbers::pi * f * dt);
     std::complex<double> at = 1.0;
     std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i, at *= turn) {
-      const double w = 1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n);
-      sum += w * (signal[i] - mean) * at;
+    for (const double value : weighted) {
+      sum += value * at;
+      at *= turn;
     }
     if (std::norm(sum) <= most) continue;
     most = std::norm(sum);
