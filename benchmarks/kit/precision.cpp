@@ -187,9 +187,8 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const St
     if (chosen == nullptr) continue;  // --set has replaced its step
     const std::string id = fmt::format("{}.work_precision.{}.", spec.benchmark, form.name);
     const auto floor = all.floor.find(&form);
-    // With elastic legs the tip takes one of several courses, whatever the step: runs at 62.5 and 125 us are
-    // 3 to 90 um from the converged one, those at 500 us 9 to 110. `bench structure` bounds their step.
-    const double most = is_shipped(form) ? spec.accuracy : kUnset;
+    const bool bounded = is_shipped(form) || spec.elastic_bounded;
+    const double most = bounded ? spec.accuracy + (floor == all.floor.end() ? 0.0 : floor->second) : kUnset;
     result.figures.push_back(
         {id + "error.rms", kUnset, chosen->error * 1e6, "um", Role::ours, kUnset, most * 1e6,
          fmt::format("true tip's path at the default, {} at {:g} us, from the converged one",
@@ -197,9 +196,8 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const St
     if (!full) continue;
     if (floor != all.floor.end())
       result.figures.push_back({id + "floor.rms", kUnset, floor->second * 1e6, "um", Role::ours, kUnset,
-                                kUnset,
-                                "what two converged runs differ by; others differ by more, as the tip takes "
-                                "one of several courses"});
+                                kUnset, "what two converged runs differ by; others may differ by more"});
+    if (!bounded) continue;
     result.figures.push_back(
         {id + "default_over_cheapest.cpu", kUnset,
          cheapest != nullptr ? chosen->yards / cheapest->yards : kUnset, "x", Role::ours, kUnset, kUnset,

@@ -56,13 +56,16 @@ struct WorkSpec {
   std::vector<std::string> set;  // settings of the run itself, without step, integrator and form
   double seconds = kUnset;       // s, of experiment; unset: until the scene's programme ends
   double accuracy = kUnset;      // m rms of the true tip's path: required by this benchmark
+  // False: on elastic legs the tip takes one of several courses, whatever the step, so that their path has no
+  // bound here.
+  bool elastic_bounded = true;
 };
 
 // The default step and integrator of each form must meet the accuracy, and no point of the control form that
 // meets it may be much cheaper. Elastic legs (the structural form) are judged with --full alone; the
-// difference of two converged runs is added to their bound. Throws Error if the converged run fails. Runs
-// alone on one core, because it measures time. By default a small sweep of some seconds judges the default
-// alone; --full runs all of it.
+// difference of two converged runs is added to their bound, if they have one. Throws Error if the converged
+// run fails. Runs alone on one core, because it measures time. By default a small sweep of some seconds
+// judges the default alone; --full runs all of it.
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench

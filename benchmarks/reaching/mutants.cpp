@@ -13,8 +13,8 @@ const Mutants kMutants{
               "0.01 mm",
       .set = {"truth.tracker.bias_mm=[25,0,0]", "truth.tracker.noise_mm=[3,3,3]",
               "truth.tracker.latency_ms=59", "rig.contact.leave_gap_mm=0.01"},
-      .kills = {"*.lead_percent.*", "*.felt_percent", "near_percent.*.steady", "*.force_step_N.*",
-                "*.contacts_per_reach"},
+      .kills = {"*.lead_percent.*", "*.felt_percent", "near_percent.*.steady", "miss_mm.*.*.*",
+                "*.force_step_N.*", "*.contacts_per_reach"},
       .form = Form::usual}}};
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The fakes of the VisHap laboratory on the wall clock: pictures of the fake cameras drive vision, and vision
 // drives the arm behind the fake libHD.so. A busy machine draws fewer pictures than the cameras expose, which
-// delays a touch but keeps the verdict.
+// delays a touch but keeps the verdict; a machine that stalls for longer is asked again.
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,20 @@ const Words kArmed{"--armed", "--yes", "--for-s", "7"};
 
 double contact_time(const nlohmann::json& run) { return run["modes_s"].value("contact", 0.0); }
 
-// Whether the machine kept up: pictures came often enough for tracker.lost_age_ms (600), the background was
-// learned before the finger came, and the arm's thread was not kept waiting.
-bool in_time(const nlohmann::json& run) {
-  const nlohmann::json &between = run["vision"]["interval_ms"]["max"], &age = run["vision"]["age_ms"]["max"];
-  const std::string log = run["log"].dump();
-  return between.is_number() && age.is_number() && between.get<double>() + age.get<double>() < 600 &&
-         log.find("a finger stood in the frames") == std::string::npos &&
-         log.find("its own thread came too late") == std::string::npos;
+// Why a run says nothing of the devices, or "": no pictures for as long as tracker.lost_age_ms (600), or an
+// arm whose thread was kept waiting.
+std::string stalled(const nlohmann::json& run) {
+  const nlohmann::json vision = run.value("vision", nlohmann::json::object());
+  double most = 0.0;
+  for (const char* part : {"interval_ms", "age_ms"}) {
+    const nlohmann::json value = vision.value(part, nlohmann::json::object()).value("max", nlohmann::json());
+    if (!value.is_number()) return "no pictures";
+    most += value.get<double>();
+  }
+  if (most >= 600) return "pictures up to " + std::to_string(most) + " ms old";
+  const bool late = run.value("log", nlohmann::json::array()).dump().find("its own thread came too late") !=
+                    std::string::npos;
+  return late ? "the arm's thread came too late" : "";
 }
 
 // A machine that stalls has not answered the question: it is asked again, three times in all.
@@ -38,8 +45,12 @@ nlohmann::json asked(const VisHapFakes& there, const std::vector<std::string>& s
   more.emplace_back("--json");
   for (int i = 1;; ++i) {
     const tests::Result result = there.run(simulated, more);
-    nlohmann::json run = nlohmann::json::parse(result.out, nullptr, false);
-    if (i < 3 && run.is_object() && !in_time(run)) continue;
+    const nlohmann::json run = nlohmann::json::parse(result.out, nullptr, false);
+    const std::string why = run.is_object() ? stalled(run) : "";
+    if (i < 3 && !why.empty()) {
+      std::cout << "asked again: " << why << std::endl;
+      continue;
+    }
     EXPECT_EQ(result.code, 0) << result.out << result.err;
     return run;
   }
@@ -54,7 +65,7 @@ TEST(VisHapLaboratory, RunsOverAllDevicesAndOverTheHandTrackerEndAsTheTwins) {
                        hand = asked(there, {"arm", "camera"}, {"--for-s", "7"});
   EXPECT_EQ(pure["contacts"], 1);
   for (const nlohmann::json& run : {real, hand}) {
-    SCOPED_TRACE(run["vision"].dump() + run["modes_s"].dump() + run["holds"].dump());
+    SCOPED_TRACE(run.dump());
     EXPECT_EQ(run["contacts"], 1);
     EXPECT_NEAR(contact_time(run) / contact_time(pure), 1.0, 0.3);
     EXPECT_EQ(run["holds"].size(), 0U);
@@ -72,8 +83,7 @@ TEST(VisHapLaboratory, CameraOrArmAlone) {
   const VisHapFakes there(false, kPress);
   const nlohmann::json camera = asked(there, {"arm", "hand_tracker"}, {"--for-s", "5"}),
                        arm = asked(there, {"camera", "hand_tracker"}, kArmed);
-  for (const nlohmann::json& run : {camera, arm})
-    EXPECT_GE(run["contacts"], 1) << run["modes_s"] << run["vision"] << run["log"];
+  for (const nlohmann::json& run : {camera, arm}) EXPECT_GE(run["contacts"], 1) << run;
   EXPECT_THAT(arm["devices"].value("arm", ""), HasSubstr("(a fake)"));
   EXPECT_TRUE(arm["vision"]["threaded"]);
   EXPECT_THAT(there.run({"camera", "hand_tracker"}, {"--armed", "--lockstep"}).err,
