@@ -98,6 +98,11 @@ Push judged(const Hold& hold, double stiffness, double dt) {
   return push;
 }
 
+// The window of Hann over n samples, times 2.
+double window(std::size_t i, double n) {
+  return 1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n);
+}
+
 }  // namespace
 
 double peak_to_peak(std::span<const double> way) {
@@ -112,7 +117,7 @@ double steady_mean(std::span<const double> signal) {
   double weight = 0.0;
   const auto n = static_cast<double>(signal.size());
   for (std::size_t i = 0; i < signal.size(); ++i) {
-    const double w = 1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n);
+    const double w = window(i, n);
     sum += w * signal[i];
     weight += w;
   }
@@ -123,9 +128,7 @@ double strongest_frequency(std::span<const double> signal, double dt) {
   const double mean = steady_mean(signal);
   const auto n = static_cast<double>(signal.size());
   std::vector<double> weighted(signal.size());
-  for (std::size_t i = 0; i < signal.size(); ++i)
-    weighted[i] =
-        (1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / n)) * (signal[i] - mean);
+  for (std::size_t i = 0; i < signal.size(); ++i) weighted[i] = window(i, n) * (signal[i] - mean);
   double best = kUnset;
   double most = std::norm(1e-9 * n * mean);           // rounding is no oscillation
   const double step = std::max(0.5, 1.0 / (n * dt));  // Hz

@@ -1,7 +1,6 @@
 // The fakes of the VisHap laboratory on the wall clock: pictures of the fake cameras drive vision, and vision
 // drives the arm behind the fake libHD.so. A busy machine draws fewer pictures than the cameras expose, which
 // delays a touch but keeps the verdict; a machine that stalls for longer is asked again.
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -40,29 +39,13 @@ std::string stalled(const nlohmann::json& run) {
   return late ? "the arm's thread came too late" : "";
 }
 
-// A machine that stalls has not answered the question: it is asked again, three times in all.
-nlohmann::json asked(const VisHapFakes& there, const std::vector<std::string>& simulated, Words more) {
-  more.emplace_back("--json");
-  for (int i = 1;; ++i) {
-    const tests::Result result = there.run(simulated, more);
-    const nlohmann::json run = nlohmann::json::parse(result.out, nullptr, false);
-    const std::string why = run.is_object() ? stalled(run) : "";
-    if (i < 3 && !why.empty()) {
-      std::cout << "asked again: " << why << std::endl;
-      continue;
-    }
-    EXPECT_EQ(result.code, 0) << result.out << result.err;
-    return run;
-  }
-}
-
 // Beside the hand tracker alone the twin has arm, camera and hand in one world, and presses as in the pure
 // simulation.
 TEST(VisHapLaboratory, RunsOverAllDevicesAndOverTheHandTrackerEndAsTheTwins) {
   const VisHapFakes there(false, kPress);
   const nlohmann::json pure = there.result({"arm", "camera", "hand_tracker"}, {}),
-                       real = asked(there, {}, kArmed),
-                       hand = asked(there, {"arm", "camera"}, {"--for-s", "7"});
+                       real = there.result({}, kArmed, stalled),
+                       hand = there.result({"arm", "camera"}, {"--for-s", "7"}, stalled);
   EXPECT_EQ(pure["contacts"], 1);
   for (const nlohmann::json& run : {real, hand}) {
     SCOPED_TRACE(run.dump());
@@ -81,8 +64,8 @@ TEST(VisHapLaboratory, RunsOverAllDevicesAndOverTheHandTrackerEndAsTheTwins) {
 // touch.
 TEST(VisHapLaboratory, CameraOrArmAlone) {
   const VisHapFakes there(false, kPress);
-  const nlohmann::json camera = asked(there, {"arm", "hand_tracker"}, {"--for-s", "5"}),
-                       arm = asked(there, {"camera", "hand_tracker"}, kArmed);
+  const nlohmann::json camera = there.result({"arm", "hand_tracker"}, {"--for-s", "5"}, stalled),
+                       arm = there.result({"camera", "hand_tracker"}, kArmed, stalled);
   for (const nlohmann::json& run : {camera, arm}) EXPECT_GE(run["contacts"], 1) << run;
   EXPECT_THAT(arm["devices"].value("arm", ""), HasSubstr("(a fake)"));
   EXPECT_TRUE(arm["vision"]["threaded"]);
