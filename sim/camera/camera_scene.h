@@ -45,6 +45,7 @@ struct Light {
   double gain = 1.0;  // factor on all light
   double side = 0.0;  // -1 to 1: position of the lamp, left to right
   Rgb colour{1, 1, 1};
+  friend bool operator==(const Light&, const Light&) = default;
 };
 
 // Everything that a camera of the twin sees at an exposure.

@@ -1,6 +1,7 @@
-// MuJoCo's classic renderer, one drawing for each eye. The background never changes; a hand is appended as
-// geoms of the picture alone. Lamp strengths implement light, exposure and white balance, so that they are
-// exact and saturate like a sensor.
+// MuJoCo's classic renderer, one drawing for each eye. The background changes only with the light: it is
+// drawn once, and what moves in front is drawn alone and laid over it wherever it is nearer, pixel for pixel
+// the drawing of all together. A hand is appended as geoms of the picture alone. Lamp strengths implement
+// light, exposure and white balance, so that they are exact and saturate like a sensor.
 #include "sim/camera/stage.h"
 
 #include <algorithm>
@@ -66,14 +67,32 @@ const StageSpec& checked(const StageSpec& spec) {
 }  // namespace
 
 struct Stage::Parts {
+  // A drawing, its lowest row first, as in OpenGL.
+  struct Layer {
+    std::vector<std::uint8_t> rgb;
+    std::vector<float> depth;  // of OpenGL, 0 near to 1 far; 1: nothing
+  };
+
   explicit Parts(const StageSpec& given);
 
   [[nodiscard]] std::unique_lock<std::mutex> current() const;  // current while the lock is held
   void light(const Light& light);
-  void render(int eye, bool segments);
-  void read(int eye, Image& picture, std::uint64_t frame);
+  // Draws the geoms from `begin` to `end`, `end` excluded.
+  void render(int eye, int begin, int end, bool segments);
+  void read(int eye, Layer& to);
+  void lay_over(int eye);
+  void draw_background(const Light& light);
+  void draw(int eye, Image& picture, std::uint64_t frame);
   void expose(int eye, Image& picture, std::uint64_t frame) const;
   void tell_truth(const CameraScene& shown, PixelTruth& truth);
+  [[nodiscard]] bool in_front(std::size_t eye, std::size_t pixel) const {
+    return drawn[eye].depth[pixel] < background[eye].depth[pixel];
+  }
+  // Shadows, reflections and smooth edges join what moves with the background.
+  [[nodiscard]] bool layered() const {
+    return spec.finish.samples == 0 && !spec.finish.shadows && !spec.finish.reflections;
+  }
+  [[nodiscard]] int first() const { return layered() ? hands->background() : 0; }  // geom that is drawn anew
 
   StageSpec spec;
   int width, height;
@@ -84,9 +103,11 @@ struct Stage::Parts {
   std::array<mjvGLCamera, 2> eyes;
   SensorNoise noise;
   std::optional<HandDrawing> hands;
-  std::vector<std::uint8_t> drawing;
-  std::array<Image, 2> clean;  // last drawing of each eye, without noise
-  std::vector<float> depth;
+  std::optional<Light> background_light;  // for which the background was drawn
+  std::array<Layer, 2> background;        // of each eye
+  std::array<Layer, 2> drawn;             // last drawing of each eye; its depth is of what moves, if layered
+  std::vector<std::uint8_t> colours;      // read last
+  std::array<Image, 2> clean;             // last drawing of each eye, without noise
 };
 
 Stage::Parts::Parts(const StageSpec& given)
@@ -113,10 +134,6 @@ Stage::Parts::Parts(const StageSpec& given)
   for (const mjtRndFlag flag : {mjRND_FOG, mjRND_HAZE, mjRND_SKYBOX}) renderer.scene.flags[flag] = 0;
   renderer.scene.flags[mjRND_SHADOW] = spec.finish.shadows ? 1 : 0;
   renderer.scene.flags[mjRND_REFLECTION] = spec.finish.reflections ? 1 : 0;
-  const std::size_t most =
-      std::max(static_cast<std::size_t>(warp[0].width()) * static_cast<std::size_t>(warp[0].height()),
-               static_cast<std::size_t>(warp[1].width()) * static_cast<std::size_t>(warp[1].height()));
-  drawing.resize(3 * most);
 }
 
 std::unique_lock<std::mutex> Stage::Parts::current() const {
@@ -151,19 +168,72 @@ void Stage::Parts::light(const Light& light) {
   }
 }
 
-void Stage::Parts::render(int eye, bool segments) {
+void Stage::Parts::render(int eye, int begin, int end, bool segments) {
   const auto e = static_cast<std::size_t>(eye);
-  renderer.scene.camera[0] = renderer.scene.camera[1] = eyes[e];
-  renderer.scene.flags[mjRND_SEGMENT] = renderer.scene.flags[mjRND_IDCOLOR] = segments ? 1 : 0;
-  mjr_render({0, 0, warp[e].width(), warp[e].height()}, &renderer.scene, &renderer.context);
+  mjvScene scene = renderer.scene;
+  scene.camera[0] = scene.camera[1] = eyes[e];
+  scene.flags[mjRND_SEGMENT] = scene.flags[mjRND_IDCOLOR] = segments ? 1 : 0;
+  scene.geoms += begin;
+  scene.ngeom = end - begin;
+  mjr_render({0, 0, warp[e].width(), warp[e].height()}, &scene, &renderer.context);
 }
 
-void Stage::Parts::read(int eye, Image& picture, std::uint64_t frame) {
+void Stage::Parts::read(int eye, Layer& to) {
   const Warp& w = warp[static_cast<std::size_t>(eye)];
-  Image& light = clean[static_cast<std::size_t>(eye)];
-  if (light.width != width) light = Image(width, height);
-  mjr_readPixels(drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
-  w.colours(drawing.data(), light);
+  const std::size_t pixels = static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height());
+  to.rgb.resize(3 * pixels);
+  to.depth.resize(pixels);
+  mjr_readPixels(to.rgb.data(), to.depth.data(), {0, 0, w.width(), w.height()}, &renderer.context);
+}
+
+void Stage::Parts::draw_background(const Light& light) {
+  if (!layered() || background_light == light) return;
+  for (const int eye : {0, 1}) {
+    render(eye, 0, hands->background(), false);
+    read(eye, background[static_cast<std::size_t>(eye)]);
+  }
+  background_light = light;
+}
+
+// Reads the colours only where something is in front of the background.
+void Stage::Parts::lay_over(int eye) {
+  const auto e = static_cast<std::size_t>(eye);
+  const int across = warp[e].width(), up = warp[e].height();
+  const Layer& behind = background[e];
+  Layer& all = drawn[e];
+  all.rgb = behind.rgb;
+  all.depth.resize(behind.depth.size());
+  mjr_readPixels(nullptr, all.depth.data(), {0, 0, across, up}, &renderer.context);
+  int left = across, right = -1, bottom = up, top = -1;
+  for (int y = 0, i = 0; y < up; ++y)
+    for (int x = 0; x < across; ++x, ++i)
+      if (in_front(e, static_cast<std::size_t>(i))) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+        bottom = std::min(bottom, y);
+        top = y;
+      }
+  if (right < left) return;
+  const int wide = right - left + 1, high = top - bottom + 1;
+  colours.resize(3 * static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+  mjr_readPixels(colours.data(), nullptr, {left, bottom, wide, high}, &renderer.context);
+  const std::uint8_t* from = colours.data();
+  for (int y = bottom; y <= top; ++y)
+    for (int x = left; x <= right; ++x, from += 3) {
+      const auto i = static_cast<std::size_t>(y * across + x);
+      if (in_front(e, i)) std::copy_n(from, 3, all.rgb.data() + 3 * i);
+    }
+}
+
+void Stage::Parts::draw(int eye, Image& picture, std::uint64_t frame) {
+  const auto e = static_cast<std::size_t>(eye);
+  render(eye, first(), renderer.scene.ngeom, false);
+  if (layered())
+    lay_over(eye);
+  else
+    read(eye, drawn[e]);
+  if (clean[e].width != width) clean[e] = Image(width, height);
+  warp[e].colours(drawn[e].rgb.data(), clean[e]);
   expose(eye, picture, frame);
 }
 
@@ -207,18 +277,19 @@ void Stage::Parts::tell_truth(const CameraScene& shown, PixelTruth& truth) {
   for (Mask* mask : {&truth.skin, &truth.things})
     if (mask->width != width || mask->height != height) *mask = Mask(width, height);
   truth.depth.resize(pixels);
-  depth.resize(static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
-  render(0, true);
-  mjr_readPixels(drawing.data(), depth.data(), {0, 0, w.width(), w.height()}, &renderer.context);
+  render(0, first(), renderer.scene.ngeom, true);
+  colours.resize(drawn[0].rgb.size());
+  mjr_readPixels(colours.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t at = w.nearest(x, y);
-      const std::uint8_t* c = drawing.data() + 3 * at;
+      const std::uint8_t* c = colours.data() + 3 * at;
       const int geom = (c[0] + 256 * c[1] + 65536 * c[2]) - 1;
-      const bool is_geom = geom >= 0 && geom < renderer.scene.ngeom;
+      const bool is_geom = geom >= 0 && geom < renderer.scene.ngeom && (!layered() || in_front(0, at));
+      const double d =
+          static_cast<double>(is_geom || !layered() ? drawn[0].depth[at] : background[0].depth[at]);
       truth.skin.row(y)[x] = is_geom && hands->is_skin(geom) ? 255 : 0;
       truth.things.row(y)[x] = is_geom && hands->is_thing(geom) ? 255 : 0;
-      const double d = static_cast<double>(depth[at]);
       truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(x)] =
           d >= 1.0 ? std::numeric_limits<float>::infinity()
@@ -243,10 +314,9 @@ void Stage::draw(const CameraScene& shown, std::uint64_t frame, Image& left, Ima
   const auto lock = p.current();
   p.hands->show(shown, p.renderer.scene);
   p.light(shown.light);
-  p.render(0, false);
-  p.read(0, left, frame);
-  p.render(1, false);
-  p.read(1, right, frame);
+  p.draw_background(shown.light);
+  p.draw(0, left, frame);
+  p.draw(1, right, frame);
   if (truth != nullptr) p.tell_truth(shown, *truth);
 }
 
@@ -256,15 +326,17 @@ void Stage::again(std::uint64_t frame, Image& left, Image& right) {
   parts_->expose(1, right, frame);
 }
 
-void Stage::draw_only(const HandPose& hand, const HandLook& look) {
+void Stage::draw_at_once(const CameraScene& shown, Image& left, Image& right) {
   Parts& p = *parts_;
   const auto lock = p.current();
-  p.hands->show({true, hand, look, {}, {}}, p.renderer.scene);
-  p.light({});
+  p.hands->show(shown, p.renderer.scene);
+  p.light(shown.light);
   for (const int eye : {0, 1}) {
-    p.render(eye, false);
     const Warp& w = p.warp[static_cast<std::size_t>(eye)];
-    mjr_readPixels(p.drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &p.renderer.context);
+    Image& to = eye == 0 ? left : right;
+    if (to.width != w.width() || to.height != w.height()) to = Image(w.width(), w.height());
+    p.render(eye, 0, p.renderer.scene.ngeom, false);
+    mjr_readPixels(to.rgb.data(), nullptr, {0, 0, w.width(), w.height()}, &p.renderer.context);
   }
 }
 

@@ -25,7 +25,7 @@ struct SensorLook {
   Rgb white{1, 1, 1};     // gains of the channels
 };
 
-// Options that cost time and are off by default: a pair takes 19 to 40 ms of CPU without them.
+// Options that cost time and are off by default. With any of them all is drawn anew for each picture.
 struct Finish {
   int samples = 0;  // samples of each pixel, for smooth edges; 0 or a power of two to 16
   bool shadows = false, reflections = false;
@@ -68,9 +68,9 @@ class Stage {
             Image& right, PixelTruth* truth = nullptr) {
     draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
   }
-  // Draws this picture with only MuJoCo's own calls, mjr_render and mjr_readPixels for each eye, without
-  // lens, sensor and images. For benchmarks.
-  virtual void draw_only(const HandPose& hand, const HandLook& look);
+  // Draws background and all in front of it at once, with only MuJoCo's own calls, mjr_render and
+  // mjr_readPixels for each eye, without lens and noise; lowest row first. For benchmarks and tests.
+  virtual void draw_at_once(const CameraScene& shown, Image& left, Image& right);
   [[nodiscard]] virtual const char* renderer() const;  // "EGL", "OSMesa"
 
  private:

@@ -87,6 +87,38 @@ TEST(Stage, APictureDoesNotDependOnThoseBefore) {
   EXPECT_EQ(left.rgb, again.rgb);
 }
 
+// What is laid over the background is what a drawing of all at once shows: before it, among it and behind it.
+TEST(Stage, LayersShowWhatIsDrawnAtOnce) {
+  StageSpec spec = small(Scenery::clutter);
+  spec.sensor.noise = 0.0;
+  Stage stage(spec);
+  const auto upright = [](Image picture) {
+    Image flipped(picture.width, picture.height);
+    for (int y = 0; y < picture.height; ++y)
+      std::copy_n(picture.at(0, picture.height - 1 - y), 3 * picture.width, flipped.at(0, y));
+    return flipped;
+  };
+  Image left, right, left_once, right_once, bare, other;
+  stage.draw(nullptr, {}, {}, 0, bare, other);
+  for (const double z : {0.4, 1.3, 1.7, 5.0}) {
+    for (const bool hand : {true, false}) {
+      CameraScene shown;
+      shown.hand = hand;
+      shown.pose = kHand;
+      shown.light.gain = hand ? 1.0 : 0.8;
+      shown.things = {{.shape = ThingShape::box, .at = {0, 0.15 * z, z}, .half = {0.3 * z, 0.1 * z, 0.2}},
+                      {.shape = ThingShape::sphere, .at = {0.1 * z, 0, z}, .half = {0.1, 0.1, 0.1}}};
+      stage.draw(shown, 0, left, right);
+      stage.draw_at_once(shown, left_once, right_once);
+      EXPECT_EQ(left.rgb, upright(left_once).rgb) << z;
+      EXPECT_EQ(right.rgb, upright(right_once).rgb) << z;
+      if (hand) continue;
+      stage.draw(nullptr, {}, shown.light, 0, bare, other);
+      EXPECT_EQ(left.rgb == bare.rgb, z > 3.0) << z;  // the wall is nearer
+    }
+  }
+}
+
 TEST(Stage, WhatIsExposedAgainHasTheNoiseOfItsFrame) {
   Stage stage(small());
   Image left, right, again, other;
