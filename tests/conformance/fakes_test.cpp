@@ -326,6 +326,28 @@ TEST(Fakes, TheirRigIsTheSimulatedOne) {
   EXPECT_EQ(text(fakes), text(sim));
 }
 
+// Likewise that of the VisHap laboratory: its drivers, its limits on time, and a hand that enters when vision
+// has learned the background from fewer pictures.
+TEST(Fakes, TheRigOfTheVisHapFakesIsTheSimulatedOne) {
+  const std::string wall = tests::source_dir() + "/models/scenes/camera/wall.toml";
+  models::Setup fakes = models::load(wall, "fakes_vishap");
+  const models::Setup sim = models::load(wall, "vishap");
+  EXPECT_LT(fakes.rig.vision.segmentation.background_frames, sim.rig.vision.segmentation.background_frames);
+  EXPECT_GT(fakes.twin.camera.hand_from, sim.twin.camera.hand_from);
+  fakes.rig.title = sim.rig.title;
+  fakes.rig.drivers.clear();
+  fakes.rig.arm.driver = sim.rig.arm.driver;
+  fakes.rig.camera.driver = sim.rig.camera.driver;
+  fakes.rig.hand_tracker.driver = sim.rig.hand_tracker.driver;
+  fakes.rig.loop.late_cycles = sim.rig.loop.late_cycles;
+  fakes.rig.arm.stale = sim.rig.arm.stale;
+  fakes.rig.tracker.lost_age = sim.rig.tracker.lost_age;
+  fakes.rig.vision.segmentation.background_frames = sim.rig.vision.segmentation.background_frames;
+  fakes.twin.camera.hand_from = sim.twin.camera.hand_from;
+  fakes.twin.arm.watchdog = sim.twin.arm.watchdog;
+  EXPECT_EQ(models::resolved(fakes), models::resolved(sim));
+}
+
 // ---- Runs of the ball with poses from a tracker's own server, over TCP.
 
 // The first touch, with poses from a tracker's own server over TCP in each of the two forms of request.
