@@ -1,7 +1,7 @@
-// MuJoCo's classic renderer, one drawing for each eye. The background changes only with the light: it is
-// drawn once, and what moves in front is drawn alone and laid over it wherever it is nearer, pixel for pixel
-// the drawing of all together. A hand is appended as geoms of the picture alone. Lamp strengths implement
-// light, exposure and white balance, so that they are exact and saturate like a sensor.
+// MuJoCo's classic renderer, one drawing for each eye. The background changes only with the light, so it is
+// drawn once for each. Hand and things are drawn alone and copied over the background where they are nearer;
+// the pixels are those of one drawing of all geoms. A hand is appended as geoms of the picture alone. Lamp
+// strengths implement light, exposure and white balance, so that they are exact and saturate like a sensor.
 #include "sim/camera/stage.h"
 
 #include <algorithm>
@@ -67,10 +67,10 @@ const StageSpec& checked(const StageSpec& spec) {
 }  // namespace
 
 struct Stage::Parts {
-  // A drawing, its lowest row first, as in OpenGL.
+  // A drawing. As in OpenGL its lowest row is the first, and its depth is 1 near and 0 far; 0: no surface.
   struct Layer {
     std::vector<std::uint8_t> rgb;
-    std::vector<float> depth;  // of OpenGL, 0 near to 1 far; 1: nothing
+    std::vector<float> depth;
   };
 
   explicit Parts(const StageSpec& given);
@@ -80,19 +80,21 @@ struct Stage::Parts {
   // Draws the geoms from `begin` to `end`, `end` excluded.
   void render(int eye, int begin, int end, bool segments);
   void read(int eye, Layer& to);
-  void lay_over(int eye);
   void draw_background(const Light& light);
+  void lay_over(int eye);
   void draw(int eye, Image& picture, std::uint64_t frame);
   void expose(int eye, Image& picture, std::uint64_t frame) const;
   void tell_truth(const CameraScene& shown, PixelTruth& truth);
-  [[nodiscard]] bool in_front(std::size_t eye, std::size_t pixel) const {
-    return drawn[eye].depth[pixel] < background[eye].depth[pixel];
-  }
-  // Shadows, reflections and smooth edges join what moves with the background.
+  // Shadows, reflections and smooth edges depend on both layers.
   [[nodiscard]] bool layered() const {
     return spec.finish.samples == 0 && !spec.finish.shadows && !spec.finish.reflections;
   }
-  [[nodiscard]] int first() const { return layered() ? hands->background() : 0; }  // geom that is drawn anew
+  [[nodiscard]] int first_moving() const { return layered() ? hands->background() : 0; }  // geom
+  // As in MuJoCo, of two equal depths the later geom counts.
+  [[nodiscard]] bool in_front(std::size_t eye, std::size_t pixel) const {
+    const float depth = moving.depth[pixel];
+    return !layered() || (depth > 0.0F && depth >= background[eye].depth[pixel]);
+  }
 
   StageSpec spec;
   int width, height;
@@ -103,11 +105,11 @@ struct Stage::Parts {
   std::array<mjvGLCamera, 2> eyes;
   SensorNoise noise;
   std::optional<HandDrawing> hands;
-  std::optional<Light> background_light;  // for which the background was drawn
-  std::array<Layer, 2> background;        // of each eye
-  std::array<Layer, 2> drawn;             // last drawing of each eye; its depth is of what moves, if layered
-  std::vector<std::uint8_t> colours;      // read last
-  std::array<Image, 2> clean;             // last drawing of each eye, without noise
+  std::optional<Light> background_light;  // light of the background's drawings
+  std::array<Layer, 2> background;        // drawing of each eye
+  Layer moving;                           // last drawing of what moves; of all if the stage has no layers
+  std::vector<std::uint8_t> drawing;      // last drawing of all
+  std::array<Image, 2> clean;             // last picture of each eye, without noise
 };
 
 Stage::Parts::Parts(const StageSpec& given)
@@ -122,6 +124,7 @@ Stage::Parts::Parts(const StageSpec& given)
       eyes{gl_camera(warp[0], Pose<'C', 'D'>::identity()), gl_camera(warp[1], given.camera.X_CD)},
       noise(given.sensor.noise, given.seed) {
   let_light_exceed_one(*context);
+  renderer.context.readDepthMap = mjDEPTH_ZEROFAR;  // exact: the other one is rounded
   const DataPtr data(mj_makeData(model.get()));
   if (!data) throw Error("not enough memory for a scenery", {}, ErrorKind::device);
   mj_kinematics(model.get(), data.get());
@@ -195,15 +198,13 @@ void Stage::Parts::draw_background(const Light& light) {
   background_light = light;
 }
 
-// Reads the colours only where something is in front of the background.
+// Reads colours only from the rectangle around what is in front of the background.
 void Stage::Parts::lay_over(int eye) {
   const auto e = static_cast<std::size_t>(eye);
   const int across = warp[e].width(), up = warp[e].height();
-  const Layer& behind = background[e];
-  Layer& all = drawn[e];
-  all.rgb = behind.rgb;
-  all.depth.resize(behind.depth.size());
-  mjr_readPixels(nullptr, all.depth.data(), {0, 0, across, up}, &renderer.context);
+  drawing = background[e].rgb;
+  moving.depth.resize(background[e].depth.size());
+  mjr_readPixels(nullptr, moving.depth.data(), {0, 0, across, up}, &renderer.context);
   int left = across, right = -1, bottom = up, top = -1;
   for (int y = 0, i = 0; y < up; ++y)
     for (int x = 0; x < across; ++x, ++i)
@@ -215,25 +216,28 @@ void Stage::Parts::lay_over(int eye) {
       }
   if (right < left) return;
   const int wide = right - left + 1, high = top - bottom + 1;
-  colours.resize(3 * static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
-  mjr_readPixels(colours.data(), nullptr, {left, bottom, wide, high}, &renderer.context);
-  const std::uint8_t* from = colours.data();
+  moving.rgb.resize(3 * static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+  mjr_readPixels(moving.rgb.data(), nullptr, {left, bottom, wide, high}, &renderer.context);
+  const std::uint8_t* from = moving.rgb.data();
   for (int y = bottom; y <= top; ++y)
     for (int x = left; x <= right; ++x, from += 3) {
       const auto i = static_cast<std::size_t>(y * across + x);
-      if (in_front(e, i)) std::copy_n(from, 3, all.rgb.data() + 3 * i);
+      if (in_front(e, i)) std::copy_n(from, 3, drawing.data() + 3 * i);
     }
 }
 
 void Stage::Parts::draw(int eye, Image& picture, std::uint64_t frame) {
   const auto e = static_cast<std::size_t>(eye);
-  render(eye, first(), renderer.scene.ngeom, false);
-  if (layered())
+  const Warp& w = warp[e];
+  render(eye, first_moving(), renderer.scene.ngeom, false);
+  if (layered()) {
     lay_over(eye);
-  else
-    read(eye, drawn[e]);
+  } else {
+    drawing.resize(3 * static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
+    mjr_readPixels(drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
+  }
   if (clean[e].width != width) clean[e] = Image(width, height);
-  warp[e].colours(drawn[e].rgb.data(), clean[e]);
+  w.colours(drawing.data(), clean[e]);
   expose(eye, picture, frame);
 }
 
@@ -277,23 +281,22 @@ void Stage::Parts::tell_truth(const CameraScene& shown, PixelTruth& truth) {
   for (Mask* mask : {&truth.skin, &truth.things})
     if (mask->width != width || mask->height != height) *mask = Mask(width, height);
   truth.depth.resize(pixels);
-  render(0, first(), renderer.scene.ngeom, true);
-  colours.resize(drawn[0].rgb.size());
-  mjr_readPixels(colours.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
+  render(0, first_moving(), renderer.scene.ngeom, true);
+  read(0, moving);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t at = w.nearest(x, y);
-      const std::uint8_t* c = colours.data() + 3 * at;
+      const std::uint8_t* c = moving.rgb.data() + 3 * at;
       const int geom = (c[0] + 256 * c[1] + 65536 * c[2]) - 1;
-      const bool is_geom = geom >= 0 && geom < renderer.scene.ngeom && (!layered() || in_front(0, at));
-      const double d =
-          static_cast<double>(is_geom || !layered() ? drawn[0].depth[at] : background[0].depth[at]);
+      const bool front = in_front(0, at);
+      const bool is_geom = front && geom >= 0 && geom < renderer.scene.ngeom;
+      const double d = static_cast<double>(front ? moving.depth[at] : background[0].depth[at]);
       truth.skin.row(y)[x] = is_geom && hands->is_skin(geom) ? 255 : 0;
       truth.things.row(y)[x] = is_geom && hands->is_thing(geom) ? 255 : 0;
       truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(x)] =
-          d >= 1.0 ? std::numeric_limits<float>::infinity()
-                   : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
+          d <= 0.0 ? std::numeric_limits<float>::infinity()
+                   : static_cast<float>(kNear * kFar / (kNear + d * (kFar - kNear)));
     }
   truth.column = truth.row = truth.radius = kUnset;
   if (shown.hand) tell_cap(spec.camera.left, shown.pose.tip.e(), 0.5 * shown.look.finger_width, truth);

@@ -326,14 +326,18 @@ TEST(Fakes, TheirRigIsTheSimulatedOne) {
   EXPECT_EQ(text(fakes), text(sim));
 }
 
-// Likewise that of the VisHap laboratory: its drivers, its limits on time, and a hand that enters when vision
-// has learned the background from fewer pictures.
+// The rig of the VisHap fakes is vishap.toml with other drivers, longer limits on time, fewer pictures of the
+// background, and a hand that enters after them.
 TEST(Fakes, TheRigOfTheVisHapFakesIsTheSimulatedOne) {
   const std::string wall = tests::source_dir() + "/models/scenes/camera/wall.toml";
   models::Setup fakes = models::load(wall, "fakes_vishap");
   const models::Setup sim = models::load(wall, "vishap");
   EXPECT_LT(fakes.rig.vision.segmentation.background_frames, sim.rig.vision.segmentation.background_frames);
   EXPECT_GT(fakes.twin.camera.hand_from, sim.twin.camera.hand_from);
+  EXPECT_EQ(fakes.rig.loop.late_cycles, 40 * sim.rig.loop.late_cycles);
+  EXPECT_DOUBLE_EQ(fakes.rig.arm.stale, 40.0 * sim.rig.arm.stale);
+  EXPECT_DOUBLE_EQ(fakes.twin.arm.watchdog, 40.0 * sim.twin.arm.watchdog);
+  EXPECT_DOUBLE_EQ(fakes.rig.tracker.lost_age, 2.0 * sim.rig.tracker.lost_age);
   fakes.rig.title = sim.rig.title;
   fakes.rig.drivers.clear();
   fakes.rig.arm.driver = sim.rig.arm.driver;

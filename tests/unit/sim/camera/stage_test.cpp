@@ -87,7 +87,8 @@ TEST(Stage, APictureDoesNotDependOnThoseBefore) {
   EXPECT_EQ(left.rgb, again.rgb);
 }
 
-// What is laid over the background is what a drawing of all at once shows: before it, among it and behind it.
+// The picture of a stage with layers is that of one drawing of all geoms, wherever the things are: in front
+// of the room, in it, or behind its wall.
 TEST(Stage, LayersShowWhatIsDrawnAtOnce) {
   StageSpec spec = small(Scenery::clutter);
   spec.sensor.noise = 0.0;
@@ -99,23 +100,23 @@ TEST(Stage, LayersShowWhatIsDrawnAtOnce) {
     return flipped;
   };
   Image left, right, left_once, right_once, bare, other;
-  stage.draw(nullptr, {}, {}, 0, bare, other);
-  for (const double z : {0.4, 1.3, 1.7, 5.0}) {
-    for (const bool hand : {true, false}) {
-      CameraScene shown;
-      shown.hand = hand;
-      shown.pose = kHand;
-      shown.light.gain = hand ? 1.0 : 0.8;
-      shown.things = {{.shape = ThingShape::box, .at = {0, 0.15 * z, z}, .half = {0.3 * z, 0.1 * z, 0.2}},
-                      {.shape = ThingShape::sphere, .at = {0.1 * z, 0, z}, .half = {0.1, 0.1, 0.1}}};
-      stage.draw(shown, 0, left, right);
-      stage.draw_at_once(shown, left_once, right_once);
-      EXPECT_EQ(left.rgb, upright(left_once).rgb) << z;
-      EXPECT_EQ(right.rgb, upright(right_once).rgb) << z;
-      if (hand) continue;
-      stage.draw(nullptr, {}, shown.light, 0, bare, other);
-      EXPECT_EQ(left.rgb == bare.rgb, z > 3.0) << z;  // the wall is nearer
-    }
+  PixelTruth truth, bare_truth;
+  stage.draw(nullptr, {}, {}, 0, bare, other, &bare_truth);
+  for (const double z : {0.4, 1.3, 1.5, 1.7, 1.9, 2.0, 2.1, 2.2, 2.3, 5.0}) {
+    CameraScene shown;
+    shown.hand = z < 2.0;
+    shown.pose = kHand;
+    shown.things = {{.shape = ThingShape::box, .at = {0, 0.15 * z, z}, .half = {0.3 * z, 0.1 * z, 0.2}},
+                    {.shape = ThingShape::sphere, .at = {0.1 * z, 0, z}, .half = {0.1, 0.1, 0.1}}};
+    shown.light.gain = z < 1.0 ? 0.8 : 1.0;
+    stage.draw(shown, 0, left, right, &truth);
+    stage.draw_at_once(shown, left_once, right_once);
+    EXPECT_EQ(left.rgb, upright(left_once).rgb) << z;
+    EXPECT_EQ(right.rgb, upright(right_once).rgb) << z;
+    const bool hidden = z > 3.0;  // the wall is nearer
+    EXPECT_EQ(std::count(truth.things.on.begin(), truth.things.on.end(), 255) == 0, hidden) << z;
+    EXPECT_EQ(left.rgb == bare.rgb, hidden) << z;
+    EXPECT_EQ(truth.depth == bare_truth.depth, hidden) << z;
   }
 }
 
