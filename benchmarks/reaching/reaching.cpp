@@ -219,8 +219,7 @@ void add_ideal(Bench& bench, const std::vector<ReachOutcome>& wall) {
   IdealSpec spec;
   spec.hand = setup.twin.hand;
   spec.noise = setup.twin.tracker.noise.maxCoeff();
-  constexpr std::size_t kFew =
-      24;  // reaches without --full: each takes 0.1 s of CPU, and no bound needs them
+  constexpr std::size_t kFew = 24;  // reaches without --full, for which no bound needs more
   const std::size_t most = std::min<std::size_t>(wall.size(), context.quick  ? 4
                                                               : context.full ? wall.size()
                                                                              : kFew);

@@ -79,6 +79,7 @@ struct Stage::Parts {
   void light(const Light& light);
   // Draws the geoms from `begin` to `end`, `end` excluded.
   void render(int eye, int begin, int end, bool segments);
+  void read_colours(int eye, std::vector<std::uint8_t>& rgb);
   void read(int eye, Layer& to);
   void draw_background(const Light& light);
   void lay_over(int eye);
@@ -181,12 +182,17 @@ void Stage::Parts::render(int eye, int begin, int end, bool segments) {
   mjr_render({0, 0, warp[e].width(), warp[e].height()}, &scene, &renderer.context);
 }
 
-void Stage::Parts::read(int eye, Layer& to) {
+void Stage::Parts::read_colours(int eye, std::vector<std::uint8_t>& rgb) {
   const Warp& w = warp[static_cast<std::size_t>(eye)];
-  const std::size_t pixels = static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height());
-  to.rgb.resize(3 * pixels);
-  to.depth.resize(pixels);
-  mjr_readPixels(to.rgb.data(), to.depth.data(), {0, 0, w.width(), w.height()}, &renderer.context);
+  rgb.resize(3 * static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
+  mjr_readPixels(rgb.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
+}
+
+void Stage::Parts::read(int eye, Layer& to) {
+  read_colours(eye, to.rgb);
+  const Warp& w = warp[static_cast<std::size_t>(eye)];
+  to.depth.resize(to.rgb.size() / 3);
+  mjr_readPixels(nullptr, to.depth.data(), {0, 0, w.width(), w.height()}, &renderer.context);
 }
 
 void Stage::Parts::draw_background(const Light& light) {
@@ -228,16 +234,13 @@ void Stage::Parts::lay_over(int eye) {
 
 void Stage::Parts::draw(int eye, Image& picture, std::uint64_t frame) {
   const auto e = static_cast<std::size_t>(eye);
-  const Warp& w = warp[e];
   render(eye, first_moving(), renderer.scene.ngeom, false);
-  if (layered()) {
+  if (layered())
     lay_over(eye);
-  } else {
-    drawing.resize(3 * static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
-    mjr_readPixels(drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
-  }
+  else
+    read_colours(eye, drawing);
   if (clean[e].width != width) clean[e] = Image(width, height);
-  w.colours(drawing.data(), clean[e]);
+  warp[e].colours(drawing.data(), clean[e]);
   expose(eye, picture, frame);
 }
 
@@ -339,7 +342,7 @@ void Stage::draw_at_once(const CameraScene& shown, Image& left, Image& right) {
     Image& to = eye == 0 ? left : right;
     if (to.width != w.width() || to.height != w.height()) to = Image(w.width(), w.height());
     p.render(eye, 0, p.renderer.scene.ngeom, false);
-    mjr_readPixels(to.rgb.data(), nullptr, {0, 0, w.width(), w.height()}, &p.renderer.context);
+    p.read_colours(eye, to.rgb);
   }
 }
 
