@@ -450,8 +450,16 @@ void change_gain(const ArmContext& context, double free, const CommonState& stat
     return;
   }
   const InteractionSpec& does = object->interaction;
+  // The finger lies on a prop that it pushes in: the prop's depth counts, even if a picture shows the finger
+  // somewhat above. A change of stiffness by a picture would be felt.
+  const bool lies = now.caught_up && tells_depth(*object);
+  const double pushed = lies ? dot(context.surface_point - context.X_WH.origin(), context.normal) : 0.0;
+  const double depth = std::max({0.0, -context.gap, pushed});
+  now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && depth >= does.trigger;
+  // The same holds after a picture has ended the contact, until the prop is back at the surface.
+  if (state.mode == Mode::follow && lies && pushed > now.sunk) return;
   if (state.mode == Mode::contact && object->stiffness > 0.0)
-    felt = felt_at(does, object->stiffness, free, std::max(0.0, -context.gap));
+    felt = felt_at(does, object->stiffness, free, depth);
   if (object->moving >= 0 && state.mode == Mode::contact)
     felt.stiffness *= context.moved[static_cast<std::size_t>(object->moving)].firmness;
   const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
@@ -461,8 +469,6 @@ void change_gain(const ArmContext& context, double free, const CommonState& stat
   };
   now.gain = towards(now.gain, felt.stiffness / free, whole * share);
   now.sunk = towards(now.sunk, felt.sunk, does.bottom * share);
-  now.triggered =
-      does.kind == Interaction::click && state.mode == Mode::contact && -context.gap >= does.trigger;
 }
 
 }  // namespace
