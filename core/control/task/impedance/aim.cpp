@@ -440,9 +440,38 @@ void hold_stuck(ArmContext& context, Aim& now) {
     context.why |= kNotFollowing;
 }
 
+// m: how deep the finger has pushed its prop in. The finger lies on it even where a picture shows it somewhat
+// above. Beside a button, whose prop waits in its middle, the prop tells nothing.
+double pushed_in(const ArmContext& context, const Aim& now, const Object& object) {
+  if (!now.caught_up || !tells_depth(object)) return 0.0;
+  const auto behind = [&](const Point<'W'>& from) {
+    return dot(from - context.X_WH.origin(), context.normal);
+  };
+  return std::max(0.0, std::min(behind(context.surface_point), behind(now.target)));
+}
+
+// True if the object's stiffness acts: in contact, and after a picture has ended the contact, until the prop
+// is back at the surface. A change of the stiffness of a pushed prop would be felt. The passivity controller
+// acts in contact alone, and so does its stiffness.
+bool stiffness_acts(const ArmContext& context, const ArmRig& rig, const CommonState& state, Contact& contact,
+                    double pushed) {
+  const Time now = context.tick.t;
+  const bool touched = state.mode == Mode::contact;
+  const bool lasts = state.mode == Mode::follow && contact.object == state.object &&
+                     rig.passivity == PassivityForm::none && contact.loaded > Time{} &&
+                     age(now, contact.loaded) < AimSpec::kLetsGo;
+  if (pushed <= 0.0 || !(touched || lasts))
+    contact.loaded = Time{};
+  else if (touched)
+    contact.loaded = now;
+  return touched || contact.loaded > Time{};
+}
+
 // Blends from one stiffness to the next over `gradual_time`, without a step.
-void change_gain(const ArmContext& context, double free, const CommonState& state, const Object* object,
-                 Aim& now) {
+void change_gain(const ArmContext& context, const ArmRig& rig, const CommonState& state, const Object* object,
+                 ImpedanceState& memory) {
+  const double free = rig.stiffness;
+  Aim& now = memory.aim;
   RenderedStiffness felt{free, 0.0};
   if (object == nullptr) {
     now.gain = 1.0;
@@ -450,17 +479,12 @@ void change_gain(const ArmContext& context, double free, const CommonState& stat
     return;
   }
   const InteractionSpec& does = object->interaction;
-  // The finger lies on a prop that it pushes in: the prop's depth counts, even if a picture shows the finger
-  // somewhat above. A change of stiffness by a picture would be felt.
-  const bool lies = now.caught_up && tells_depth(*object);
-  const double pushed = lies ? dot(context.surface_point - context.X_WH.origin(), context.normal) : 0.0;
-  const double depth = std::max({0.0, -context.gap, pushed});
-  now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && depth >= does.trigger;
-  // The same holds after a picture has ended the contact, until the prop is back at the surface.
-  if (state.mode == Mode::follow && lies && pushed > now.sunk) return;
-  if (state.mode == Mode::contact && object->stiffness > 0.0)
-    felt = felt_at(does, object->stiffness, free, depth);
-  if (object->moving >= 0 && state.mode == Mode::contact)
+  const double pushed = pushed_in(context, now, *object);
+  const bool touched = state.mode == Mode::contact;
+  const bool acts = stiffness_acts(context, rig, state, memory.contact, pushed);
+  const double depth = touched ? std::max({0.0, -context.gap, pushed}) : pushed;
+  if (acts && object->stiffness > 0.0) felt = felt_at(does, object->stiffness, free, depth);
+  if (object->moving >= 0 && touched)
     felt.stiffness *= context.moved[static_cast<std::size_t>(object->moving)].firmness;
   const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
   const double share = does.gradual_time > 0.0 ? context.scene.dt / does.gradual_time : 1e9;
@@ -469,6 +493,7 @@ void change_gain(const ArmContext& context, double free, const CommonState& stat
   };
   now.gain = towards(now.gain, felt.stiffness / free, whole * share);
   now.sunk = towards(now.sunk, felt.sunk, does.bottom * share);
+  now.triggered = does.kind == Interaction::click && acts && depth >= does.trigger;
 }
 
 }  // namespace
@@ -502,7 +527,7 @@ void aim(ArmContext& context, const Impedance& task, CommonState& state, Impedan
   } else {
     go_to(goal_of(context, state, memory, *object), context, task, state, now, *object);
   }
-  change_gain(context, task.rig.stiffness, state, object, now);
+  change_gain(context, task.rig, state, object, memory);
 }
 
 }  // namespace enc::stages

@@ -33,6 +33,9 @@ struct AimSpec {
   static constexpr double kBesideProp = 0.030;
   // s: longest time for which the arm may be off its target (assumed: no source).
   static constexpr double kPatience = 0.25;
+  // s: longest time for which an object's stiffness acts on a pushed prop after a picture has ended the
+  // contact (assumed: five pictures).
+  static constexpr double kLetsGo = 0.25;
 };
 
 // Conditions under which the law lets friction hold the arm (control_law.cpp).

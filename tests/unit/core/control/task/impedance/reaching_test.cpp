@@ -179,23 +179,6 @@ TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
   EXPECT_EQ(bench.at(-0.010).mode, Mode::follow);
 }
 
-// Neither a picture above a lightly pushed prop nor one that ends the contact changes the stiffness.
-TEST(Reaching, APictureAboveAPushedPropChangesNoForce) {
-  for (const auto& [depth, seen] :
-       {std::pair{3e-4, -0.0032}, {0.005, -0.01}}) {  // the second ends the contact
-    Bench bench("wall");
-    bench.at(0.0005, 10);
-    bench.press_tip(depth);
-    bench.at(depth, 500);
-    const double pushed = bench.pushed();
-    EXPECT_EQ(bench.at(seen, 100).mode, seen < -0.005 ? Mode::follow : Mode::contact);
-    EXPECT_NEAR(bench.pushed(), pushed, 1e-9) << seen;
-    bench.press_tip(-0.0001);  // back at the surface
-    bench.at(seen, 100);
-    EXPECT_NEAR(bench.loop.out.arm.gain, 1.0, 1e-12);
-  }
-}
-
 // A prop that is pushed back is a touch, even if vision sees the finger above it, but not if it sees the
 // finger far off.
 TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
