@@ -40,7 +40,9 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
   if (!at.live) return at;
   const bool contact = state.mode == Mode::contact;
   at.object = state.object < 0 ? nullptr : &glance.scene.objects[static_cast<std::size_t>(state.object)];
-  at.felt = contact && at.object != nullptr && at.object->stiffness > 0.0;
+  // The object's stiffness outlasts a contact that a picture ended (aim.cpp).
+  const bool acts = contact || (state.mode == Mode::follow && now.contact.loaded > Time{});
+  at.felt = acts && at.object != nullptr && at.object->stiffness > 0.0;
   at.real = at.object != nullptr && at.object->interaction.kind == Interaction::passive;
   at.hit = contact && at.object != nullptr && at.object->interaction.kind == Interaction::hit;
   if (glance.out.arm.prop_facing.finite()) at.normal = (glance.scene.X_WR * glance.out.arm.prop_facing).e();

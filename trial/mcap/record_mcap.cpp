@@ -152,7 +152,8 @@ void arm_fields(F& f, const std::vector<std::string>& joints, const std::vector<
   vector_field(f, "tip_velocity_m_per_s", "in R", arm.velocity);
   vector_field(f, "told_force_N", "that it is told to push with, in R; gravity included", out.arm.force);
   vector_field(f, "wanted_m", "where its tip shall be, in W", out.arm.target);
-  f.number("gain", "of its stiffness along the surface's normal; 1 in free space", out.arm.gain);
+  f.number("gain", "of its stiffness along the surface's normal; 1 where no object is rendered",
+           out.arm.gain);
   f.number("prop_speed_m_per_s", "of a driven prop's surface against the prop", out.arm.prop_speed);
   vector_field(f, "prop_facing", "that the prop's front shall face, unit, in R", out.arm.prop_facing);
   f.text("health", "what the arm says of itself", word_if_any(in.arm.health));

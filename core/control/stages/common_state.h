@@ -29,7 +29,7 @@ struct Contact {
   bool unseen = false;
   // N: the force that has stayed constant while the contact's own tool is unseen.
   float steady_force = 0.0F;
-  Time loaded{};         // last tick with force; the start of time: never
+  Time loaded{};         // last tick with force, of an arm with its prop pushed in; the start of time: never
   Time began{}, left{};  // start of the contact, and of the tip's return
   // Time for which the force has had no cause, s (force_is_drift in admittance/mode.cpp).
   double clear = 0.0;
